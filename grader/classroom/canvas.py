@@ -29,7 +29,7 @@ from rich.table import Column, Table
 from grader.classroom.dashboard import Entry, read_class, write_dashboard
 from grader.classroom.feedback import GradedClass, write_text
 from grader.classroom.folder import FILE, ClassFolder, remember_class
-from grader.classroom.marks import ENGINE, Marking, Scores, load_marking, make_marks, make_parts
+from grader.classroom.marks import Scores, make_marks, make_parts, mark_engine
 from grader.classroom.owners import find_owners
 from grader.errors import Stop
 from grader.intake.names import list_names
@@ -190,12 +190,6 @@ def tabulate(changes: list[Change]) -> Table:
 # ---------------------------------------------------------------- what students are to get
 
 
-def mark_engine(known: ClassFolder) -> Marking:
-    """Return how marks are made of the results, which hold the engine alone."""
-    marking = load_marking(known.marks, known.course)
-    return msgspec.structs.replace(marking, shares={ENGINE: 1})
-
-
 def list_works(known: ClassFolder, others_known: bool, plan: Plan) -> list[Work]:
     """Return what students are to get, with the gradebook's own marks; note who gets nothing."""
     results, course = known.find_results(), known.course
@@ -209,7 +203,7 @@ def list_works(known: ClassFolder, others_known: bool, plan: Plan) -> list[Work]
     write_dashboard(results, entries, course)
     graded = GradedClass(entries, results.resolve(), course)
     parts = make_parts(each.outcome for each in entries)
-    scores = Scores(parts, mark_engine(known), others_known=others_known)
+    scores = Scores(parts, mark_engine(known.marks, course), others_known=others_known)
     made, owners = make_marks(roster, key, scores), find_owners(roster, key, parts, scores.absent)
     plan.notes += made.notes
     by_name = {each.outcome.name: each for each in entries}
@@ -279,7 +273,7 @@ def open_assignment(address: str, known: ClassFolder) -> Any:
     session.request = partial(session.request, timeout=PATIENCE)
     course = Course(requester, {"id": int(match["course"])})
     assignment = ask(lambda: course.get_assignment(int(match["assignment"])))
-    total, worth = mark_engine(known).total, assignment.points_possible
+    total, worth = mark_engine(known.marks, known.course).total, assignment.points_possible
     if worth != total or assignment.grading_type in ("pass_fail", "not_graded"):
         raise Stop(
             f"these marks are out of {total:g}, and the assignment in Canvas is out of {worth}, "

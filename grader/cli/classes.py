@@ -23,9 +23,13 @@ from grader.judge.grade import Options, shipped_reference
 from grader.text import plural
 
 if TYPE_CHECKING:
+    from grader.classroom.feedback import Feedback, GradedClass
     from grader.classroom.folder import ClassFolder
     from grader.classroom.grading import ClassOptions
+    from grader.classroom.marks import Scores
     from grader.questions.marking import Marking
+
+OTHER_RECIPIENTS = ("email", "nbgrader")  # of feedback, beside the learning systems
 
 app = typer.Typer()
 class_app = typer.Typer(help="A class, in a folder that remembers it.", no_args_is_help=True)
@@ -207,17 +211,45 @@ def marks_command(
     """
     known = open_folder(folder)
     path = known.find_roster("a gradebook")
-    from grader.cli.classroom import Assessed, read_scores, write_marks
+    from grader.classroom.marks import make_marks
     from grader.intake.systems import read_roster
+    from grader.report.files import write_whole
+
+    listed, out = read_roster(path), folder / "marks.csv"
+    scores, notes = read_scores(known, so_far, others_known)
+    made = make_marks(listed, listed.choose_key(known.settings.key), scores)
+    write_whole(made.text.encode(made.encoding), out)
+    print_notes([*notes, *made.notes])
+    print_note(f"{made.given} of {len(listed.rows)} marks are in {out}")
+    raise typer.Exit(0 if made.given == len(listed.rows) else 1)
+
+
+def read_scores(
+    known: "ClassFolder", so_far: bool, others_known: bool
+) -> "tuple[Scores, list[str]]":
+    """Return everybody's parts with how to make marks of them, and notes on the results.
+
+    Results hold the engine alone, so the shares of notebooks do not count there.
+    """
+    from grader.classroom.dashboard import read_outcomes
+    from grader.classroom.marks import (
+        Scores,
+        compare_totals,
+        load_marking,
+        make_parts,
+        mark_engine,
+    )
 
     if known.nbgrader:
-        assessed = Assessed(known.course, known.marks, folder=known.nbgrader)
-    else:
-        assessed = Assessed(known.course, known.marks, results=known.find_results())
-    listed = read_roster(path)
-    column = listed.choose_key(known.settings.key)
-    scores, notes = read_scores(assessed, so_far, others_known)
-    write_marks(listed, column, scores, folder / "marks.csv", notes)
+        from grader.classroom.nbgrader.gradebook import read_parts
+
+        marking = load_marking(known.marks, known.course)
+        return Scores(read_parts(known.nbgrader, marking), marking, so_far, others_known), []
+    outcomes = read_outcomes(known.find_results())
+    marking = mark_engine(known.marks, known.course)
+    notes = [f"{each.name}: {each.explain()}" for each in outcomes if each.explain()]
+    notes += compare_totals(marking, known.course)
+    return Scores(make_parts(outcomes), marking, so_far, others_known), notes
 
 
 @class_app.command("upload")
@@ -256,17 +288,47 @@ def feedback_command(
     """Write everybody's page for the way back. Exit status 1: somebody was left out."""
     known = open_folder(folder)
     results = known.find_results()
-    from grader.cli.classroom import OTHER_RECIPIENTS, Sources, return_feedback
+    from grader.classroom.dashboard import read_class, write_dashboard
+    from grader.classroom.feedback import GradedClass, zip_files
     from grader.intake.systems import BY_NAME
+    from grader.report.files import write_whole
 
     system = BY_NAME.get(known.settings.system)
     recipient = for_ or (system.name if system and system.takes_feedback else "email")
-    roster = known.find_roster("a mail") if recipient == "email" else known.roster
-    name = "feedback" if recipient in OTHER_RECIPIENTS else "feedback.zip"
-    sources = Sources(
-        known.submissions, roster, known.settings.key, known.course, known.list_people()
-    )
-    return_feedback(recipient, results, sources, folder / name)
+    systems = [name for name, each in BY_NAME.items() if each.takes_feedback]
+    if recipient not in (*systems, *OTHER_RECIPIENTS):
+        every = ", ".join((*systems, *OTHER_RECIPIENTS))
+        raise Stop(f"--for {recipient}: it is not one of {every}")
+    entries = read_class(results)
+    write_dashboard(results, entries, known.course)
+    made = make_feedback(known, recipient, GradedClass(entries, results.resolve(), known.course))
+    target = folder / "feedback"
+    if recipient in systems:
+        target = folder / "feedback.zip"
+        write_whole(zip_files(made.files), target)
+    else:
+        for file, content in made.files.items():
+            write_whole(content, target / file)
+    print_notes([*made.notes, f"{len(made.files)} files are in {target}"])
+    raise typer.Exit(1 if made.notes else 0)
+
+
+def make_feedback(known: "ClassFolder", recipient: str, graded: "GradedClass") -> "Feedback":
+    """Make everybody's page for a learning system, for mail or for nbgrader."""
+    from grader.classroom import feedback
+    from grader.cli.classroom import require_same_class
+    from grader.intake.listing import open_class
+    from grader.intake.systems import BY_NAME, read_roster
+
+    if recipient == "nbgrader":
+        return feedback.place_for_nbgrader(graded)
+    if recipient == "email":
+        roster = read_roster(known.find_roster("a mail"))
+        return feedback.address_pages(roster, roster.choose_key(known.settings.key), graded)
+    people, submissions = known.list_people(), known.find_submissions()
+    with open_class(submissions, people) as intake:
+        require_same_class(graded.entries, intake.names, known.results, submissions)
+        return feedback.answer_export(BY_NAME[recipient], intake, graded, people)
 
 
 @class_app.command("questions")

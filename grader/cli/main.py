@@ -42,7 +42,6 @@ from grader.report.terminal import Printer, show_isolation
 
 FOR_ONE = ("json", "ci", "at_least")  # options that count for one submission alone
 ENDINGS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
-FOR_CLASS = ("roster", "adjust", "cluster")  # for a class alone
 FOR_INSTRUCTORS = ("grade", "release", "gradescope")  # what --help lists beside the groups
 EPILOG = (
     "A term is described in handouts/instructor/term.md. A course with nbgrader: grader nbgrader "
@@ -114,22 +113,13 @@ def grade_command(
     at_least: Annotated[
         int | None, typer.Option(min=0, help="Points for exit status 0, instead of full marks.")
     ] = None,
-    roster: Annotated[
-        Path | None, typer.Option(hidden=True, help="For a class: its list, from the LMS.")
-    ] = None,
-    adjust: Annotated[
-        Path | None, typer.Option(hidden=True, help="For a class: late days, points set by hand.")
-    ] = None,
-    cluster: Annotated[
-        str, typer.Option(hidden=True, help="For a class: grade on this Dask cluster.")
-    ] = "",
     course: CourseFile = None,
 ) -> None:
     """Grade a submission; a class has `grader class grade`.
 
     Exit status 0: full marks, 1: less, 2: could not be graded.
     """
-    refuse_what_is_ignored(context, path, class_, cluster)
+    refuse_what_is_ignored(context, path, class_)
     taken = read_course(course)
     complete = reference or shipped_reference()
     own = complete is None  # a student's copy: there is nothing but their own work
@@ -146,7 +136,7 @@ def grade_command(
         from grader.classroom.grading import ClassOptions
         from grader.cli.classes import grade_folder
 
-        grade_folder(path, ClassOptions(options, out, jobs, roster, adjust, cluster))
+        grade_folder(path, ClassOptions(options, out, jobs))
     elif ci is not None:
         grade_in_ci(path, ci, output, replace(options, jobs=jobs_of_one))
     else:
@@ -157,24 +147,16 @@ def grade_command(
         finish(result, output)
 
 
-def refuse_what_is_ignored(
-    context: typer.Context, path: Path | None, class_: bool, cluster: str
-) -> None:
-    """Stop at options that this way of grading would pass over in silence."""
+def refuse_what_is_ignored(context: typer.Context, path: Path | None, class_: bool) -> None:
+    """Stop at options that this way of grading would ignore."""
     if path is None and class_:
         raise Stop("--class needs the submissions: name a folder or a zip of them")
     if class_ and not find_spec("grader.classroom"):
         raise Stop("--class needs the whole kit, and this is the students' grader: leave it out")
     if path is None:
-        refuse_ignored(
-            context, (*FOR_ONE, *FOR_CLASS, "out", "jobs"), "without a submission: name one"
-        )
+        refuse_ignored(context, (*FOR_ONE, "out", "jobs"), "without a submission: name one")
     elif class_:
         refuse_ignored(context, FOR_ONE, "with --class, which is for more than one submission")
-    else:
-        refuse_ignored(context, FOR_CLASS, "without --class, which grades a folder or zip of them")
-    if cluster:
-        refuse_ignored(context, ("jobs",), "with --cluster: its workers say how many at a time")
 
 
 def refuse_outputs(path: Path | None, class_: bool, output: Output, options: Options) -> None:

@@ -12,7 +12,6 @@ from grader.cli.shared import (
     console,
     print_note,
     print_notes,
-    refuse_ignored,
     require_checkout,
     require_folder_target,
 )
@@ -24,7 +23,7 @@ from grader.text import plural
 
 if TYPE_CHECKING:
     from grader.intake.roster import ClassList
-    from grader.questions.making import Making
+    from grader.questions.making import Making, SheetResult
     from grader.questions.marking import Marking
 
 app = typer.Typer()
@@ -33,12 +32,7 @@ app = typer.Typer()
 @app.command("questions")
 def questions_command(
     context: typer.Context,
-    path: Annotated[
-        Path | None, typer.Argument(help="A submission: folder, file or zip; or a class of them.")
-    ] = None,
-    class_: Annotated[
-        bool, typer.Option("--class", help="PATH holds submissions: a folder or zip of them.")
-    ] = False,
+    path: Annotated[Path, typer.Argument(help="A submission: folder, file or zip.")],
     out: Annotated[Path, typer.Option(help="Where sheets and keys go.")] = Path("questions"),
     student: Annotated[
         str, typer.Option("--id", help="Whose it is; the name of the submission if left out.")
@@ -47,87 +41,56 @@ def questions_command(
         int | None, typer.Option(help="A secret seed; one is drawn and kept if left out.")
     ] = None,
     practice: Annotated[
-        bool, typer.Option("--practice", help="Sheets with other numbers, and answers to open.")
+        bool, typer.Option("--practice", help="A sheet with other numbers, and answers to open.")
     ] = False,
-    mark: Annotated[
-        Path | None, typer.Option(help="Answers on paper, as CSV: student, question, answer.")
-    ] = None,
-    results: Annotated[
-        Path | None, typer.Option(help="The results of grading them: nothing is graded again.")
-    ] = None,
-    roster: Annotated[Path | None, typer.Option(help="For a class: its list.")] = None,
     isolation: Confinement = "auto",
     course: CourseFile = None,
 ) -> None:
-    """Make a sheet of questions for each student about their own program, with its key.
+    """Make a sheet of questions about one submission, with its key.
 
-    With --mark, answers are marked by the keys in --out. Exit status 0: everybody has a sheet, or
-    every answer is marked, 1: not everybody or not every one, 2: nothing could be made.
+    A class has `grader class questions`. Exit status 0: there is a sheet, 1: there is none.
     """
     require_checkout("questions")
-    if mark is not None:
-        refuse_when_marking(context, path)
-        go_on(context)
-        mark_class(mark, out)
-    if path is None:
-        raise Stop("name a submission, or a class of them with --class")
-    if not class_:
-        go_on(context)
-    require_folder_target(out, "--out")
-    if results is not None and not results.is_dir():
-        raise Stop(f"there is no folder of results at {results}: leave out --results")
-    ignored, when = (("student",), "with") if class_ else (("roster",), "without")
-    refuse_ignored(context, ignored, f"{when} --class")
-    # Imported here: all of it would add a tenth of a second to every start.
-    from grader.intake.systems import read_class_list
-    from grader.questions.making import Making
-
-    options = Options(shipped_reference(), isolation, course=read_course(course))
-    making = Making(out, options, seed, practice, results)
-    people = read_class_list(path, roster) if class_ else None
-    make_sheets(making, path, people, student)
-
-
-def go_on(context: typer.Context) -> None:
-    """Go on within the limits of one submission; a class has them for each."""
     if context.obj is not None:
         context.obj(WHOLE)
+    require_folder_target(out, "--out")
+    # Imported here: all of it would add a tenth of a second to every start.
+    from grader.questions.making import Making, make_one
+
+    options = Options(shipped_reference(), isolation, course=read_course(course))
+    making = Making(out, options, seed, practice)
+    try:
+        made = make_one(making, path, student)
+    except KeyboardInterrupt:
+        raise Stop("stopped before there was a sheet") from None
+    end_with_sheets(making, [made])
 
 
-def make_sheets(
-    making: "Making", path: Path, people: "ClassList | None", student: str = ""
-) -> NoReturn:
-    """Make the sheets of a class, or of one submission where there are no `people`."""
-    from grader.questions.making import make_class, make_one
+def make_sheets(making: "Making", path: Path, people: "ClassList") -> NoReturn:
+    """Make the sheets of a class."""
+    from grader.questions.making import make_class
 
     try:
-        if people is not None:
-            made = make_class(making, path, people, console)
-        else:
-            made = [make_one(making, path, student)]
+        made = make_class(making, path, people, console)
     except KeyboardInterrupt:
         words = "stopped; sheets that are made stay, and the same command makes them again"
         raise Stop(words) from None
+    end_with_sheets(making, made)
+
+
+def end_with_sheets(making: "Making", made: "list[SheetResult]") -> NoReturn:
+    """Print who has a sheet, and end with the status of the command."""
     print_notes([each.words for each in made])
     print_note(f"{plural(sum(each.sheet is not None for each in made), 'sheet')} in {making.out}")
     raise typer.Exit(0 if all(each.sheet for each in made) else 1)
 
 
-def refuse_when_marking(context: typer.Context, path: Path | None) -> None:
-    making = ("class_", "student", "seed", "practice", "results", "roster", "isolation")
-    refuse_ignored(context, making, "with --mark, which makes no sheets")
-    if path is not None:
-        raise Stop(f"{path} would be ignored with --mark, which needs the keys in --out alone")
-
-
 def mark_class(
-    answers: Path,
-    out: Path,
-    write_gradebook: "Callable[[Marking], list[str]]" = lambda _: [],
+    answers: Path, out: Path, write_gradebook: "Callable[[Marking], list[str]]"
 ) -> NoReturn:
     """Mark a table of answers.
 
-    `write_gradebook` returns what to tell of the gradebook that it made.
+    `write_gradebook` makes a gradebook and returns notes on it.
     """
     from grader.questions.marking import mark_answers, write_points
 

@@ -83,7 +83,7 @@ class Making:
         try:
             return read_result(self.results / f"{make_portable(student)}.json")
         except Stop as error:
-            raise CannotGrade(f"{error}: leave out --results") from error
+            raise CannotGrade(f"{error}: grade the class again") from error
 
     def make(self, student: str, path: Path, worker: Worker, full_name: str = "") -> SheetResult:
         """Write the sheet of the submission at `path`."""

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import gradebooks
 import pytest
-from command_line import run_grader
+from command_line import run_in_class
 
 from grader.classroom.book import NOTHING, Book, Outcome
 from grader.classroom.marks import Marking, Scores, make_marks, make_parts, score_sheets
@@ -181,11 +181,9 @@ def test_the_command_writes_blackboards_file_as_blackboard_does(tmp_path):
     with Book(tmp_path / "out") as book:
         book.finish(graded(""))
     (tmp_path / "list.xls").write_bytes(BLACKBOARD.encode("utf-16"))
-    files = [str(tmp_path / "list.xls"), "--results", str(tmp_path / "out")]
     settings = tmp_path / "marks.toml"
     settings.write_text(f'title = "{TITLE}"\n[shares]\nengine = 1\n', encoding="utf-8")
-    out = ["--out", str(tmp_path / "marks.xls"), "--settings", str(settings)]
-    done = run_grader("marks", *files, *out)
+    done = run_in_class(tmp_path, "marks", roster="list.xls", results="out")
     assert done.exit_code == 1, done.output
-    told = gradebooks.blackboard((tmp_path / "marks.xls").read_bytes(), TITLE)
+    told = gradebooks.blackboard((tmp_path / "marks.csv").read_bytes(), TITLE)
     assert told["cem"] == ("70.0", "") and told["ben"] == ("", "")

@@ -7,7 +7,6 @@ from itertools import combinations
 from pathlib import Path
 
 import pytest
-from command_line import run_grader
 from counting import count_calls
 from page_readers import HOSTILE, Reader
 from points_pool import Inline
@@ -180,9 +179,7 @@ def test_pairs_are_on_the_class_page_side_by_side_and_in_a_table(tmp_path, right
     last = tmp_path / "2025"
     last.mkdir()
     Package("old", right[WHOLE[0]].files).unpack(last)
-    words = ["alike", str(results), "--submissions", str(classroom), "--also", str(last)]
-    done = run_grader(*words)
-    assert done.exit_code == 0, done.output
+    run_class(classroom, ClassOptions(Options(), earlier=[last]), Console(quiet=True))
     assert {each.names for each in read_pairs(results)} == {("ann", "ben"), ("2025/old", "zoe")}
 
 

@@ -15,7 +15,7 @@ import msgspec
 import packed
 import pytest
 from classes import TITLE, Student
-from command_line import run_grader
+from command_line import run_in_class
 from points_pool import Inline
 from rich.console import Console
 from samples import sample
@@ -123,16 +123,12 @@ def test_people_are_listed_by_their_names_as_people_sort_and_all_of_them(tmp_pat
     assert "<h1>Öz, Cem (a10)</h1>" in report
     assert "Mark: <strong>5</strong> of 20 points, which is 2.5 of 10 in the gradebook" in report
     (tmp_path / "course.toml").write_text('title = "Lab 3"\nout_of = 10\n', encoding="utf-8")
-    words = ["--results", run.book.folder, "--out", tmp_path / "m.csv"]
-    words += ["--course", tmp_path / "course.toml"]
-    assert run_grader("marks", folder / "roster.csv", *words).exit_code == 0
+    lines = {"roster": folder / "roster.csv", "results": run.book.folder, "course": "course.toml"}
+    assert run_in_class(tmp_path, "marks", **lines).exit_code == 0
+    assert "#a10,2.5,#" in (tmp_path / "marks.csv").read_text(encoding="utf-8")
     (tmp_path / "marks.toml").write_text("total = 50\nshares = { engine = 1 }\n", encoding="utf-8")
-    other = run_grader(
-        "marks", folder / "roster.csv", *words, "--settings", tmp_path / "marks.toml",
-        "--out", tmp_path / "other.csv",
-    )  # fmt: skip
+    other = run_in_class(tmp_path, "marks", **lines)
     assert "these marks count to 50, and the students' pages count to 10" in other.output
-    assert "#a10,2.5,#" in (tmp_path / "m.csv").read_text(encoding="utf-8")
 
 
 def result_with(**points: tuple[int, int]) -> Result:
@@ -249,11 +245,10 @@ def the_gradebook_takes_it(graded: Class) -> None:
     settings.write_text(
         f'title = "{TITLE}"\ntotal = {classes.FULL}\ndecimals = 0\nshares.engine = 1\n'
     )
-    out = graded.folder.parent / "marks.csv"
-    words = [str(graded.roster), "--results", str(graded.results), "--settings", str(settings)]
-    done = run_grader("marks", *words, "--out", out)
+    done = run_in_class(settings.parent, "marks", roster=graded.roster, results=graded.results)
     assert done.exit_code == 1, done.output
-    told = list(classes.read_marks(graded.system, out.read_bytes()).values())
+    content = settings.with_suffix(".csv").read_bytes()
+    told = list(classes.read_marks(graded.system, content).values())
     for student, (mark, _) in zip(graded.students, told, strict=True):
         wanted = graded.mark(student)
         assert mark == ("" if wanted is None else str(wanted)), student.login
@@ -262,14 +257,11 @@ def the_gradebook_takes_it(graded: Class) -> None:
 
 
 def feedback_goes_back(graded: Class) -> None:
-    words = ["feedback", str(graded.results), "--roster", str(graded.roster)]
     here = [student for student in graded.students if student.files]
     if BY_NAME[graded.system].takes_feedback:
-        out = graded.folder.parent / "back.zip"
-        words += ["--for", graded.system, "--submissions", str(graded.folder), "--out", str(out)]
-        done = run_grader(*words)
+        done = send_back(graded, graded.system)
         assert done.exit_code in (0, 1), done.output
-        with zipfile.ZipFile(out) as archive:
+        with zipfile.ZipFile(graded.folder.parent / "feedback.zip") as archive:
             names = archive.namelist()
         given = {path.name for path in graded.folder.iterdir()}
         if graded.system == "canvas":
@@ -286,10 +278,15 @@ def feedback_goes_back(graded: Class) -> None:
             named = f"{graded.name(student)}: left out, " in done.output
             assert named == (without and graded.system != "moodle"), student.login
     elif graded.system in classes.BY_EMAIL:
-        out = graded.folder.parent / "mail"
-        words += ["--for", "email", "--out", str(out)]
-        run_grader(*words)
-        assert {f"{each.email}.html" for each in here} <= {path.name for path in out.iterdir()}
+        send_back(graded, "email")
+        names = {path.name for path in (graded.folder.parent / "feedback").iterdir()}
+        assert {f"{each.email}.html" for each in here} <= names
+
+
+def send_back(graded: Class, recipient: str):
+    """Write everybody's page for a recipient, into the folder around the class."""
+    lines = {"roster": graded.roster, "results": graded.results, "submissions": graded.folder}
+    return run_in_class(graded.folder.parent, "feedback", "--for", recipient, **lines)
 
 
 def has_page(graded: Class, student: Student) -> bool:
@@ -349,12 +346,12 @@ def test_a_class_of_the_bank_is_graded_in_earnest_killed_twice(tmp_path, archive
     for name, jobs, kills in (("once", 1, 0), ("again", 2, 2)):
         folder = tmp_path / name / "class"
         folder.mkdir(parents=True)
-        roster = tmp_path / name / "list.csv"
+        roster = folder / "roster.csv"
         roster.write_text(classes.SYSTEMS[system](folder, archived), encoding="utf-8")
         decisions = classes.decisions(archived, lambda each: name_in(system, each))
         (folder / "adjustments.toml").write_text(decisions, encoding="utf-8")
         todos = [word for todo in TODOS for word in ("--todo", todo)]
-        words = ["grade", "--class", str(folder), "--roster", str(roster), "--jobs", str(jobs)]
+        words = ["grade", "--class", str(folder), "--jobs", str(jobs)]
         command = [sys.executable, "-m", "grader", *words, *todos]
         results = folder.with_name("class-results")
         for count in range(1, kills + 1):
@@ -420,20 +417,17 @@ def test_each_of_a_group_has_a_mark_and_a_page_of_their_own(tmp_path, in_one_pro
 
 
 def everybody_gets_a_page(graded: Class, names: list[str]) -> None:
-    out = graded.folder.parent / "back"
-    words = ["feedback", str(graded.results), "--roster", str(graded.roster)]
+    out = graded.folder.parent / "feedback"
     if BY_NAME[graded.system].takes_feedback:
-        words += ["--submissions", str(graded.folder), "--for", graded.system]
+        send_back(graded, graded.system)
+        archive = zipfile.ZipFile(out.with_suffix(".zip"))
+        found = set(archive.namelist())
     else:
-        words += ["--for", "nbgrader"]
-    run_grader(*words, "--out", out)
-    if out.is_dir():
+        send_back(graded, "nbgrader")
         found = {path.parts[-3] for path in out.rglob("*.html")}
-    else:
-        found = set(zipfile.ZipFile(out).namelist())
     if graded.system == "canvas":
         (own,) = [name for name in found if name.startswith("beekim")]
-        text = zipfile.ZipFile(out).read(own).decode()
+        text = archive.read(own).decode()
         found = set(text.splitlines())
     for name in names[1:]:
         student = next(each for each in graded.students if name_in(graded.system, each) == name)

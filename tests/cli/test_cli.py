@@ -97,16 +97,11 @@ def test_there_are_three_hints_for_every_todo():
 @pytest.mark.parametrize(
     "arguments, words",
     [
-        (
-            "starter --roster missing.csv --cluster nowhere:1 --adjust none.toml",
-            "--roster, --adjust, --cluster would be ignored without --class",
-        ),
         ("--jobs 2", "--jobs would be ignored without a submission"),
         ("--class", "--class needs the submissions"),
         ("--json marks.json --out marks", "--out, --json would be ignored without a submission"),
         ("--class tests/bank --json marks.json", "--json would be ignored with --class"),
         ("--class tests/bank --at-least 3", "--at-least would be ignored with --class"),
-        ("--class tests/bank --cluster nowhere:1 --jobs 2", "--jobs would be ignored with --cl"),
     ],
 )
 def test_an_option_that_would_be_ignored_is_refused(arguments: str, words: str):
@@ -196,7 +191,6 @@ ELSEWHERE = {
     "nbgrader course": "course",
     "nbgrader collect": "class",
     "nbgrader release": "",
-    "marks": "list.csv --results results",
     "grade": "",
 }
 
@@ -279,7 +273,7 @@ def test_course_means_one_thing_in_every_command():
 
 def test_help_lists_no_command_of_maintainers_and_each_works_both_ways():
     listed = run_grader("--help").output
-    for name in ("sync", "mutants", "bench", "verify", "course-check", "alike", "marks", "export"):
+    for name in ("sync", "mutants", "bench", "verify", "course-check", "dashboard", "export"):
         assert f" {name} " not in listed and f" {name} " in run_grader("dev", "--help").output
         ways = [run_grader(name, "--help"), run_grader("dev", name, "--help")]
         assert [done.exit_code for done in ways] == [0, 0]

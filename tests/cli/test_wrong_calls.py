@@ -43,13 +43,6 @@ grade --class class --out list.csv/results
 grade --class class --at-least 5
 grade --class class --json x.json
 grade --class class --ci x
-grade --class class --cluster nonsense
-grade --class class --cluster localhost:1 --jobs 2
-grade --class class --roster nosuch.csv
-grade --class class --roster class
-grade --class class --roster course.toml
-grade --class class --adjust nosuch.toml
-grade --class class --adjust list.csv
 grade class/ann --at-least 200
 grade class/ann --at-least 41 --course course.toml
 grade class/ann --at-least -1
@@ -62,9 +55,6 @@ grade class/ann --isolation nosuch
 grade class/ann --seed abc
 grade class/ann --reference nosuch
 grade class/ann --reference empty
-grade class/ann --roster list.csv
-grade class/ann --adjust list.csv
-grade class/ann --cluster localhost:1
 grade class/ann --json class
 grade class/ann --json list.csv/x.json
 grade class/ann --out list.csv
@@ -83,33 +73,11 @@ mutants --count -1
 mutants --jobs -2
 bench --rounds 0
 sync now
-alike nosuch --submissions class
-alike results --submissions nosuch
-alike results --submissions other
-alike results --submissions class --also nosuch
-alike results --submissions class --least 7
 dashboard nosuch
 dashboard class
 dashboard results --roster list.csv
 dashboard results --seed 3
 dashboard results --submissions other
-feedback nosuch --for moodle --submissions class
-feedback results --for nosuch
-feedback results --for moodle
-feedback results --for moodle --submissions other
-feedback results --for email
-feedback results --for email --roster list.csv
-feedback results --for email --roster list.csv --key Nope
-feedback results --for email --roster list.csv --out list.csv
-marks nosuch.csv --results results
-marks list.csv
-marks list.csv --folder nosuch
-marks list.csv --course class
-marks list.csv --results nosuch
-marks list.csv --results class
-marks list.csv --results results --key Nope
-marks list.csv --results results --settings nosuch.toml
-marks list.csv --results results --out class
 gradescope --out class
 gradescope --seed x
 course-check class --key Nope
@@ -117,13 +85,16 @@ course-check --course bad.toml
 course-check --adjust nosuch.toml
 questions
 questions nosuch
-questions --class nosuch
-questions class/ann --roster list.csv
-questions class/ann --results nosuch
+questions class/ann --seed x
+class new list.csv
+class new class --roster nosuch.csv
+class grade nosuch
+class grade class
+class marks nosuch
+class feedback nosuch
+class upload nosuch
+class questions nosuch
 questions class/ann --out list.csv
-questions --class class --id x
-questions --mark nosuch.csv
-questions --mark list.csv class/ann
 nbgrader course list.csv --without-checks
 nbgrader course new --release list.csv
 nbgrader collect class --folder nosuch

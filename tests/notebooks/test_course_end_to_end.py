@@ -8,7 +8,7 @@ import json
 import shutil
 
 import pytest
-from command_line import run_grader
+from command_line import run_grader, run_in_class
 from handed_in import (
     NAMES,
     RELEASED,
@@ -314,13 +314,12 @@ def test_marks_go_out_for_the_class_list(course, tmp_path):
         '"Ångström, Anna",1,anna,A\nBen,2,ben,A\nFarid,3,farid,A\nZoe,4,zoe,A\n',
         encoding="utf-8",
     )
-    out = tmp_path / "marks.csv"
-    options = ["marks", str(listed), "--folder", str(course), "--out", str(out)]
-    done = run_grader(*options)
+    lines = {"roster": listed, "nbgrader": course}
+    done = run_in_class(tmp_path, "marks", **lines)
     assert done.exit_code == 1 and "anna: no mark yet" in done.output
-    done = run_grader(*options, "--so-far")
+    done = run_in_class(tmp_path, "marks", "--so-far", **lines)
     assert done.exit_code == 0, done.output
-    rows = list(csv.reader(out.open(encoding="utf-8", newline="")))
+    rows = list(csv.reader((tmp_path / "marks.csv").open(encoding="utf-8", newline="")))
     marks = {row[0]: row[-1] for row in rows[1:]}
     assert marks == {"Ångström, Anna": "88.0", "Ben": "0.0", "Farid": "70.0", "Zoe": "0"}
 

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
-from command_line import run_grader
+from command_line import run_grader, run_in_class
 from page_readers import HOSTILE
 
 from grader.classroom.book import Book, Outcome, make_outcome
@@ -108,11 +108,9 @@ def graded(tmp_path: Path) -> Path:
 
 def marks(graded: Path, roster: str, *options: str) -> tuple[list[dict[str, str]], str]:
     (graded / "class.csv").write_text(roster, encoding="utf-8")
-    files = [str(graded / "class.csv"), "--results", str(graded / "out")]
-    out = graded / "marks.csv"
-    done = run_grader("marks", *files, "--out", out, *options)
+    done = run_in_class(graded, "marks", *options, roster="class.csv", results="out")
     assert done.exit_code in (0, 1), done.output
-    return read_csv(out.read_bytes()), done.output
+    return read_csv((graded / "marks.csv").read_bytes()), done.output
 
 
 def test_moodle_gets_the_reason_as_feedback(graded: Path):

@@ -41,7 +41,6 @@ from .errors import error
 from .event import Event
 from .font import Font
 from .math import Vector2
-from .naming import refuse
 from .rect import Rect
 from .surface import Surface
 from .time import Clock
@@ -63,7 +62,6 @@ def quit():
     display.quit()
     font.quit()
     event.queue.clear()
-    event.blocked.clear()
 
 
 def get_init():
@@ -78,7 +76,3 @@ def get_sdl_version():
 
 def register_quit(function):
     """Do nothing: the page ends programs."""
-
-
-def __getattr__(name):
-    refuse(__name__, name)

@@ -76,25 +76,6 @@ class Color(metaclass=Named):
     def __repr__(self):
         return f"Color({self.r}, {self.g}, {self.b}, {self.a})"
 
-    def __int__(self):
-        return self.r << 24 | self.g << 16 | self.b << 8 | self.a
-
-    __index__ = __int__
-
-    def __add__(self, other):
-        return self._with(other, lambda one, two: min(one + two, 255))
-
-    def __sub__(self, other):
-        return self._with(other, lambda one, two: max(one - two, 0))
-
-    def __mul__(self, other):
-        return self._with(other, lambda one, two: min(one * two, 255))
-
-    def _with(self, other, operate):
-        if not isinstance(other, Color):
-            return NotImplemented
-        return Color(*map(operate, self, other))
-
     def __reduce__(self):
         return Color, tuple(self)
 
@@ -104,11 +85,6 @@ class Color(metaclass=Named):
             raise ValueError("Argument 2 must be in range [0, 1]")
         pairs = zip(self, read_color(other), strict=True)
         return Color(*(int(one * (1 - share) + two * share + 0.5) for one, two in pairs))
-
-    def grayscale(self):
-        """Return the grey that is as bright."""
-        grey = int(0.299 * self.r + 0.587 * self.g + 0.114 * self.b + 0.5)
-        return Color(grey, grey, grey, self.a)
 
 
 def read_color(*values):
@@ -185,7 +161,3 @@ def keep(texts, color, text):
         except TypeError:  # a tuple with a list in it
             pass
     return text
-
-
-def __getattr__(name):
-    refuse(__name__, name)

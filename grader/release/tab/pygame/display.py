@@ -89,18 +89,3 @@ def get_window_size():
     """Return the size of the window in px."""
     need_window()
     return state.surface.get_size() if state.surface else (0, 0)
-
-
-def get_active():
-    """Return whether there is a window."""
-    return state.surface is not None
-
-
-def get_driver():
-    """Return what shows the window."""
-    need_window()
-    return "canvas"
-
-
-def __getattr__(name):
-    refuse(__name__, name)

@@ -48,37 +48,24 @@ def clipped(surface, box, start):
     return left if left else Rect(*start, 0, 0)
 
 
-def circle(
-    surface, color, center, radius, width=0, draw_top_right=False, draw_top_left=False,
-    draw_bottom_left=False, draw_bottom_right=False,
-):  # fmt: skip
+def circle(surface, color, center, radius, width=0):
     """Draw a circle, filled without a width."""
     css = check(surface, color)
     x, y = read_point(center, "center argument must be a pair of numbers")
     radius, width = read_radius(radius), int(width)
     if radius < 1 or width < 0:
         return Rect(x, y, 0, 0)
-    quarters = draw_top_right, draw_top_left, draw_bottom_left, draw_bottom_right
-    command = ("circle", x, y, radius, css, 0 if width >= radius else width)
-    if any(quarters):
-        places = (x, y - radius), (x - radius, y - radius), (x - radius, y), (x, y)
-        for (left, top), wanted in zip(places, quarters, strict=True):
-            if wanted:
-                surface._into.append(("within", left, top, radius, radius, [command]))
-    else:
-        surface._into.append(command)
+    surface._into.append(("circle", x, y, radius, css, 0 if width >= radius else width))
     return clipped(surface, (x - radius, y - radius, 2 * radius, 2 * radius), (x, y))
 
 
-def aacircle(surface, color, center, radius, width=0, *quarters, **named):
+def aacircle(surface, color, center, radius, width=0):
     """Draw a circle with smooth edges; its middle is the middle of a pixel."""
     css = check(surface, color)
     x, y = read_point(center, "center argument must be a pair of numbers")
     radius, width = read_radius(radius), int(width)
     if radius < 1 or width < 0:
         return Rect(x, y, 0, 0)
-    if any(quarters) or any(named.values()):
-        return circle(surface, color, center, radius, width, *quarters, **named)
     width = 0 if width >= radius else width
     surface._into.append(("circle", x + 0.5, y + 0.5, radius, css, width))
     return clipped(surface, (x - radius, y - radius, 2 * radius + 1, 2 * radius + 1), (x, y))
@@ -201,7 +188,3 @@ def arc(surface, color, rect, start_angle, stop_angle, width=1):
         stop_angle += tau
     surface._into.append(("arc", x, y, w, h, start_angle, stop_angle, css, int(width)))
     return clipped(surface, (x, y, w, h), (x, y))
-
-
-def __getattr__(name):
-    refuse(__name__, name)

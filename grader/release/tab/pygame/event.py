@@ -10,7 +10,6 @@ wait_hook = None  # the page's: called while wait has nothing; rests a frame and
 MOST = 65_535  # events in the queue
 
 queue = []
-blocked = set()
 custom_types = iter(range(c.USEREVENT + 1, c.NUMEVENTS))
 MODIFIERS = {
     c.K_LSHIFT: c.KMOD_LSHIFT, c.K_RSHIFT: c.KMOD_RSHIFT, c.K_LCTRL: c.KMOD_LCTRL,
@@ -51,9 +50,6 @@ class Event(metaclass=Named):
         return f"<Event({self.type}-{event_name(self.type)} {self.dict})>"
 
 
-EventType = Event
-
-
 def event_name(type):
     """Return what a type of event is called."""
     if c.USEREVENT <= type < c.NUMEVENTS:
@@ -84,7 +80,7 @@ def post(event):
     need_window()
     if State.sink:
         note(event)
-    if event.type in blocked or len(queue) >= MOST:
+    if len(queue) >= MOST:
         return False
     queue.append(event)
     return True
@@ -171,32 +167,3 @@ def clear(eventtype=None, pump=True):
     need_window()
     is_wanted = wanted(eventtype)
     queue[:] = [event for event in queue if not is_wanted(event)]
-
-
-def set_blocked(types):
-    """Let no events of these types into the queue; None stands for all."""
-    blocked.update(c.event_names if types is None else {types} if isinstance(types, int) else types)
-
-
-def set_allowed(types):
-    """Let events of these types into the queue again; None stands for all."""
-    gone = set(blocked) if types is None else {types} if isinstance(types, int) else set(types)
-    blocked.difference_update(gone)
-
-
-def get_blocked(type):
-    """Return whether no event of a type comes into the queue."""
-    return type in blocked
-
-
-def set_grab(grab):
-    """Do nothing: a page cannot hold the mouse."""
-
-
-def get_grab():
-    """Return False: a page cannot hold the mouse."""
-    return False
-
-
-def __getattr__(name):
-    refuse(__name__, name)

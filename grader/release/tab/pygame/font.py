@@ -29,7 +29,6 @@ class Font(metaclass=Named):
         if isinstance(name, str) and name != get_default_font():
             raise FileNotFoundError(f"No file '{name}' found in working directory '{getcwd()}'.")
         self._size = max(size, 1)
-        self.bold = self.italic = self.underline = self.strikethrough = False
 
     def render(self, text, antialias=True, color=None, bgcolor=None, wraplength=0):
         """Return a surface with a text on it."""
@@ -69,25 +68,6 @@ class Font(metaclass=Named):
         """Return the distance between two lines in px."""
         return round(self._size * 0.747)
 
-    def get_ascent(self):
-        """Return how far letters reach above the base line, in px."""
-        return round(self._size * 0.555)
-
-    def get_descent(self):
-        """Return how far letters reach below the base line, in px, negative."""
-        return -round(self._size * 0.12)
-
-    def set_bold(self, value):
-        """Note that letters shall be bold; they look the same here."""
-        self.bold = bool(value)
-
-    def set_italic(self, value):
-        """Note that letters shall be slanted; they look the same here."""
-        self.italic = bool(value)
-
-
-FontType = Font
-
 
 def SysFont(name, size, bold=False, italic=False):  # noqa: N802 (its name in pygame)
     """Return a font of a size; the name of a family is ignored."""
@@ -121,7 +101,3 @@ def get_fonts():
 
 def match_font(*_, **__):
     """Return None: no family can be chosen here."""
-
-
-def __getattr__(name):
-    refuse(__name__, name)

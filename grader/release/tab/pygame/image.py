@@ -6,47 +6,37 @@ import zlib
 from .errors import error
 from .naming import refuse
 
-CHANNELS = {"RGB": (0, 1, 2), "RGBA": (0, 1, 2, 3), "ARGB": (3, 0, 1, 2), "BGRA": (2, 1, 0, 3)}
+CHANNELS = {"RGB": (0, 1, 2), "RGBA": (0, 1, 2, 3)}
 
 
-def tobytes(surface, format, flipped=False, pitch=-1):
+def tobytes(surface, format):
     """Return the pixels of a surface, row by row, in one of a few formats."""
     if format not in CHANNELS:
-        raise ValueError("Unrecognized type of format")
+        raise ValueError(f"the pygame of this page has no {format!r}; it has RGB and RGBA")
     pixels, channels = surface.pixels().bytes, CHANNELS[format]
     made = bytearray(len(pixels) // 4 * len(channels))
     for number, channel in enumerate(channels):
         made[number :: len(channels)] = pixels[channel::4]
-    if flipped:
-        row = surface.get_width() * len(channels)
-        made = b"".join(made[at : at + row] for at in reversed(range(0, len(made), row or 1)))
     return bytes(made)
 
 
 tostring = tobytes
 
 
-def save(surface, filename, namehint=""):
+def save(surface, filename):
     """Write a surface to a file, as PNG."""
-    if not str(filename or namehint).lower().endswith(".png"):
+    if not str(filename).lower().endswith(".png"):
         raise error("the pygame of this page writes PNG files only")
     rows, width = tobytes(surface, "RGBA"), 4 * surface.get_width()
     lines = b"".join(b"\0" + rows[at : at + width] for at in range(0, len(rows), width or 1))
     head = struct.pack(">IIBBBBB", *surface.get_size(), 8, 6, 0, 0, 0)
     chunks = (b"IHDR", head), (b"IDAT", zlib.compress(lines)), (b"IEND", b"")
     content = b"\x89PNG\r\n\x1a\n" + b"".join(make_chunk(*each) for each in chunks)
-    if hasattr(filename, "write"):
-        filename.write(content)
-    else:
-        with open(filename, "wb") as file:
-            file.write(content)
+    with open(filename, "wb") as file:
+        file.write(content)
 
 
 def make_chunk(kind, content):
     """Return a chunk of a PNG file."""
     check = zlib.crc32(kind + content)
     return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", check)
-
-
-def __getattr__(name):
-    refuse(__name__, name)

@@ -52,19 +52,5 @@ def name(key, use_compat=True):
     return key_names.get(key, "")
 
 
-def get_focused():
-    """Return whether the window gets the keys."""
-    return State.surface is not None
-
-
 def set_repeat(delay=0, interval=0):
     """Do nothing: the page's keys do not repeat."""
-
-
-def get_repeat():
-    """Return (0, 0): the page's keys do not repeat."""
-    return 0, 0
-
-
-def __getattr__(name):
-    refuse(__name__, name)

@@ -6,7 +6,7 @@ way first: both are Vector2, or the factor is a float. Everything else is sorted
 
 from math import acos, atan2, copysign, cos, degrees, fabs, floor, fmod, pi, radians, sin, sqrt, tau
 
-from .naming import Named, full_name, refuse
+from .naming import Named, explain, full_name, refuse
 
 NOT_GIVEN = object()
 EPSILON = 1e-6
@@ -17,6 +17,7 @@ NEEDS_A_PAIR = (
 )
 NO_ORDER = "This operation is not supported by vectors"
 ZERO_LENGTH = "Can't normalize Vector of length zero"
+ABSENT = {"elementwise", "epsilon", "slerp", "smoothstep"}  # of Vector2
 INFINITY, NAN = float("inf"), float("nan")
 
 
@@ -73,13 +74,13 @@ def read_number(value):
         return None
 
 
-def turn(x, y, angle, epsilon):
+def turn(x, y, angle):
     """Return (x, y) turned by an angle in rad; multiples of 90° move the numbers, unrounded."""
     angle = fmod(angle, tau) if fabs(angle) != INFINITY else NAN
     if angle < 0:
         angle += tau
-    if fmod(angle + epsilon, QUARTER) < 2 * epsilon:
-        match int((angle + epsilon) / QUARTER):
+    if fmod(angle + EPSILON, QUARTER) < 2 * EPSILON:
+        match int((angle + EPSILON) / QUARTER):
             case 1:
                 return -y, x
             case 2:
@@ -100,8 +101,11 @@ class Vector2(metaclass=Named):
     Vector2((x, y)) -> Vector2
     a 2-Dimensional Vector"""
 
-    __slots__ = ("_epsilon", "_x", "_y")
+    __slots__ = ("_x", "_y")
     __hash__ = None
+
+    def __init_subclass__(cls):
+        raise TypeError(explain("a subclass of pygame.Vector2"))
 
     def __init__(self, x=0.0, y=NOT_GIVEN):
         if type(x) is float and type(y) is float:
@@ -109,12 +113,6 @@ class Vector2(metaclass=Named):
             self._y = y
         else:
             self._x, self._y = read_coordinates(x, y)
-
-    def __init_subclass__(cls):
-        """Let what returns vectors return those of the subclass, without its __init__."""
-        for name in RETURN_VECTORS:
-            if name not in vars(cls):
-                setattr(cls, name, returning(cls, getattr(Vector2, name)))
 
     # ------------------------------------------------------------ the two numbers
 
@@ -127,10 +125,6 @@ class Vector2(metaclass=Named):
     def x(self, value):
         self._x = value if type(value) is float else to_float(value)
 
-    @x.deleter
-    def x(self):
-        raise TypeError("Cannot delete the x attribute")
-
     @property
     def y(self):
         """The second number."""
@@ -140,54 +134,15 @@ class Vector2(metaclass=Named):
     def y(self, value):
         self._y = value if type(value) is float else to_float(value)
 
-    @y.deleter
-    def y(self):
-        raise TypeError("Cannot delete the y attribute")
-
-    @property
-    def epsilon(self):
-        """Return how far numbers may be apart that count as equal."""
-        try:
-            return self._epsilon
-        except AttributeError:
-            return EPSILON
-
-    @epsilon.setter
-    def epsilon(self, value):
-        self._epsilon = to_float(value)
-
-    @property
-    def xy(self):
-        """Return a copy."""
-        return type(self)._of(self._x, self._y)
-
-    @xy.setter
-    def xy(self, values):
-        self._x, self._y = read_swizzle(values)
-
-    @property
-    def yx(self):
-        """Return a copy with the numbers exchanged."""
-        return type(self)._of(self._y, self._x)
-
-    @yx.setter
-    def yx(self, values):
-        self._y, self._x = read_swizzle(values)
-
-    @classmethod
-    def _of(cls, x, y):
-        """Return a vector of two floats, of this class and without its __init__."""
-        made = object.__new__(cls)
-        made._x, made._y = x, y
-        return made
-
     def __getattr__(self, name):
+        if name in ABSENT:
+            refuse("pygame.Vector2", name)
         if len(name) < 2 or set(name) - {"x", "y"}:
             raise AttributeError(f"{full_name(self)!r} object has no attribute {name!r}")
         if len(name) == 3:
             refuse("pygame", "Vector3")
         numbers = tuple(self._x if letter == "x" else self._y for letter in name)
-        return type(self)._of(*numbers) if len(name) == 2 else numbers
+        return Vector2(*numbers) if len(name) == 2 else numbers
 
     def __getitem__(self, index):
         if isinstance(index, slice):
@@ -216,18 +171,11 @@ class Vector2(metaclass=Named):
         else:
             raise IndexError("subscript out of range.")
 
-    def __delitem__(self, index):
-        raise TypeError("item deletion is not supported")
-
     def __len__(self):
         return 2
 
     def __iter__(self):
         return iter((self._x, self._y))
-
-    def __contains__(self, value):
-        value = to_float(value)
-        return fabs(self._x - value) < self.epsilon or fabs(self._y - value) < self.epsilon
 
     def __bool__(self):
         return self._x != 0 or self._y != 0
@@ -247,14 +195,13 @@ class Vector2(metaclass=Named):
         return self.__copy__()
 
     def __reduce__(self):
-        return type(self), (self._x, self._y)
-
-    def __getstate__(self):
-        return None
+        return Vector2, (self._x, self._y)
 
     def update(self, x=0.0, y=NOT_GIVEN):
         """Set both numbers, from what a Vector2 can be made of."""
         self._x, self._y = read_coordinates(x, y)
+
+    xy = property(__copy__, update)
 
     # ------------------------------------------------------------ comparisons
 
@@ -262,8 +209,7 @@ class Vector2(metaclass=Named):
         pair = read_pair(other)
         if pair is None:
             return False
-        epsilon = self.epsilon
-        return fabs(self._x - pair[0]) < epsilon and fabs(self._y - pair[1]) < epsilon
+        return fabs(self._x - pair[0]) < EPSILON and fabs(self._y - pair[1]) < EPSILON
 
     def __lt__(self, other):
         if read_pair(other) is None:
@@ -428,18 +374,14 @@ class Vector2(metaclass=Named):
             raise ValueError(ZERO_LENGTH)
         return Vector2(self._x / length, self._y / length)
 
-    def normalize_ip(self):
-        """Set the length to 1."""
-        self._x, self._y = self.normalize()
-
     def is_normalized(self):
         """Return whether the length is 1."""
-        return fabs(self.length_squared() - 1) < self.epsilon
+        return fabs(self.length_squared() - 1) < EPSILON
 
     def scale_to_length(self, length):
         """Set the length."""
         length, old = to_float(length), self.length()
-        if old < self.epsilon:
+        if old < EPSILON:
             raise ValueError("Cannot scale a vector with zero length")
         self._x *= length / old
         self._y *= length / old
@@ -464,10 +406,6 @@ class Vector2(metaclass=Named):
         share = high / length if length > high else low / length if length < low else 1.0
         return Vector2(self._x * share, self._y * share)
 
-    def clamp_magnitude_ip(self, *limits):
-        """Bring the length between the limits."""
-        self._x, self._y = self.clamp_magnitude(*limits)
-
     def distance_to(self, other):
         """Return the distance to a point."""
         x, y = need_sequence(other)
@@ -484,21 +422,11 @@ class Vector2(metaclass=Named):
 
     def rotate(self, angle):
         """Return the vector turned by an angle in degrees."""
-        return Vector2(*turn(self._x, self._y, radians(to_float(angle)), self.epsilon))
+        return Vector2(*turn(self._x, self._y, radians(to_float(angle))))
 
     def rotate_rad(self, angle):
         """Return the vector turned by an angle in rad."""
-        return Vector2(*turn(self._x, self._y, to_float(angle), self.epsilon))
-
-    def rotate_ip(self, angle):
-        """Turn by an angle in degrees."""
-        self._x, self._y = turn(self._x, self._y, radians(to_float(angle)), self.epsilon)
-
-    def rotate_rad_ip(self, angle):
-        """Turn by an angle in rad."""
-        self._x, self._y = turn(self._x, self._y, to_float(angle), self.epsilon)
-
-    rotate_ip_rad = rotate_rad_ip
+        return Vector2(*turn(self._x, self._y, to_float(angle)))
 
     @property
     def angle(self):
@@ -530,7 +458,7 @@ class Vector2(metaclass=Named):
         """Return the vector after a bounce from a surface with this normal."""
         x, y = need_pair(normal, ValueError, "Sequence has the wrong length.")
         length = x * x + y * y
-        if length < self.epsilon:
+        if length < EPSILON:
             raise ValueError("Normal must not be of length zero.")
         if length != 1:
             length = sqrt(length)
@@ -538,15 +466,11 @@ class Vector2(metaclass=Named):
         along = self._x * x + self._y * y
         return Vector2(self._x - 2 * x * along, self._y - 2 * y * along)
 
-    def reflect_ip(self, normal):
-        """Bounce from a surface with this normal."""
-        self._x, self._y = self.reflect(normal)
-
     def project(self, other):
         """Return the part of the vector along another one."""
         x, y = need_pair(other, TypeError, "Expected Vector as argument 1")
         length = x * x + y * y
-        if length < self.epsilon:
+        if length < EPSILON:
             raise ValueError("Cannot project onto a vector with zero length")
         share = (self._x * x + self._y * y) / length
         return Vector2(x * share, y * share)
@@ -562,35 +486,6 @@ class Vector2(metaclass=Named):
         rest = 1 - share
         return Vector2(self._x * rest + x * share, self._y * rest + y * share)
 
-    def smoothstep(self, other, share):
-        """Return a point on the way to another one, with a soft start and end."""
-        x, y = need_pair(other, TypeError, "Expected Vector as argument 1")
-        share = min(max(to_float(share), 0.0), 1.0)
-        share = share * share * (3 - 2 * share)
-        return Vector2(self._x * (1 - share) + x * share, self._y * (1 - share) + y * share)
-
-    def slerp(self, other, share):
-        """Return the vector at a share, from -1 to 1, of the turn to another one."""
-        x, y = need_pair(other, TypeError, "Expected Vector as argument 1")
-        share = to_float(share)
-        if not -1 <= share <= 1:
-            raise ValueError("Argument 2 must be in range [-1, 1].")
-        mine, its = self.length(), sqrt(x * x + y * y)
-        if mine < self.epsilon or its < self.epsilon:
-            raise ValueError("can't use slerp with Zero-Vector")
-        angle = acos(min(max((self._x * x + self._y * y) / (mine * its), -1.0), 1.0))
-        if share < 0:
-            angle, share = angle - tau, -share
-        if self._x * y < self._y * x:
-            angle = -angle
-        if fabs(angle) < self.epsilon or fabs(fabs(angle) - tau) < self.epsilon:
-            return Vector2(self._x * (1 - share) + x * share, self._y * (1 - share) + y * share)
-        if fabs(fabs(angle) - pi) < self.epsilon:
-            raise ValueError("SLERP with 180 degrees is undefined.")
-        factor = ((its - mine) * share + mine) / sin(angle)
-        one, other = sin(angle * (1 - share)) / mine, sin(angle * share) / its
-        return Vector2((self._x * one + x * other) * factor, (self._y * one + y * other) * factor)
-
     def move_towards(self, other, most):
         """Return the point at a distance, at most, on the straight way to another one."""
         x, y = need_pair(other, TypeError, "Expected Vector as argument 1")
@@ -603,50 +498,19 @@ class Vector2(metaclass=Named):
             return Vector2(x, y)
         return Vector2(self._x + over * (most / length), self._y + down * (most / length))
 
-    def move_towards_ip(self, other, most):
-        """Move by a distance, at most, straight towards a point."""
-        self._x, self._y = self.move_towards(other, most)
 
-    def elementwise(self):
-        """Return what treats each number by itself: `v.elementwise() * (2, 3)`."""
-        return VectorElementwiseProxy(self)
+def make_in_place(method):
+    """Return a method that changes its vector to what another one returns."""
 
+    def change(self, *args):
+        self._x, self._y = method(self, *args)
 
-RETURN_VECTORS = [
-    "__add__",
-    "__radd__",
-    "__sub__",
-    "__rsub__",
-    "__mul__",
-    "__rmul__",
-    "__truediv__",
-    "__floordiv__",
-    "__neg__",
-    "__pos__",
-    "__round__",
-    "__copy__",
-    "copy",
-    "normalize",
-    "clamp_magnitude",
-    "rotate",
-    "rotate_rad",
-    "reflect",
-    "project",
-    "lerp",
-    "smoothstep",
-    "slerp",
-    "move_towards",
-]
+    return change
 
 
-def returning(cls, method):
-    """Return a method that makes the vectors it returns members of a subclass."""
-
-    def call(self, *args):
-        result = method(self, *args)
-        return cls._of(result._x, result._y) if type(result) is Vector2 else result
-
-    return call
+for each in ("normalize", "clamp_magnitude", "rotate", "rotate_rad", "reflect", "move_towards"):
+    setattr(Vector2, f"{each}_ip", make_in_place(getattr(Vector2, each)))
+Vector2.rotate_ip_rad = Vector2.rotate_rad_ip
 
 
 def read_coordinates(x, y):
@@ -659,15 +523,6 @@ def read_coordinates(x, y):
     if pair is None:
         raise ValueError(NEEDS_A_PAIR)
     return pair
-
-
-def read_swizzle(values):
-    """Return the first two numbers of a sequence as floats."""
-    if not hasattr(values, "__getitem__") or not hasattr(values, "__len__"):
-        raise TypeError("a sequence is expected")
-    if len(values) < 2:
-        raise TypeError("a sequence of 2 numbers is expected")
-    return to_float(values[0]), to_float(values[1])
 
 
 def floor_division(x, number):
@@ -686,127 +541,6 @@ def round_half_up(x):
     return -whole if x < 0 or str(x)[0] == "-" else whole
 
 
-class VectorElementwiseProxy(metaclass=Named):
-    """A vector whose operators treat each number by itself."""
-
-    __slots__ = ("vector",)
-    __hash__ = None
-
-    def __init__(self, vector):
-        self.vector = vector
-
-    def _with(self, other, operate):
-        """Return what an operation gives for each number, or NotImplemented."""
-        if isinstance(other, VectorElementwiseProxy):
-            other = other.vector
-        pair = read_pair(other)
-        if pair is None:
-            number = read_number(other)
-            if number is None:
-                return NotImplemented
-            pair = number, number
-        return operate(self.vector._x, pair[0]), operate(self.vector._y, pair[1])
-
-    def _vector_with(self, other, operate):
-        pair = self._with(other, operate)
-        return pair if pair is NotImplemented else Vector2(*pair)
-
-    def _all_with(self, other, operate):
-        pair = self._with(other, operate)
-        return pair if pair is NotImplemented else all(pair)
-
-    def __add__(self, other):
-        return self._vector_with(other, lambda a, b: a + b)
-
-    __radd__ = __add__
-
-    def __sub__(self, other):
-        return self._vector_with(other, lambda a, b: a - b)
-
-    def __rsub__(self, other):
-        return self._vector_with(other, lambda a, b: b - a)
-
-    def __mul__(self, other):
-        return self._vector_with(other, lambda a, b: a * b)
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, other):
-        return self._vector_with(other, divide)
-
-    def __rtruediv__(self, other):
-        return self._vector_with(other, lambda a, b: divide(b, a))
-
-    def __floordiv__(self, other):
-        return self._vector_with(other, floor_division)
-
-    def __rfloordiv__(self, other):
-        return self._vector_with(other, lambda a, b: floor_division(b, a))
-
-    def __mod__(self, other):
-        return self._vector_with(other, remainder)
-
-    def __rmod__(self, other):
-        return self._vector_with(other, lambda a, b: remainder(b, a))
-
-    def __pow__(self, other):
-        return self._vector_with(other, power)
-
-    def __rpow__(self, other):
-        return self._vector_with(other, lambda a, b: power(b, a))
-
-    def __abs__(self):
-        return Vector2(fabs(self.vector._x), fabs(self.vector._y))
-
-    def __neg__(self):
-        return -self.vector
-
-    def __pos__(self):
-        return +self.vector
-
-    def __bool__(self):
-        return bool(self.vector)
-
-    def __eq__(self, other):
-        return self._all_with(other, lambda a, b: fabs(a - b) < EPSILON)
-
-    def __ne__(self, other):
-        return self._all_with(other, lambda a, b: not fabs(a - b) < EPSILON)
-
-    def __lt__(self, other):
-        return self._all_with(other, lambda a, b: a < b)
-
-    def __le__(self, other):
-        return self._all_with(other, lambda a, b: a <= b)
-
-    def __gt__(self, other):
-        return self._all_with(other, lambda a, b: a > b)
-
-    def __ge__(self, other):
-        return self._all_with(other, lambda a, b: a >= b)
-
-
-def divide(x, number):
-    """Return a quotient; the message of pygame where the divisor is 0."""
-    if not number:
-        raise ZeroDivisionError("division by zero")
-    return x / number
-
-
-def remainder(x, number):
-    """Return what a division leaves, with the sign of the divisor."""
-    if not number:
-        raise ZeroDivisionError("division by zero")
-    return x % number
-
-
-def power(x, exponent):
-    """Return a power; a negative number cannot have one that is not whole."""
-    if x < 0 and exponent != floor(exponent):
-        raise ValueError("negative number cannot be raised to a fractional power")
-    return x**exponent
-
-
 # ---------------------------------------------------------------- functions of numbers
 
 
@@ -823,31 +557,3 @@ def lerp(a, b, share, do_clamp=True, /):
     if do_clamp:
         share = min(max(share, 0.0), 1.0)
     return a + (b - a) * share
-
-
-def invlerp(a, b, value, /):
-    """Return the share of the way from a to b at which a number lies."""
-    a, b, value = to_float(a), to_float(b), to_float(value)
-    if b == a:
-        raise ValueError("the result of b - a needs to be different from zero")
-    return (value - a) / (b - a)
-
-
-def remap(i_min, i_max, o_min, o_max, value, /):
-    """Return the number that lies in one range as a value does in another."""
-    i_min, i_max, o_min, o_max, value = map(to_float, (i_min, i_max, o_min, o_max, value))
-    if i_max == i_min:
-        raise ValueError("the result of i_max - i_min needs to be different from zero")
-    share = (value - i_min) / (i_max - i_min)
-    return o_min + (o_max - o_min) * share
-
-
-def smoothstep(a, b, share, /):
-    """Return a number on the way from a to b, with a soft start and end."""
-    a, b, share = to_float(a), to_float(b), min(max(to_float(share), 0.0), 1.0)
-    share = share * share * (3 - 2 * share)
-    return a + (b - a) * share
-
-
-def __getattr__(name):
-    refuse(__name__, name)

@@ -1,8 +1,9 @@
-"""Imports of modules that pygame-ce has and this one has not."""
+"""Names and modules that pygame-ce has and the pygame of this page has not."""
 
 import sys
+from functools import partial
 
-from .naming import explain
+from .naming import explain, refuse
 
 
 class MissingModules:
@@ -15,8 +16,9 @@ class MissingModules:
 
 
 def install():
-    """Explain missing modules from now on."""
-    sys.meta_path[:] = [
-        *(f for f in sys.meta_path if type(f) is not MissingModules),
-        MissingModules(),
-    ]
+    """Explain missing names and modules from now on."""
+    others = [each for each in sys.meta_path if type(each) is not MissingModules]
+    sys.meta_path[:] = [*others, MissingModules()]
+    for name, module in [*sys.modules.items()]:
+        if name.partition(".")[0] == "pygame":
+            module.__getattr__ = partial(refuse, name)

@@ -32,20 +32,6 @@ def get_pressed(num_buttons=3):
     return tuple(number in State.buttons for number in range(1, num_buttons + 1))
 
 
-def get_focused():
-    """Return whether there is a window."""
-    return State.surface is not None
-
-
 def set_visible(value):
     """Do nothing: the page shows the pointer."""
     return True
-
-
-def get_visible():
-    """Return True: the page shows the pointer."""
-    return True
-
-
-def __getattr__(name):
-    refuse(__name__, name)

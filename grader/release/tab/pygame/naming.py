@@ -18,10 +18,17 @@ class Named(type):
     __name__ = property(lambda cls: cls.__qualname__)
 
     def __new__(meta, name, bases, names):
+        names.setdefault("__getattr__", refuse_attribute)
         made = super().__new__(meta, name, bases, names)
         if made.__module__.startswith("pygame."):
             FULL_NAME.__set__(made, f"{made.__module__}.{name}")
         return made
+
+
+def refuse_attribute(value, name):
+    """Raise AttributeError for an attribute that a class of this page's pygame does not have."""
+    where = "in the pygame of this page"
+    raise AttributeError(f"{full_name(value)!r} object has no attribute {name!r} {where}")
 
 
 def refuse(module, name):

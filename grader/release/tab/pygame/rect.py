@@ -95,9 +95,6 @@ class Rect(metaclass=Named):
     center = corner("centerx", "centery")
     del corner
 
-    def __getattr__(self, name):
-        raise AttributeError(f"{full_name(self)!r} object has no attribute {name!r}")
-
     def __repr__(self):
         return f"Rect({self._x}, {self._y}, {self._w}, {self._h})"
 
@@ -158,48 +155,9 @@ class Rect(metaclass=Named):
             return type(self)(self._x, self._y, 0, 0)
         return type(self)(left, top, wide, high)
 
-    def union(self, *other):
-        """Return the smallest rectangle around two."""
-        x, y, w, h = read_rect(*other)
-        left, top = min(self._x, x), min(self._y, y)
-        right, bottom = max(self.right, x + w), max(self.bottom, y + h)
-        return type(self)(left, top, right - left, bottom - top)
-
-    def clamp(self, *other):
-        """Return a copy, moved into another one; centred in one that is too small."""
-        other = Rect(*other)
-
-        def fit(low, size, other_low, other_size):
-            if size >= other_size:
-                return other_low + half(other_size) - half(size)
-            return min(max(low, other_low), other_low + other_size - size)
-
-        x = fit(self._x, self._w, other._x, other._w)
-        y = fit(self._y, self._h, other._y, other._h)
-        return type(self)(x, y, self._w, self._h)
-
     def move_ip(self, *by):
         """Move."""
         self.update(self.move(*by))
-
-    def inflate_ip(self, *by):
-        """Grow around the centre."""
-        self.update(self.inflate(*by))
-
-    def clamp_ip(self, *other):
-        """Move into another rectangle."""
-        self.update(self.clamp(*other))
-
-    def union_ip(self, *other):
-        """Grow around another rectangle."""
-        self.update(self.union(*other))
-
-    def normalize(self):
-        """Make a negative width or height positive."""
-        if self._w < 0:
-            self._x, self._w = self._x + self._w, -self._w
-        if self._h < 0:
-            self._y, self._h = self._y + self._h, -self._h
 
     def collidepoint(self, *point):
         """Return whether a point is inside, or on the left or top edge."""
@@ -214,21 +172,3 @@ class Rect(metaclass=Named):
         return max(self._x, x) < min(self.right, x + w) and max(self._y, y) < min(
             self.bottom, y + h
         )
-
-    def contains(self, *other):
-        """Return whether another rectangle is inside."""
-        x, y, w, h = read_rect(*other)
-        inside = self._x <= x and x + w <= self.right and self._y <= y and y + h <= self.bottom
-        return inside and self.right > x and self.bottom > y
-
-    def collidelist(self, others):
-        """Return the number of the first of some rectangles that overlaps, or -1."""
-        return next((n for n, each in enumerate(others) if self.colliderect(each)), -1)
-
-    def collidelistall(self, others):
-        """Return the numbers of all of some rectangles that overlap."""
-        return [n for n, each in enumerate(others) if self.colliderect(each)]
-
-
-def __getattr__(name):
-    refuse(__name__, name)

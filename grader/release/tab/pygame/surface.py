@@ -37,11 +37,6 @@ class Surface(metaclass=Named):
             self.fill((0, 0, 0))
         self._drawn = None, 0  # pixels, and how many commands they are of
 
-    def __getattr__(self, name):
-        raise AttributeError(
-            f"{full_name(self)!r} object has no attribute {name!r} in the pygame of this page"
-        )
-
     def __repr__(self):
         more = ", global_alpha=255" if self._flags else ""
         return f"<Surface({self._width}x{self._height}x32{more})>"
@@ -79,14 +74,6 @@ class Surface(metaclass=Named):
         """Return SRCALPHA for a surface with transparency, else 0."""
         return self._flags
 
-    def get_bitsize(self):
-        """Return the bits of a pixel."""
-        return 32
-
-    def get_bytesize(self):
-        """Return the bytes of a pixel."""
-        return 4
-
     # ------------------------------------------------------------ drawing
 
     def fill(self, color, rect=None, special_flags=0):
@@ -118,11 +105,6 @@ class Surface(metaclass=Named):
                 inside = [("faded", source._alpha / 255, inside)]
             self._into.append(("at", x - left, y - top, inside))
         return self.get_clip().clip((x, y, w, h))
-
-    def blits(self, sequence, doreturn=True):
-        """Draw several surfaces, each given as the arguments of blit."""
-        rects = [self.blit(*each) for each in sequence]
-        return rects if doreturn else None
 
     def set_at(self, place, color):
         """Set the colour of one pixel."""
@@ -240,7 +222,3 @@ def read_place(dest):
     if not hasattr(dest, "__getitem__") or len(dest) < 2 or not all(map(is_number, dest)):
         raise TypeError(BAD_PLACE)
     return to_int(dest[0]), to_int(dest[1])
-
-
-def __getattr__(name):
-    refuse(__name__, name)

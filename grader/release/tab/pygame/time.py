@@ -81,7 +81,3 @@ def delay(milliseconds):
     if not isinstance(milliseconds, int):
         raise TypeError("delay requires one integer argument")
     return wait(milliseconds)
-
-
-def __getattr__(name):
-    refuse(__name__, name)
