@@ -1,10 +1,8 @@
 """Apply what a person decides about points: one file for a class, apart from the results.
 
-handouts/instructor/class.md shows such a file. Rules that `[late]` leaves out are those of
-course.toml, line by line.
-
-Results are never changed: points are computed anew from them and from this file whenever a class is
-graded, and every change is shown with its reason.
+handouts/instructor/class.md shows such a file. A rule that `[late]` leaves out is that of
+course.toml. Results never change: each grading computes points anew from them and from this file,
+and shows every change with its reason.
 """
 
 import math
@@ -16,7 +14,7 @@ from datetime import date, datetime, timedelta, tzinfo
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
-from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
+from zoneinfo import ZoneInfo
 
 import msgspec
 from msgspec import Meta, Struct, structs
@@ -40,8 +38,8 @@ Words = Annotated[str, Meta(pattern=r"\S")]
 Points = Annotated[int, Meta(ge=0)]
 
 
-class Adjust(Struct, frozen=True, forbid_unknown_fields=True):
-    """A decision about one student or several: its reason, and exactly one of the others."""
+class Adjust(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """A decision about one student or several: a reason, and exactly one of the other lines."""
 
     student: Words | Annotated[list[Words], Meta(min_length=1)]
     reason: Words
@@ -49,9 +47,13 @@ class Adjust(Struct, frozen=True, forbid_unknown_fields=True):
     points: Points | None = None  # the mark, whatever was found and whether anything was
     late: bool | None = None  # false: lateness is excused
     due: datetime | None = None  # an extension
-    cap: Points | None = None  # the most that there can be
+    cap: Points | None = None  # the maximum
     bonus: Points | None = None  # points beside the grader's own bonus, counted as these are
     take: Words | None = None  # the work that counts: of a name, or a path in what was handed in
+
+    def __post_init__(self) -> None:
+        if len(msgspec.to_builtins(self)) != 3 or self.late:
+            raise ValueError(f"write exactly one of {KINDS}")
 
     @property
     def students(self) -> list[str]:
@@ -60,9 +62,29 @@ class Adjust(Struct, frozen=True, forbid_unknown_fields=True):
     def concerns(self, name: str) -> bool:
         return any(is_same_student(who, name) for who in self.students)
 
+    def change(self, points: int | None) -> tuple[int | None, str]:
+        """Return the points after this decision, and the reason to show; empty for none."""
+        if self.take is not None:
+            return points, f"{self.take} counts: {self.reason}"
+        if self.due is not None:
+            return points, f"due {write_time(self.due)}: {self.reason}"
+        if self.points is not None:
+            return self.points, f"{self.reason}: set to {self.points}"
+        if self.bonus is not None:
+            return points, f"{self.reason}: {self.bonus:+} bonus"
+        if self.late is not None:
+            return points, ""
+        if points is None:
+            words = "nothing was graded that this could change, set points"
+            return None, f"{self.reason}: {words}"
+        if self.add is not None:
+            return points + self.add, f"{self.reason}: {self.add:+}"
+        assert self.cap is not None
+        return min(points, self.cap), f"{self.reason}: {self.cap} at most"
+
 
 class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
-    """All decisions about a class, and what lateness costs in it."""
+    """All decisions about a class, and the cost of lateness in it."""
 
     late: Late | None = None
     adjust: list[Adjust] = []
@@ -73,37 +95,20 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         """Return what counts for a submission that earned `points`; None if it was not graded."""
         decisions = self.find_decisions(found)
         reasons: list[str] = []
-        by_hand = False
         if points is not None and self.late is not None:
-            points = self.apply_lateness(found, points, reasons)
+            points = self.apply_lateness(self.late, found, points, reasons)
         for each in decisions:
-            if each.take is not None:
-                reasons.append(f"{each.take} counts: {each.reason}")
-            elif each.due is not None:
-                reasons.append(f"due {write_time(each.due)}: {each.reason}")
-            elif each.points is not None:
-                points, by_hand = each.points, True
-                reasons.append(f"{each.reason}: set to {each.points}")
-            elif points is None and (each.add is not None or each.cap is not None):
-                words = "nothing was graded that this could change, set points"
-                reasons.append(f"{each.reason}: {words}")
-            elif each.add is not None:
-                points = (points or 0) + each.add
-                reasons.append(f"{each.reason}: {each.add:+}")
-            elif each.cap is not None:
-                points = min(points or 0, each.cap)
-                reasons.append(f"{each.reason}: {each.cap} at most")
-            elif each.bonus is not None:
-                reasons.append(f"{each.reason}: {each.bonus:+} bonus")
+            points, reason = each.change(points)
+            reasons.append(reason)
         final = None if points is None else max(points, 0)
-        return Final(final, tuple(reasons), self.find_due(found), by_hand)
+        by_hand = any(each.points is not None for each in decisions)
+        return Final(final, tuple(filter(None, reasons)), self.find_due(found), by_hand)
 
     def sum_bonus(self, found: Found) -> int:
         return sum(each.bonus or 0 for each in self.find_decisions(found))
 
-    def apply_lateness(self, found: Found, points: int, reasons: list[str]) -> int:
+    def apply_lateness(self, late: Late, found: Found, points: int, reasons: list[str]) -> int:
         """Return the points that lateness leaves, and add the reason to `reasons`."""
-        late = self.late or Late()
         days = self.count_days_late(found)
         if not days:
             return points
@@ -140,20 +145,20 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         return int(found.late)
 
     def find_due(self, found: Found) -> datetime | None:
-        """Return when this student's work is due: the last extension, or what holds for all."""
+        """Return when this student's work is due: the last extension, or the date for all."""
         extended = [each.due for each in self.find_decisions(found) if each.due]
         due = max(extended) if extended else self.late.due if self.late else None
         return self.add_zone(due) if due else None
 
     def find_decisions(self, found: Found) -> list[Adjust]:
-        """Return the decisions about a student, or about the member of a group who handed in."""
+        """Return the decisions about a student, or about the group member who handed in."""
         for name in (found.name, found.handed_in_by):
             if decisions := [each for each in self.adjust if each.concerns(name)]:
                 return decisions
         return []
 
     def add_zone(self, when: datetime) -> datetime:
-        """Return a moment with a zone: without one it is the school's own time."""
+        """Return a moment with a zone; one without is in the school's own time."""
         if when.tzinfo:
             return when
         due = self.late.due if self.late else None
@@ -173,7 +178,7 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
     def place_comments(self, found: Found, files: Mapping[str, bytes]) -> list[Remark]:
         """Return the comments on a student's work, each beside its line.
 
-        Raises Exceeded, Failed or Lost where its files cannot be searched within the limits.
+        Raises Exceeded, Failed or Lost where searching its files reaches a limit.
         """
         for name in (found.name, found.handed_in_by):
             about = [each for each in self.comment if is_same_student(each.student, name)]
@@ -190,8 +195,8 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
     def resolve(self, names: Iterable[str], people: ClassList) -> "Adjustments":
         """Return the decisions with students by their names in the class, `names`.
 
-        A student may be written as the class list has them: by address, login, number or full
-        name. Raises Stop where that means two students.
+        The file may have any name of the class list: address, login, number or full name. Raises
+        Stop for a name that two students have.
         """
         here = list(dict.fromkeys(names))
         known = {who: find_student(who, here, people) for who in self.students}
@@ -212,11 +217,11 @@ class Final:
     points: int | None  # None: there is no mark
     reasons: tuple[str, ...] = ()
     due: datetime | None = None
-    by_hand: bool = False  # the points were set by a person
+    by_hand: bool = False  # a person set the points
 
 
 def write_time(when: datetime | None) -> str:
-    """Return a moment to the minute, with its distance from UTC; empty for none."""
+    """Return a moment to the minute, with its distance from UTC; empty for None."""
     if when is None:
         return ""
     words = f"{when:%Y-%m-%d %H:%M %z}".rstrip()
@@ -227,15 +232,12 @@ def write_time(when: datetime | None) -> str:
 
 
 def load_adjustments(path: Path | None, course: Course = FULL) -> Adjustments:
-    """Read the file; without one, the course's rules are all."""
+    """Read the file; without one, return the course's rules. Raises Stop for an invalid file."""
     document: dict[str, Any] = {}
     try:
         document = tomllib.loads(path.read_text(encoding="utf-8-sig")) if path else {}
         convert_dates(document)
         adjustments = msgspec.convert(add_rules(course, document), Adjustments)
-        most = course.rubric.max_points
-        if adjustments.late is not None and not any(adjustments.late.find_faults(most)):
-            adjustments = structs.replace(adjustments, late=adjustments.late.in_points(most))
     except OSError as error:
         raise Stop(f"there are no adjustments at {path}") from error
     except msgspec.ValidationError as error:
@@ -244,10 +246,12 @@ def load_adjustments(path: Path | None, course: Course = FULL) -> Adjustments:
         raise Stop(f"{path}: {error}") from error
     if faults := list(find_faults(adjustments, course)):
         raise Stop(f"{path}: " + "; ".join(faults))
-    return adjustments
+    if adjustments.late is None:
+        return adjustments
+    return structs.replace(adjustments, late=adjustments.late.in_points(course.rubric.max_points))
 
 
-RULES = {  # by what msgspec says
+RULES = {  # by a part of msgspec's words
     "Expected `int` >= 0": "must be a whole number, 0 or more",
     "Expected `int": "must be a whole number",
     "%$'": 'must be points, or a share as "10%"',
@@ -256,7 +260,7 @@ RULES = {  # by what msgspec says
 
 
 def name_value(words: str, document: dict[str, Any]) -> str:
-    """Write a complaint of msgspec's with the line of the file that it is about."""
+    """Return a complaint of msgspec's with the line of the file that it is about."""
     found = re.fullmatch(r"(.*) - at `\$\.(late|(adjust|comment)\[(\d+)\])(?:\.(\w+))?.*`", words)
     if found is None:
         return words
@@ -290,45 +294,37 @@ def add_rules(course: Course, document: dict[str, Any]) -> dict[str, Any]:
 
 
 def find_faults(adjustments: Adjustments, course: Course) -> Iterator[str]:
-    """Return all that cannot be meant, a sentence each."""
-    if adjustments.late is not None:
-        yield from adjustments.late.find_faults(course.rubric.max_points)
+    """Return all that this course cannot mean, a sentence each."""
+    late = adjustments.late or Late()
+    yield from late.find_faults(course.rubric.max_points)
     try:
         ZoneInfo(adjustments.zone or "UTC")
-    except (ZoneInfoNotFoundError, ValueError):
+    except (LookupError, ValueError):
         yield f"zone = {adjustments.zone!r} is no zone: write one such as Europe/Berlin"
         return
-    due = adjustments.late.due if adjustments.late else None
-    if due is not None and due.tzinfo is None and not adjustments.zone:
-        yield f"due = {due} needs its time zone, as in {due}+02:00, or zone at the top"
+    if late.due is not None and late.due.tzinfo is None and not adjustments.zone:
+        yield f"due = {late.due} needs its time zone, as in {late.due}+02:00, or zone at the top"
     for each in adjustments.adjust:
-        yield from find_faults_of_decision(each, adjustments, course.most)
+        who = ", ".join(each.students)
+        for name, value in (("points", each.points), ("cap", each.cap)):
+            if value is not None and value > course.most:
+                yield f"{name} = {value} of {who!r} is more than the {course.most} that there are"
+        if each.due is None:
+            continue
+        if each.due.tzinfo is None and not adjustments.zone:
+            yield f"due = {each.due} of {who!r} needs its time zone, or zone at the top"
+        elif late.due is None:
+            yield f"{who!r} has an extension, and neither [late] nor the course has a due to extend"
+        elif adjustments.add_zone(each.due) < adjustments.add_zone(late.due):
+            yield f"due = {each.due} of {who!r} is before the others' {late.due}"
     yield from find_set_twice(adjustments.adjust)
 
 
 def find_set_twice(decisions: Iterable[Adjust]) -> Iterator[str]:
-    """Yield whose points two decisions set."""
+    """Yield the students whose points two decisions set."""
     marked: set[str] = set()
     for each in decisions:
         if each.points is not None:
             twice = [name for name in each.students if fold(name) in marked]
             yield from (f"points of {name!r} are set twice" for name in twice)
             marked |= {fold(name) for name in each.students}
-
-
-def find_faults_of_decision(each: Adjust, adjustments: Adjustments, most: int) -> Iterator[str]:
-    who = ", ".join(each.students)
-    given = [each.add, each.points, each.late, each.due, each.cap, each.bonus, each.take]
-    if given.count(None) != len(given) - 1 or each.late:
-        yield f"the decision about {who!r} needs one of {KINDS}"
-    for name, value in (("points", each.points), ("cap", each.cap)):
-        if value is not None and value > most:
-            yield f"{name} = {value} of {who!r} is more than the {most} that there are"
-    if each.due is None:
-        return
-    if each.due.tzinfo is None and not adjustments.zone:
-        yield f"due = {each.due} of {who!r} needs its time zone, or zone at the top"
-    elif adjustments.late is None or adjustments.late.due is None:
-        yield f"{who!r} has an extension, and neither [late] nor the course has a due to extend"
-    elif adjustments.add_zone(each.due) < adjustments.add_zone(adjustments.late.due):
-        yield f"due = {each.due} of {who!r} is before the others' {adjustments.late.due}"

@@ -1,11 +1,10 @@
-"""Place a person's comments on lines of code, and find these lines again in another submission.
+"""Place a person's comments on lines of code, and find these lines again in a later submission.
 
-A comment keeps the text of its line and of the lines around it. So it follows a line that moves, or
-that changes while its neighbours stay.
+A comment keeps the text of its line and of both neighbours. So it follows a line that moves, or
+that changes between the same neighbours.
 """
 
 from collections.abc import Iterable, Mapping
-from difflib import SequenceMatcher
 from itertools import accumulate
 from pathlib import PurePosixPath
 from typing import Annotated
@@ -13,10 +12,8 @@ from typing import Annotated
 import msgspec
 from msgspec import Meta, Struct
 
-SIMILAR = 0.6  # the share of a changed line that must be as it was, if a neighbour is
 AROUND = 2  # lines shown before and after the one that is meant
 LONGEST_LINE = 500  # letters of a line that are compared, kept and shown
-MOST_TRIED = 1000  # lines nearest to the old number that may be a changed one
 
 Words = Annotated[str, Meta(pattern=r"\S")]
 
@@ -34,17 +31,17 @@ class Comment(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Remark(Struct, frozen=True):
-    """A comment beside the lines of a submission that it is about."""
+    """A comment with its lines of a submission."""
 
     comment: str
     file: str = ""
     line: int = 0  # 0: the line was not found
     code: list[tuple[int, str]] = []  # numbered lines around it
-    note: str = ""  # how the line was found, where that is not as usual
+    note: str = ""  # on a line that was changed or not found
 
 
 def place_comment(comment: Comment, files: Mapping[str, bytes]) -> Remark:
-    """Return the comment with the lines that it is about, as the files have them now."""
+    """Return the comment with its lines as the files have them now."""
     if not comment.file:
         return Remark(comment.comment)
     name = find_file(comment.file, files)
@@ -65,7 +62,7 @@ def place_all(comments: Iterable[Comment], files: Mapping[str, bytes]) -> list[R
 
 
 def find_file(name: str, files: Mapping[str, bytes]) -> str:
-    """Return the file of this name, wherever it lies now; empty where none or several are."""
+    """Return the path of the file of this name; empty where there is none or several."""
     last = PurePosixPath(name).name
     found = [name] if name in files else [e for e in files if PurePosixPath(e).name == last]
     return found[0] if len(found) == 1 else ""
@@ -76,43 +73,35 @@ def split_lines(content: bytes) -> list[str]:
 
 
 def read_lines(content: bytes) -> list[str]:
-    """Return the lines of a file, of each no more than a person looks at."""
+    """Return the lines of a file, long ones cut."""
     return [line[:LONGEST_LINE] for line in split_lines(content)]
 
 
 def find_line(comment: Comment, lines: list[str]) -> int:
-    """Return the number of the line that is meant; 0 where none is for sure.
+    """Return the number of the line that is meant; 0 where none is certain.
 
-    The same text counts alone if it stands there once, and beside a neighbour otherwise.
+    A line of the same text counts if it is the only one or has one of the neighbours; a line of
+    another text counts between both neighbours.
     """
     if not comment.code.strip():
         return comment.line if 0 < comment.line <= len(lines) else 0
-    same = [n for n, text in enumerate(lines, 1) if text.strip() == comment.code.strip()]
-    first = max(1, comment.line - MOST_TRIED // 2)
-    near = range(first, min(first + MOST_TRIED, len(lines) + 1))
-    numbers = same or [n for n in near if is_similar(lines[n - 1], comment.code)]
     above, below = list_above(lines), list_above(lines[::-1])[::-1]
-    beside = {n: count_same(comment, above[n - 1], below[n - 1]) for n in numbers}
-    most = max(beside.values(), default=0)
-    if not most and (not same or len(same) > 1):
+    wanted = comment.above.strip(), comment.below.strip()
+    beside = {
+        number: sum(bool(now) and now == was for now, was in zip(pair, wanted, strict=True))
+        for number, pair in enumerate(zip(above, below, strict=True), 1)
+    }
+    same = [n for n, text in enumerate(lines, 1) if text.strip() == comment.code.strip()]
+    numbers = same or [n for n, count in beside.items() if count == 2 and lines[n - 1].strip()]
+    most = max((beside[n] for n in numbers), default=0)
+    if not most and len(same) != 1:
         return 0
     best = [n for n in numbers if beside[n] == most]
     return min(best, key=lambda n: abs(n - comment.line))
 
 
-def is_similar(text: str, code: str) -> bool:
-    matcher = SequenceMatcher(None, text.strip()[:200], code.strip()[:200], autojunk=False)
-    return matcher.quick_ratio() >= SIMILAR and matcher.ratio() >= SIMILAR
-
-
-def count_same(comment: Comment, above: str, below: str) -> int:
-    """Return how many of a line's two neighbours are those of the comment's line."""
-    pairs = (above, comment.above), (below, comment.below)
-    return sum(bool(now) and now == was.strip() for now, was in pairs)
-
-
 def list_above(lines: list[str]) -> list[str]:
-    """Return for each line the nearest one before it that is not empty, without indentation."""
+    """Return for each line the nearest line before it that is not empty, without indentation."""
     return list(accumulate(lines[:-1], lambda last, line: line.strip() or last, initial=""))
 
 
@@ -132,6 +121,6 @@ def describe_remark(remark: Remark) -> str:
 
 
 def encode_comment(comment: Comment) -> dict[str, object]:
-    """Return a comment as the file of decisions holds it: what is empty is left out."""
+    """Return a comment as the file of decisions holds it, without empty values."""
     values: dict[str, object] = msgspec.structs.asdict(comment)
     return {name: value for name, value in values.items() if value}

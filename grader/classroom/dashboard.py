@@ -1,11 +1,9 @@
-"""Write the page of a class, which needs no other file, and beside it the students' reports.
+"""Write the page of a class, which needs no other file, and the students' reports beside it.
 
-Everything is made from the results and the class book. Names and words of students are text in it,
-whatever they are.
+All of it comes from the results and the class book. Names and words of students are text in it.
 """
 
 import statistics
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -27,7 +25,7 @@ from grader.intake.packing import pack
 from grader.judge.course import FULL, Course
 from grader.judge.grade import Options
 from grader.judge.outer import WHOLE, Allowance, Failed, Lost, call_each_within, call_within
-from grader.judge.result import CheckResult, Result, State, TodoResult
+from grader.judge.result import Result, State, TodoResult
 from grader.judge.submission import CannotGrade
 from grader.judge.wording import withhold_reasons
 from grader.judge.workplace import work_folder
@@ -39,7 +37,6 @@ from grader.report.html import Comment, Standing, write_report, write_standing
 TEMPLATES = Path(__file__).with_name("templates")
 BINS = 10  # of the distribution
 SLOWEST = 10
-NO_CHECKS: list[CheckResult] = []  # of all TODOs that show none
 WRITING = Allowance("writing its page", cpu=30)
 WRITING_CLASS = Allowance("writing the page of the class", cpu=120)
 MARKS: dict[State, str] = {  # the class of a cell: passed, wrong, untouched
@@ -55,11 +52,11 @@ MARKS: dict[State, str] = {  # the class of a cell: passed, wrong, untouched
 class Entry:
     """A submission: its line in the class book, and its result unless it is in trouble.
 
-    A result takes 50 kB, so it is read when it is asked for, and a large class holds only briefs.
+    A result takes 50 kB, so a class holds only briefs and reads a whole result when it needs one.
     """
 
     outcome: Outcome
-    brief: Result | None = None  # with what the page of the class shows, and nothing else
+    brief: Result | None = None  # what the page of the class shows
     read: Callable[[], Result] | None = None
 
     @property
@@ -69,7 +66,7 @@ class Entry:
 
     @property
     def share(self) -> float:
-        """The share of the points that counts; more than 1 if points were added by hand."""
+        """Return the share of full marks; more than 1 if points were added by hand."""
         return self.outcome.final / self.outcome.max_points if self.outcome.max_points else 0.0
 
     @property
@@ -82,13 +79,13 @@ class Entry:
 
     @property
     def mistakes(self) -> list[str]:
-        """The known mistakes that were found in it, by the names that the page gives them."""
+        """Return its known mistakes, by the names that the page gives them."""
         return [f"{id}:{t.misconception}" for id, t in self.todos.items() if t.misconception]
 
 
 @dataclass(frozen=True)
 class Rate:
-    """The numbers of those who passed a TODO, tried it and did not begin it."""
+    """The numbers of students who passed a TODO, tried it, and did not begin it."""
 
     id: str
     title: str
@@ -103,7 +100,7 @@ class Rate:
 
 @dataclass(frozen=True)
 class Mistake:
-    """A known mistake, the students who make it, and a replay of one of them if there is any."""
+    """A known mistake, the students who make it, and the replay of one of them if there is one."""
 
     todo: str
     name: str
@@ -117,23 +114,18 @@ class Mistake:
 
 
 def read_class(results: Path) -> list[Entry]:
-    """Return everybody in the class book, or without a book, everybody who has a result."""
-    return sorted(read_entries(results), key=lambda each: each.outcome.order)
+    """Return the class, with results."""
+    book = Book(results)
+    return [read_entry(book, outcome) for outcome in read_outcomes(results)]
 
 
 def read_outcomes(results: Path) -> list[Outcome]:
-    """Return the same people without their results: what marks and lists are made of."""
-    outcomes = (each.outcome for each in read_entries(results))
-    return sorted(outcomes, key=lambda each: each.order)
-
-
-def read_entries(results: Path) -> Iterator[Entry]:
+    """Return the lines of the class book or, without a book, a line for each result."""
     book = Book(results)
     outcomes = list(book.outcomes.values()) or list(read_results_alone(book))
     if not outcomes:
         raise Stop(f"there are no results in {results}: grade a class first, with --class")
-    for outcome in outcomes:
-        yield read_entry(book, outcome)
+    return sorted(outcomes, key=lambda each: each.order)
 
 
 def read_results_alone(book: Book) -> Iterator[Outcome]:
@@ -145,19 +137,15 @@ def read_results_alone(book: Book) -> Iterator[Outcome]:
 
 
 def read_entry(book: Book, outcome: Outcome) -> Entry:
-    """Return the book and the result together; one that cannot be read is trouble as well."""
+    """Return an outcome with its result; one whose result cannot be read is in trouble."""
     if outcome.trouble:
         return Entry(outcome)
     read = partial(decode_result, book.locate_result(outcome.name))
     try:
-        return make_entry(outcome, read)
+        return Entry(outcome, shorten_result(read()), read)
     except (OSError, msgspec.MsgspecError) as error:
         words = f"its result cannot be read: {error}"
         return Entry(structs.replace(outcome, trouble=words))
-
-
-def make_entry(outcome: Outcome, read: Callable[[], Result]) -> Entry:
-    return Entry(outcome, shorten_result(read()), read)
 
 
 def decode_result(path: Path) -> Result:
@@ -165,31 +153,19 @@ def decode_result(path: Path) -> Result:
 
 
 def shorten_result(result: Result) -> Result:
-    """Return a result without what the page of a class does not show; words are shared by all."""
-    return structs.replace(result, isolation=[], todos=list(map(shorten_todo, result.todos)))
-
-
-def shorten_todo(todo: TodoResult) -> TodoResult:
-    """Keep the checks of a known mistake that say what it means, or show it."""
-    checks = [check for check in todo.checks if check.meaning or check.replay]
-    return structs.replace(
-        todo,
-        id=sys.intern(todo.id),
-        title=sys.intern(todo.title),
-        state=sys.intern(todo.state),
-        checks=list(map(shorten_check, checks)) if todo.misconception else NO_CHECKS,
-    )
-
-
-def shorten_check(check: CheckResult) -> CheckResult:
-    meaning = sys.intern(check.meaning)
-    return structs.replace(check, title="", ran="", expected="", got="", meaning=meaning)
+    """Return a result with those checks alone that describe or show a known mistake."""
+    todos = []
+    for todo in result.todos:
+        checks = [each for each in todo.checks if todo.misconception]
+        checks = [each for each in checks if each.meaning or each.replay]
+        todos.append(structs.replace(todo, checks=checks))
+    return structs.replace(result, todos=todos)
 
 
 def add_replays(
     entries: list[Entry], intake: Intake, options: Options, folder: Path
 ) -> Iterator[Entry]:
-    """Grade one student's TODO again for each known mistake, this time with replays in `folder`."""
+    """Grade one student's TODO again for each known mistake, with replays in `folder`."""
     found = {each.name: each for each in intake.found}
     wanted: dict[str, set[str]] = {}
     for mistake in find_mistakes(entries, folder):
@@ -206,12 +182,12 @@ def add_replays(
                 replaying = partial(grade_with_replays, tree, again, folder / name)
                 graded = call_within(WHOLE, Result, replaying, (CannotGrade,))
                 shown = partial(replace_todos, result, graded.todos)
-                entry = make_entry(entry.outcome, shown)
+                entry = Entry(entry.outcome, shorten_result(shown()), shown)
         yield entry
 
 
 def replace_todos(result: Result, todos: list[TodoResult]) -> Result:
-    """Return the result with its replays, where these TODOs came out as they did before."""
+    """Return the result with these TODOs in it, where their points are the same."""
     again = {todo.id: todo for todo in todos}
     shown = [
         again[todo.id] if todo.id in again and again[todo.id].points == todo.points else todo
@@ -254,7 +230,7 @@ def make_mistake(todo: str, name: str, entries: list[Entry], folder: Path) -> Mi
 
 
 def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) -> Path:
-    """Write the page beside the folder of results, and into it a report per student."""
+    """Write the page beside the folder of results, and a report per student into it."""
     folder = Book(results).folder
     works = [partial(write_entry, folder, entry, course) for entry in entries]
     for entry, answer in zip(entries, call_each_within(WRITING, None, works), strict=True):
@@ -280,7 +256,7 @@ def write_entry(folder: Path, entry: Entry, course: Course) -> None:
 
 
 def make_standing(outcome: Outcome, course: Course = FULL) -> Standing:
-    """Return what a page says beside the checks: the mark, the dates, and all decisions."""
+    """Return the mark, the dates and all decisions, for the head of a page."""
     lines = [
         ("Group", outcome.group_in_words.removeprefix("group ")),
         ("Handed in", write_time(outcome.handed_in)),
@@ -312,7 +288,7 @@ def make_standing(outcome: Outcome, course: Course = FULL) -> Standing:
 
 
 def scale_mark(outcome: Outcome, course: Course) -> str:
-    """Return a mark as `marks` writes it; empty where it counts the same points."""
+    """Return a mark as the gradebook has it; empty where that counts the same points."""
     total = course.out_of or USUAL_TOTAL
     if outcome.mark is None or not outcome.max_points or total == outcome.max_points:
         return ""
@@ -321,7 +297,7 @@ def scale_mark(outcome: Outcome, course: Course) -> str:
 
 
 def render_class(folder: Path, entries: list[Entry], title: str = FULL.title) -> str:
-    """Return the page; its links to reports and replays lead into `folder`, beside it."""
+    """Return the page; its links to reports and replays lead into `folder` beside it."""
     graded = [each for each in entries if each.brief]
     marked = [each for each in entries if each.outcome.mark is not None]
     points = [each.outcome.final for each in marked]
@@ -355,7 +331,7 @@ def render_class(folder: Path, entries: list[Entry], title: str = FULL.title) ->
 
 
 def list_notes(outcome: Outcome) -> list[str]:
-    """Return what a table says of a submission beside its points."""
+    """Return the notes on a submission in a table."""
     decided = [] if outcome.trouble or not outcome.reasons else [f"found {outcome.points}"]
     decided = ["; ".join([*decided, *outcome.reasons])]
     late = ["late"] if outcome.late and not outcome.reasons else []

@@ -1,7 +1,7 @@
-"""Change the file of decisions table by table: all that a person wrote around them stays.
+"""Change the file of decisions table by table; a person's notes between tables stay.
 
-A table is known by its values. Before anything is written the whole file is read again: it must say
-what it said before, and the change.
+A table is identified by its values. Before it writes, it reads the new text as a whole: this must
+say what the file said before, and the change.
 """
 
 import re
@@ -29,7 +29,7 @@ Table = dict[str, Any]
 
 @dataclass(frozen=True)
 class Decision:
-    """A table of the file: `adjust` or `comment`, its values, and the lines it takes."""
+    """A table of the file: `adjust` or `comment`, its values, and its lines."""
 
     kind: str
     values: Table
@@ -38,12 +38,12 @@ class Decision:
 
     @property
     def key(self) -> str:
-        """Return words that name it in a form, and no other decision."""
+        """Return the words by which a form names this decision."""
         return f"{self.kind} {sorted(self.values.items())!r}"
 
     @property
     def what(self) -> str:
-        """Return the line that decides something: `points`, `take`, `comment`."""
+        """Return the name of the line that decides: `points`, `take`, `comment`."""
         return next((n for n in self.values if n not in ("student", "reason")), self.kind)
 
     @property
@@ -54,7 +54,7 @@ class Decision:
 
 @dataclass(frozen=True)
 class DecisionsFile:
-    """The file of decisions of a class; it may not be there yet."""
+    """The file of decisions of a class; it may not exist yet."""
 
     path: Path
     course: Course
@@ -66,41 +66,40 @@ class DecisionsFile:
     def list_decisions(self) -> list[Decision]:
         return find_decisions(self.text, self.path)
 
-    def add(self, kind: str, values: Table) -> None:
-        """Write a decision at the end of the file."""
-        text = f"{self.text.rstrip()}\n\n{write_table(kind, values)}"
-        self.write(text, [*self.list_decisions(), Decision(kind, values)])
-
-    def replace(self, old: Decision, values: Table) -> None:
-        """Change the lines of a decision whose values are others now; its comments stay."""
-        lines = self.text.splitlines(keepends=True)
-        table = "".join(lines[old.first : old.end])
-        for name, value in values.items():
-            table = set_value(table, name, value)
-        found = [Decision(old.kind, values) if e == old else e for e in self.list_decisions()]
-        self.write("".join([*lines[: old.first], table, *lines[old.end :]]), found)
+    def put(self, kind: str, values: Table, old: Decision | None = None) -> None:
+        """Write a decision in the position of an old one, or else at the end of the file."""
+        found, table = self.list_decisions(), write_table(kind, values)
+        if old is None:
+            self.write(f"{self.text.rstrip()}\n\n{table}", [*found, Decision(kind, values)])
+        else:
+            found[found.index(old)] = Decision(kind, values)
+            self.write(replace_lines(self.text, old, table), found)
 
     def remove(self, key: str) -> None:
-        """Take out a decision with its own lines; raises Stop where it is not there as it was."""
+        """Take out a decision with its own lines; raises Stop where the file has changed."""
         found = self.list_decisions()
         old = next((each for each in found if each.key == key), None)
         if old is None:
             raise Stop(f"{self.path} has changed meanwhile: look at it again")
-        lines = self.text.splitlines(keepends=True)
         found.remove(old)
-        self.write("".join([*lines[: old.first], *lines[old.end :]]), found)
+        self.write(replace_lines(self.text, old, ""), found)
 
     def write(self, text: str, wanted: list[Decision]) -> None:
-        """Write the file if it says what is wanted, and means something in this course."""
+        """Write the file if it says what is wanted and is valid in this course."""
         found = find_decisions(text, self.path)
         rest = [without_tables(each) for each in (text, self.text)]
         if [e.key for e in found] != [e.key for e in wanted] or rest[0] != rest[1]:
-            raise Stop(f"{self.path} is written in a way that is not changed here: edit it")
+            raise Stop(f"{self.path} has a form that only people can change: edit it by hand")
         with work_folder() as folder:
             draft = folder / self.path.name
             draft.write_text(text, encoding="utf-8")
             load_adjustments(draft, self.course)
         write_whole(text.encode("utf-8"), self.path)
+
+
+def replace_lines(text: str, old: Decision, table: str) -> str:
+    lines = text.splitlines(keepends=True)
+    return "".join([*lines[: old.first], table, *lines[old.end :]])
 
 
 def without_tables(text: str) -> Mapping[str, Any]:
@@ -109,9 +108,9 @@ def without_tables(text: str) -> Mapping[str, Any]:
 
 
 def find_decisions(text: str, path: Path) -> list[Decision]:
-    """Return the decisions in the order of the file; raises Stop where their lines are not found.
+    """Return the decisions in the order of the file; raises Stop where it cannot find their lines.
 
-    A table ends with its last value: notes and empty lines after it belong to the next one.
+    A table ends with its last value; notes and empty lines after it belong to the next table.
     """
     try:
         document = tomllib.loads(text)
@@ -127,17 +126,17 @@ def find_decisions(text: str, path: Path) -> list[Decision]:
             while lines[end - 1].strip() == "" or lines[end - 1].lstrip().startswith("#"):
                 end -= 1
             values = left[kind].pop(0)
-            if not says("".join(lines[first:end]), kind, values):
+            if not is_table("".join(lines[first:end]), kind, values):
                 break
             found.append(Decision(kind, values, first, end))
     if len(found) != sum(len(document.get(kind, [])) for kind in left):
-        raise Stop(f"{path} is written in a way that is not changed here: edit it")
+        raise Stop(f"{path} has a form that only people can change: edit it by hand")
     return found
 
 
-def says(lines: str, kind: str, values: Table) -> bool:
-    """Tell whether these lines are a table of these values and nothing else."""
-    with suppress(ValueError):  # a text over several lines may have one that looks like a table
+def is_table(lines: str, kind: str, values: Table) -> bool:
+    """Tell whether these lines hold a table of these values alone."""
+    with suppress(ValueError):  # a line of a longer text may look like a table
         return tomllib.loads(lines) == {kind: [values]}
     return False
 
@@ -148,12 +147,5 @@ def write_table(kind: str, values: Table) -> str:
 
 
 def write_value(value: object) -> str:
-    """Return a text, number or list of texts as TOML has it."""
+    """Write a text, number or list of texts as TOML."""
     return msgspec.json.encode(value).decode("utf-8").replace("\x7f", "\\u007f")
-
-
-def set_value(table: str, name: str, value: object) -> str:
-    """Return the table with this line in the place of an older one, whose note stays."""
-    text = r'"(?:[^"\\\n]|\\.)*"|\'[^\'\n]*\'|[^"\'#\n\[]*?'
-    pattern = re.compile(rf"^([ \t]*{name}[ \t]*=[ \t]*)({text})([ \t]*(?:#.*)?)$", re.MULTILINE)
-    return pattern.sub(lambda found: f"{found[1]}{write_value(value)}{found[3]}", table, count=1)

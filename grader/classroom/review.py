@@ -1,8 +1,7 @@
 """Answer the requests of the local page on which a person decides about a class.
 
-`respond` is a function of a request and the folder of the class: it needs no server. Nothing but
-the file of decisions is written. The words of submissions are text in every page, and no script
-runs in any.
+`respond` needs no server. It writes the file of decisions and nothing else. Words of submissions
+are text in every page, and no page runs a script.
 """
 
 import hmac
@@ -39,7 +38,7 @@ from grader.text import harmless, plural
 TEMPLATES = Path(__file__).with_name("templates")
 MOST_FILES, MOST_LINES = 60, 20_000  # on a page
 LONGEST_FILE = 200_000  # bytes shown of a file
-READABLE = ("", "empty", "a web page")  # kinds of files whose text says something to a person
+READABLE = ("", "empty", "a web page")  # kinds of files whose text a person can read
 HEADERS = {
     "Content-Type": "text/html; charset=utf-8",
     "Cache-Control": "no-store",
@@ -55,7 +54,7 @@ Form = Mapping[str, str]
 
 @dataclass(frozen=True)
 class Request:
-    """Hold what a browser asks for."""
+    """A request of a browser."""
 
     method: str
     path: str
@@ -63,7 +62,7 @@ class Request:
     form: Form = field(default_factory=dict)
     host: str = ""
     origin: str = ""
-    cookie: str = ""  # the value of ours
+    cookie: str = ""  # the value of our own cookie
 
 
 @dataclass(frozen=True)
@@ -73,21 +72,13 @@ class Response:
     headers: Form = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
-class Choice:
-    """Work of which a person must choose one, and why; `paths` with words for each."""
-
-    title: str
-    paths: dict[str, str]
-
-
 @dataclass
 class Review:
-    """A class under review: its submissions as they came, and what is decided so far."""
+    """A class under review: its submissions as they came, and the decisions so far."""
 
     known: ClassFolder
     intake: Intake
-    people: ClassList  # without what a person chose
+    people: ClassList  # without the work that a person chose
     host: str = "127.0.0.1"
     token: str = field(default_factory=secrets.token_urlsafe)
     read: dict[str, tuple[Shown, str]] = field(default_factory=dict)  # by name
@@ -110,7 +101,7 @@ class Review:
 
     @property
     def names(self) -> list[str]:
-        """Return everybody of the class, sorted as people sort them."""
+        """Return all students, sorted as people sort names."""
         names = dict.fromkeys([*self.outcomes, *self.intake.names, *self.absent])
         return sorted(names, key=lambda name: self.find_outcome(name).order)
 
@@ -119,20 +110,17 @@ class Review:
         return self.outcomes.get(name, Outcome(name, full_name=full))
 
     def find_reason(self, name: str) -> str:
-        """Return why a person must look at this work, as it was graded; empty if nobody must."""
+        """Return why this work needs manual review; empty if it does not."""
         outcome = self.outcomes.get(name)
-        if outcome is None:  # it came since, or a person chose whose it is
+        if outcome is None:  # it came after grading, or a person chose whose it is
             return self.intake.troubles.get(name, "")
         if outcome.mark is None:
             return outcome.trouble
         return "not in the class list" if name in self.unlisted else ""
 
     def list_decisions(self, name: str) -> list[Decision]:
-        """Return the decisions about a student, by any name that means them."""
-        return self.select_decisions(name, self.file.list_decisions())
-
-    def select_decisions(self, name: str, decisions: list[Decision]) -> list[Decision]:
-        return [each for each in decisions if self.is_about(each, name)]
+        """Return the decisions about a student, by any name of the student."""
+        return [each for each in self.file.list_decisions() if self.is_about(each, name)]
 
     def is_about(self, decision: Decision, name: str) -> bool:
         called = [each for who in decision.students for each in self.people.list_called(who)]
@@ -143,12 +131,12 @@ class Review:
         return [each for each in self.intake.works if each.name == name]
 
     def read_files(self, name: str) -> tuple[Shown, str]:
-        """Return a student's files as they are graded, or as they came; and which of the two."""
+        """Return a student's files, and whether they are as graded or as they came."""
         if name not in self.read:
-            self.read[name] = self.read_anew(name)
+            self.read[name] = self.unpack_files(name)
         return self.read[name]
 
-    def read_anew(self, name: str) -> tuple[Shown, str]:
+    def unpack_files(self, name: str) -> tuple[Shown, str]:
         works, asked = self.list_works(name), self.known.course.modules
         if len(works) == 1 and name not in self.intake.troubles:
             try:
@@ -164,21 +152,16 @@ class Review:
         ]
         return Shown(files, shown[0][1].choices if len(shown) == 1 else []), "as they came"
 
-    def list_choices(self, name: str) -> list[Choice]:
-        """Return all that a person may choose for a student, a list for each question."""
-        works, (shown, _) = self.list_works(name), self.read_files(name)
-        choices = [Choice("Which one counts?", {e: e for e in group}) for group in shown.choices]
+    def list_choices(self, name: str) -> list[list[str]]:
+        """Return the paths of which a person may choose one, a list for each question."""
+        choices = self.read_files(name)[0].choices
         if name in self.intake.refused:
-            sources = [work.sources[0].name for work in works]
-            choices.append(Choice("Which work counts?", {each: each for each in sources}))
-        if (self.find_reason(name) and name not in self.unlisted) or not works:
-            others = {each: f"the work of {each}" for each in self.unlisted}
-            choices.append(Choice("Is other work theirs?", others))
-        return [each for each in choices if each.paths]
+            choices = [*choices, [work.sources[0].name for work in self.list_works(name)]]
+        return choices
 
 
 def join_source(work: Found, file: str) -> str:
-    """Return a file's name with that of the submission it is in."""
+    """Return a file's path, beginning with the name of its submission."""
     source = work.sources[0].name
     return file if file.partition("/")[0] == source else f"{source}/{file}"
 
@@ -187,7 +170,7 @@ def join_source(work: Found, file: str) -> str:
 
 
 def respond(review: Review, request: Request) -> Response:
-    """Return the answer to a request; only who has the token gets anything else than 403."""
+    """Answer a request; without the token the answer is 403."""
     if request.host not in (review.host, review.host.replace("127.0.0.1", "localhost")):
         return refuse(403, "This page is for this machine alone.")
     if request.path == "/" and same(request.query.get("token", ""), review.token):
@@ -200,7 +183,7 @@ def respond(review: Review, request: Request) -> Response:
             return refuse(403, "This form is not of this page.")
         return change(review, request)
     if request.method != "GET":
-        return refuse(405, "There is nothing to do so.")
+        return refuse(405, "This page does not do that.")
     if request.path == "/":
         return Response(200, render_class(review), HEADERS)
     name = request.query.get("name", "")
@@ -210,7 +193,7 @@ def respond(review: Review, request: Request) -> Response:
 
 
 def name_cookie(review: Review) -> str:
-    """Return the name of our cookie: browsers send those of one port to all others."""
+    """Return the name of our cookie; browsers send a cookie to every port of a machine."""
     return f"review-{review.host.rpartition(':')[2]}"
 
 
@@ -223,7 +206,7 @@ def refuse(status: int, words: str) -> Response:
 
 
 def change(review: Review, request: Request) -> Response:
-    """Do what a form says, and show the student again; or say why nothing was written."""
+    """Do what a form says and show the student again, or say why nothing was written."""
     form = request.form
     name = form.get("name", "")
     act = ACTS.get(request.path)
@@ -237,35 +220,35 @@ def change(review: Review, request: Request) -> Response:
 
 
 def decide_points(review: Review, name: str, form: Form) -> None:
-    """Write the mark, or points to add, in the place of an earlier one."""
+    """Write the mark, or points to add, in the position of an earlier one."""
     kind = form.get("kind", "")
     if kind not in ("points", "add"):
         raise Stop("choose what the points do")
     values = {"student": name, kind: read_number(form, "points"), "reason": read_reason(form)}
-    put(review.file, values, [e for e in review.list_decisions(name) if e.what == kind])
+    put(review, name, values, lambda old: old.what == kind)
 
 
 def decide_work(review: Review, name: str, form: Form) -> None:
-    """Write which work counts, in the place of another choice of the same question."""
+    """Write which work counts, in the position of another answer to the same question."""
     path = form.get("path", "")
-    choices = [each for each in review.list_choices(name) if path in each.paths]
-    if not choices:
+    paths = next((each for each in review.list_choices(name) if path in each), None)
+    if paths is None:
         raise Stop("choose one of the files or folders")
-    old = [e for e in review.list_decisions(name) if e.values.get("take") in choices[0].paths]
-    put(review.file, {"student": name, "take": path, "reason": read_reason(form)}, old)
+    values = {"student": name, "take": path, "reason": read_reason(form)}
+    put(review, name, values, lambda old: old.values.get("take") in paths)
 
 
 def decide_owner(review: Review, name: str, form: Form) -> None:
-    """Write whose work it is that came under a name that is not in the class list."""
+    """Write who owns work whose name is not in the class list."""
     student = form.get("student", "")
     if student not in review.people.names or name not in review.unlisted:
         raise Stop("choose a student of the class list")
-    old = [e for e in review.list_decisions(name) if e.values.get("take") == name]
-    put(review.file, {"student": student, "take": name, "reason": read_reason(form)}, old)
+    values = {"student": student, "take": name, "reason": read_reason(form)}
+    put(review, name, values, lambda old: old.values.get("take") == name)
 
 
 def decide_comment(review: Review, name: str, form: Form) -> None:
-    """Write a comment, on a line where one is named."""
+    """Write a comment, on a line if the form names one."""
     words, file = harmless(form.get("comment", "").replace("\r", "")).strip(), form.get("file", "")
     if not words:
         raise Stop("the comment is empty: write one")
@@ -276,7 +259,7 @@ def decide_comment(review: Review, name: str, form: Form) -> None:
         if file not in files or not 0 < line <= len(split_lines(files[file])):
             raise Stop(f"{file} has no line {line}")
         comment = write_comment(name, words, file, line, files[file])
-    review.file.add("comment", encode_comment(comment))
+    review.file.put("comment", encode_comment(comment))
 
 
 def remove_decision(review: Review, name: str, form: Form) -> None:
@@ -292,13 +275,13 @@ ACTS: dict[str, Callable[[Review, str, Form], None]] = {
 }
 
 
-def put(file: DecisionsFile, values: Table, old: list[Decision]) -> None:
-    """Write a decision, in the place of the old one if that has the same lines."""
-    if old and set(old[0].values) == set(values) and isinstance(old[0].values["student"], str):
-        kept = {"student": old[0].values["student"]} if "take" not in values else {}
-        file.replace(old[0], values | kept)
-    else:
-        file.add("adjust", values)
+def put(review: Review, name: str, values: Table, is_old: Callable[[Decision], bool]) -> None:
+    """Write a decision, in the position of an old one about this student alone."""
+    found = filter(is_old, review.list_decisions(name))
+    old = next((each for each in found if isinstance(each.values["student"], str)), None)
+    if old is not None and "take" not in values:
+        values = values | {"student": old.values["student"]}
+    review.file.put("adjust", values, old)
 
 
 def read_number(form: Form, name: str) -> int:
@@ -306,7 +289,7 @@ def read_number(form: Form, name: str) -> int:
     try:
         return int(words[:9])
     except ValueError:
-        raise Stop(f"{name} {words[:40]!r} is no whole number") from None
+        raise Stop(f"{name} {words[:40]!r} is not a whole number") from None
 
 
 def read_reason(form: Form) -> str:
@@ -321,7 +304,7 @@ def read_reason(form: Form) -> str:
 
 @dataclass(frozen=True)
 class File:
-    """A file as the page shows it: numbered lines, or why there are none."""
+    """A file as the page shows it: its lines, or a note why there are none."""
 
     name: str
     lines: list[str]
@@ -332,7 +315,7 @@ class File:
 def render_class(review: Review) -> str:
     rows = [(name, review.find_outcome(name), review.find_reason(name)) for name in review.names]
     decisions = review.file.list_decisions()
-    decided = {name: review.select_decisions(name, decisions) for name, _, _ in rows}
+    decided = {n: [each for each in decisions if review.is_about(each, n)] for n, _, _ in rows}
     return fill(
         "review.html",
         known=review.known,
@@ -343,7 +326,7 @@ def render_class(review: Review) -> str:
 
 
 def render_student(review: Review, name: str, given: Form, problem: str = "") -> str:
-    """Return the page of a student; `given` fills its forms in."""
+    """Return the page of a student; `given` fills in its forms."""
     shown, how = review.read_files(name)
     decisions = review.list_decisions(name)
     placed = [place_decision(each, dict(shown.files)) for each in decisions]
@@ -366,20 +349,20 @@ def render_student(review: Review, name: str, given: Form, problem: str = "") ->
 
 
 def list_owners(review: Review) -> list[tuple[str, str]]:
-    """Return whose the work may be: who handed in nothing first."""
+    """Return possible owners, students who handed in nothing first."""
     names = [*review.absent, *(n for n in review.people.names if n not in review.absent)]
     return [(name, review.find_outcome(name).label) for name in names]
 
 
 def place_decision(decision: Decision, files: Mapping[str, bytes]) -> Remark | None:
-    """Return a comment beside its line in these files; None for a decision of another kind."""
+    """Return a comment beside its line in these files; None for other decisions."""
     if decision.kind != "comment":
         return None
     return place_comment(msgspec.convert(decision.values, Comment), files)
 
 
 def list_files(shown: Shown, remarks: list[Remark]) -> list[File]:
-    """Return the files to show, the lab's first."""
+    """Return the files to show, those of the lab first."""
     ranked = sorted(shown.files, key=lambda each: rank_file(PurePosixPath(each[0])))
     files, room = [], MOST_LINES
     for name, content in ranked[:MOST_FILES]:
@@ -393,24 +376,18 @@ def show_file(name: str, content: bytes, remarks: list[Remark], most: int) -> Fi
     words = name_type(content[:4096])
     if words not in READABLE or b"\0" in content[:4096]:
         return File(name, [], f"{words or 'no text'}, {len(content)} bytes")
-    note = words.removeprefix("empty")
-    note = note or "not UTF-8: wrong letters are shown as \ufffd" * (not is_utf8(content))
-    note = note or f"cut off after {LONGEST_FILE} bytes" * (len(content) > LONGEST_FILE)
     lines = split_lines(content[:LONGEST_FILE])
-    note = note or f"cut off after {plural(most, 'line')}" * (len(lines) > most)
+    notes = {
+        f"cut off after {LONGEST_FILE} bytes": len(content) > LONGEST_FILE,
+        f"cut off after {plural(most, 'line')}": len(lines) > most,
+        "not UTF-8: wrong letters are shown as \ufffd": "\ufffd" in "".join(lines),
+    }
+    note = next((note for note, applies in notes.items() if applies), words.removeprefix("empty"))
     beside: dict[int, list[str]] = {}
     for each in remarks:
         if each.file == name:
             beside.setdefault(each.line, []).append(each.comment)
     return File(name, lines[:most], note, beside)
-
-
-def is_utf8(content: bytes) -> bool:
-    try:
-        content.decode("utf-8")
-    except UnicodeDecodeError:
-        return False
-    return True
 
 
 def fill(template: str, **values: object) -> str:

@@ -15,7 +15,7 @@ from grader.judge.course import COURSE_FILE, FULL, Course
 from grader.judge.grade import KIT, Options, grade
 from grader.judge.isolation import Isolation
 from grader.judge.result import Result
-from grader.text import plural, printable
+from grader.text import printable
 
 CHECKOUT = ("solution/mini_engine", "starter/mini_engine", "tests/bank", "handouts/instructor")
 
@@ -129,15 +129,8 @@ def open_path(path: Path, programs: Collection[str] = ()) -> Iterator[Path]:
         yield path
         return
     # Imported here: students have none of it, and it would add 30 ms to every start.
-    from grader.intake.listing import find_class
     from grader.intake.packing import open_submission
 
-    if names := find_class(path) if path.is_dir() else []:
-        more = f" and {len(names) - 2} more" if len(names) > 2 else ""
-        raise Stop(
-            f"{path} holds {plural(len(names), 'submission')}, {', '.join(names[:2])}{more}: grade "
-            "all of them with --class, or name one"
-        )
     with open_submission(path, print_note, programs) as folder:
         yield folder
 

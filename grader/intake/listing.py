@@ -2,12 +2,10 @@
 
 import pickle
 import unicodedata
-from collections import Counter
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
-from itertools import chain
 from pathlib import Path
 
 from grader.errors import Stop
@@ -16,16 +14,8 @@ from grader.intake.found import CannotTake, Found, Intake, Upload
 from grader.intake.groups import share_work
 from grader.intake.lms import Lms
 from grader.intake.names import fold, make_portable
-from grader.intake.packing import lay_out, pack, read_first_name
-from grader.intake.pieces import ManyPrograms
-from grader.intake.places import (
-    cut_suffix,
-    has_program,
-    is_archive,
-    list_folder,
-    list_modules,
-    list_programs,
-)
+from grader.intake.packing import pack, read_first_name
+from grader.intake.places import cut_suffix, has_program, is_archive, list_folder
 from grader.intake.roster import CALLED, ClassList, find_student
 from grader.intake.systems import ANY_OTHER, SYSTEMS
 from grader.judge.outer import READING, Allowance, Exceeded, Failed, Lost, call_alone, call_within
@@ -298,36 +288,3 @@ def hash_files(each: Found) -> str:
         return pack(each).digest
     except CannotTake as error:
         return str(error)
-
-
-# ---------------------------------------------------------------- a class without --class
-
-
-def find_class(folder: Path) -> list[str]:
-    """Return the submissions in a folder of a class; empty if the folder may be one submission.
-
-    A submission may lie deeper in, or have a folder for each program. So it is a class only if the
-    folder itself has none of the programs, and two or more of its entries have one.
-    """
-    try:
-        found = [] if has_program(folder) else list_class(folder, ClassList()).found
-    except (Stop, OSError):
-        return []
-    answers = (
-        (each.name, call_alone(READING, frozenset[str], partial(find_programs, each)))
-        for each in found
-    )
-    programs = {name: held for name, held in answers if isinstance(held, frozenset)}
-    count = Counter(chain.from_iterable(programs.values()))
-    return [name for name, held in programs.items() if any(count[each] > 1 for each in held)]
-
-
-def find_programs(found: Found) -> frozenset[str]:
-    """Return the programs that a submission holds, wherever; all where two places have some."""
-    try:
-        with lay_out(found) as (root, _):
-            return list_programs(root)
-    except ManyPrograms:
-        return list_modules()
-    except (Stop, OSError):
-        return frozenset()

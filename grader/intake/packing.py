@@ -150,28 +150,19 @@ def find_empty_programs(files: list[tuple[str, bytes]], asked: Collection[str]) 
 
 
 @contextmanager
-def lay_out(found: Found) -> Iterator[tuple[Path, list[str]]]:
-    """Lay the work out in a folder as the lab does, with notes on it."""
-    with open_found(found) as opened, lay_out_opened(*opened) as laid_out:
-        yield laid_out
-
-
-@contextmanager
-def lay_out_opened(
-    folder: Path, laid: Arranged, notes: list[str]
-) -> Iterator[tuple[Path, list[str]]]:
-    """Do the same with what open_found() yields."""
+def lay_out(folder: Path, laid: Arranged) -> Iterator[Path]:
+    """Lay opened work out in a folder as the lab does."""
     if not laid.files:
-        yield enter_single_folders(folder), notes
+        yield enter_single_folders(folder)
     elif laid.as_found:
-        yield laid.root, [*notes, *laid.notes]
+        yield laid.root
     else:
         with work_folder() as temporary:
             for name, path in laid.files.items():
                 (temporary / name).parent.mkdir(parents=True, exist_ok=True)
                 with open_inside(folder, path) as file:
                     copy_plain(file, temporary / name, size_of(file))
-            yield temporary, [*notes, *laid.notes]
+            yield temporary
 
 
 @contextmanager

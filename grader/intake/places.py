@@ -57,15 +57,9 @@ def enter_single_folders(folder: Path) -> Path:
 
 
 def has_program(folder: Path) -> bool:
-    return bool(list_programs(folder))
-
-
-def list_programs(folder: Path) -> frozenset[str]:
-    """Return the modules that the rubric asks for and that lie in this folder itself."""
-    return frozenset(
-        name
-        for name in list_modules()
-        if (folder / name).is_dir() or (folder / f"{name}.py").is_file()
+    """Tell whether a program of the lab lies in this folder itself."""
+    return any(
+        (folder / name).is_dir() or (folder / f"{name}.py").is_file() for name in list_modules()
     )
 
 

@@ -173,17 +173,6 @@ def test_results_without_a_book_are_shown_and_rubbish_is_named(tmp_path: Path):
     assert ben.result is None and "ben.json is no result" in ben.outcome.trouble
 
 
-def test_a_class_in_memory_has_of_each_result_what_its_page_shows(tmp_path: Path):
-    make_class(tmp_path / "class", 6, words="long words")
-    read = {each.outcome.name: each for each in read_class(tmp_path / "class")}
-    assert "long words" in str(read["student 001"].result)
-    for each in read.values():
-        for shown in each.todos.values():
-            told = {check.meaning for check in shown.checks}
-            assert told == ({"long words"} if shown.misconception else set())
-            assert not any(check.ran or check.expected or check.got for check in shown.checks)
-
-
 def test_an_empty_folder_is_refused(tmp_path: Path):
     with pytest.raises(Stop, match="there are no results in"):
         read_class(tmp_path)

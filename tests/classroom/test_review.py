@@ -1,10 +1,11 @@
-"""What a person decides about a class: in the file, on the local page, and by mail."""
+"""Decisions about a class: in the file, on the local page, and by mail."""
 
 import csv
 import email
 import email.policy
 import http.client
 import re
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from threading import Thread
@@ -66,15 +67,25 @@ def decisions(folder: Path, text: str = BY_HAND) -> DecisionsFile:
 def test_a_changed_decision_leaves_every_other_line_as_it_was(tmp_path: Path):
     file = decisions(tmp_path)
     ann, two = file.list_decisions()
-    file.replace(ann, ann.values | {"points": 71, "reason": 'a "new" one\n# of two lines'})
-    now = BY_HAND.replace("points = 70 ", "points = 71 ")
-    now = now.replace('"it\'s # fine"', '"a \\"new\\" one\\n# of two lines"')
-    assert file.text == now
-    file.add("comment", {"student": "ann", "comment": "Well done"})
-    assert file.text == now + '\n[[comment]]\nstudent = "ann"\ncomment = "Well done"\n'
+    file.put("adjust", ann.values | {"points": 71, "reason": 'a "new" one\n# of two lines'}, ann)
+    before, table, after = BY_HAND.partition(
+        BY_HAND[BY_HAND.index("[[") : BY_HAND.index("\n# about two")]
+    )
+    new = '[[adjust]]\nstudent = "ann"\npoints = 71\nreason = "a \\"new\\" one\\n# of two lines"\n'
+    assert table and file.text == before + new + after
+    file.put("comment", {"student": "ann", "comment": "Well done"})
+    assert file.text == before + new + after + (
+        '\n[[comment]]\nstudent = "ann"\ncomment = "Well done"\n'
+    )
     file.remove(two.key)
     assert [each.what for each in file.list_decisions()] == ["points", "comment"]
     assert "# about two\n# the end\n" in file.text
+    now = file.text
+    with pytest.raises(Stop, match="101 of 'dora' is more than the 100"):
+        file.put("adjust", {"student": "dora", "points": 101, "reason": "x"})
+    with pytest.raises(Stop, match="has changed meanwhile"):
+        file.remove(two.key)
+    assert file.text == now
 
 
 @pytest.mark.parametrize(
@@ -86,18 +97,9 @@ def test_a_changed_decision_leaves_every_other_line_as_it_was(tmp_path: Path):
 )
 def test_a_file_of_unusual_form_is_left_to_its_writer(tmp_path: Path, text: str):
     file = decisions(tmp_path, text)
-    with pytest.raises(Stop, match="is not changed here: edit it"):
+    with pytest.raises(Stop, match="has a form that only people can change"):
         file.list_decisions()
     assert file.text == text
-
-
-def test_a_decision_that_means_nothing_is_not_written(tmp_path: Path):
-    file = decisions(tmp_path)
-    with pytest.raises(Stop, match="101 of 'dora' is more than the 100"):
-        file.add("adjust", {"student": "dora", "points": 101, "reason": "x"})
-    with pytest.raises(Stop, match="has changed meanwhile"):
-        file.remove("adjust []")
-    assert file.text == BY_HAND
 
 
 @pytest.mark.parametrize(
@@ -124,24 +126,22 @@ def test_of_two_lines_of_one_text_the_neighbours_decide():
     assert place_comment(alone, {"a.py": CODE}).line == 0
 
 
-def test_of_a_line_no_more_is_kept_and_shown_than_a_person_looks_at():
+def test_of_long_files_only_a_part_is_kept_and_shown():
     content = b"x = 1\n" + b"y" * 10**6 + b"\nz = 2\n"
     comment = write_comment("ann", "Why?", "a.py", 2, content)
     remark = place_comment(comment, {"a.py": content})
     assert remark.line == 2 and all(len(text) <= LONGEST_LINE for _, text in remark.code)
     assert len(comment.code) == LONGEST_LINE
-
-
-def test_a_page_shows_no_more_lines_than_a_browser_takes():
     shown = Shown([(f"{number}.py", b"\n" * 200_000) for number in range(60)])
     files = list_files(shown, [])
     assert sum(len(each.lines) for each in files) == MOST_LINES
     assert len(files) == 60 and all("cut off" in each.note for each in files)
+    text = show_file("onlinetext.html", b"<html><p>I am ill</p></html>", [], 9)
+    assert text.lines == ["<html><p>I am ill</p></html>"] and text.note == "a web page"
+    assert show_file("report.pdf", b"%PDF-1.7", [], 9).lines == []
 
 
 # ---------------------------------------------------------------- which work is meant
-
-PROGRAM = {"mini_engine/__init__.py": "", "pymunk_scene.py": ""}
 
 
 def put(folder: Path, files: dict[str, str]) -> None:
@@ -150,31 +150,30 @@ def put(folder: Path, files: dict[str, str]) -> None:
         (folder / name).write_text(text)
 
 
+TWO = {"a/integrators.py": "1", "b/integrators.py": "2"}
+
+
 @pytest.mark.parametrize(
-    "student, files, path, text",
+    "folder, files, path, text",
     [
-        (
-            "ann",
-            {"ann/integrators.py": "1", "ann/integrators (1).py": "2"},
-            "integrators (1).py",
-            "2",
-        ),
-        ("ann", {"ann/a/integrators.py": "1", "ann/b/integrators.py": "2"}, "b", "2"),
-        ("ann", {"ann/a/integrators.py": "1", "ann/b/integrators.py": "2"}, "ann/a", "1"),
-        ("ann", {"odd/integrators.py": "3"}, "odd", "3"),
-        ("ann", {"odd/a/integrators.py": "3", "odd/b/integrators.py": "4"}, "odd/b", "4"),
+        ("ann", {"integrators.py": "1", "integrators (1).py": "2"}, "integrators (1).py", "2"),
+        ("ann", TWO, "b", "2"),
+        ("ann", TWO, "ann/a", "1"),
+        ("odd", {"integrators.py": "3"}, "odd", "3"),
+        ("odd", TWO, "odd/b", "2"),
     ],
 )
 def test_the_work_that_a_person_takes_counts(
-    tmp_path: Path, student: str, files: dict[str, str], path: str, text: str
+    tmp_path: Path, folder: str, files: dict[str, str], path: str, text: str
 ):
-    put(tmp_path, files | {"zed/integrators.py": "9"})
+    put(tmp_path, {"zed/integrators.py": "9"} | {f"{folder}/{n}": t for n, t in files.items()})
     people = ClassList()
-    people.chosen = [(student, path)]
+    people.chosen = [("ann", path), ("yan", "gone.zip")]
     with open_class(tmp_path, people) as intake:
         found = {each.name: each for each in intake.found}
         assert set(found) == {"ann", "zed"} and not intake.troubles
         assert dict(pack(found["ann"]).files)["integrators.py"] == text.encode()
+        assert intake.notes == ["yan: 'gone.zip' was chosen, and nothing of that name is there"]
 
 
 def test_a_choice_holds_for_all_who_handed_in_together(tmp_path: Path):
@@ -184,14 +183,6 @@ def test_a_choice_holds_for_all_who_handed_in_together(tmp_path: Path):
     people.chosen = [("ben", "a")]
     apply_choices(intake, people)
     assert {(each.name, each.taken) for each in intake.found} == {("ann", ("a",)), ("ben", ("a",))}
-
-
-def test_a_choice_of_nothing_is_noted(tmp_path: Path):
-    put(tmp_path, {"ann/integrators.py": "1"})
-    people = ClassList()
-    people.chosen = [("zed", "gone.zip")]
-    with open_class(tmp_path, people) as intake:
-        assert intake.notes == ["zed: 'gone.zip' was chosen, and nothing of that name is there"]
 
 
 # ---------------------------------------------------------------- the page
@@ -213,10 +204,10 @@ def lock(archive: bytes) -> bytes:
     return bytes(content)
 
 
-@pytest.fixture
-def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A graded class with all that needs a person."""
-    monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
+@pytest.fixture(scope="module")
+def graded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Grade a class with everything that needs a person."""
+    lab = tmp_path_factory.mktemp("term") / "lab"
     work = classes.work(5)
     two = {f"{at}/{name}": text for at in "ab" for name, text in work.items()}
     export = {
@@ -230,17 +221,22 @@ def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         "hana.zip": packed.as_zip(work | {"integrators.py": "x = '\xfc'".encode("latin-1")}),
     }
     for name, content in export.items():
-        classes.put(tmp_path / "export" / name, content)
-    rows = [
-        f"{n}@x.edu,{n.title()} Lee" for n in ("ann", "ben", "dora", "eve", "finn", "gil", "hana")
-    ]
-    (tmp_path / "list.csv").write_text("\n".join(["Email address,Full name", *rows, ""]))
-    (tmp_path / "autumn.toml").write_text(COURSE)
-    paths = {"roster": "list.csv", "course": "autumn.toml", "submissions": "export"}
-    options = [word for name, file in paths.items() for word in (f"--{name}", tmp_path / file)]
-    call_class("new", tmp_path / "lab", *options)
-    assert "5 need manual review" in call_class("grade", tmp_path / "lab")
-    return tmp_path / "lab"
+        classes.put(lab / "export" / name, content)
+    students = ("ann", "ben", "dora", "eve", "finn", "gil", "hana")
+    rows = [f"{name}@x.edu,{name.title()} Lee" for name in students]
+    (lab / "roster.csv").write_text("\n".join(["Email address,Full name", *rows, ""]))
+    (lab / "course.toml").write_text(COURSE)
+    call_class("new", lab, "--submissions", lab / "export")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(grading, "open_executor", lambda wanted: Inline())
+        assert "5 need manual review" in call_class("grade", lab)
+    return lab
+
+
+@pytest.fixture
+def lab(graded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
+    return shutil.copytree(graded, tmp_path / "lab")
 
 
 @pytest.fixture
@@ -265,24 +261,18 @@ def ask(
     return respond(review, Request(**values | more))
 
 
-@pytest.mark.parametrize(
-    "more",
-    [
+def test_nobody_else_reads_the_page_and_no_other_page_sends_a_form(server: ReviewServer, lab: Path):
+    for more in (
         {"cookie": ""},
         {"cookie": "x"},
         {"host": "evil.example"},
         {"host": "127.0.0.1"},
         {"query": {"token": "\u00fc"}, "cookie": ""},
-    ],
-)
-def test_nobody_else_reads_the_page(server: ReviewServer, more: dict[str, Any]):
-    assert ask(server, "/", **more).status == 403
-
-
-@pytest.mark.parametrize("origin", ["", "null", "http://evil.example", "http://127.0.0.1:1"])
-def test_no_other_page_sends_a_form(server: ReviewServer, lab: Path, origin: str):
+    ):
+        assert ask(server, "/", **more).status == 403, more
     form = {"name": "dora", "kind": "points", "points": 9, "reason": "x"}
-    assert ask(server, "/points", form, origin=origin).status == 403
+    for origin in ("", "null", "http://evil.example", "http://127.0.0.1:1"):
+        assert ask(server, "/points", form, origin=origin).status == 403, origin
     assert not (lab / "decisions.toml").exists()
 
 
@@ -320,41 +310,31 @@ def test_what_a_person_decides_on_the_page_counts(server: ReviewServer, lab: Pat
     assert "integrators.py, line 3" in page and "Which x?" in page
     page = (lab / "results" / "dora.html").read_text(encoding="utf-8")
     assert "No password, please." in page and BAD not in page
-
-
-def test_a_comment_is_on_the_next_submission_too(server: ReviewServer, lab: Path):
-    form = {"name": "ann", "file": "integrators.py", "line": 3, "comment": "Which x?"}
-    ask(server, "/comment", form)
     work = classes.work(6) | {"integrators.py": f"import math\n\n{code(6)}"}
-    classes.put(lab.parent / "export" / "ann.zip", packed.as_zip(work))
+    classes.put(lab / "export" / "ann.zip", packed.as_zip(work))
     call_class("grade", lab)
     page = (lab / "results" / "ann.html").read_text(encoding="utf-8")
     assert "integrators.py, line 5" in page and "<mark>5     x = x + v * dt</mark>" in page
 
 
-@pytest.mark.parametrize(
-    "path, form, words",
-    [
-        ("/points", {"points": "9", "kind": "points"}, "the reason is missing"),
-        ("/points", {"points": "x", "kind": "points", "reason": "x"}, "is no whole number"),
-        ("/points", {"points": "99", "kind": "points", "reason": "x"}, "more than the 20"),
-        ("/points", {"points": "9", "kind": "zone", "reason": "x"}, "choose what"),
+def test_a_form_that_means_nothing_writes_nothing_and_words_are_text(
+    server: ReviewServer, lab: Path
+):
+    points = {"points": "9", "kind": "points", "reason": "x"}
+    for path, form, words in [
+        ("/points", points | {"reason": ""}, "the reason is missing"),
+        ("/points", points | {"points": "x"}, "is not a whole number"),
+        ("/points", points | {"points": "99"}, "more than the 20"),
+        ("/points", points | {"kind": "zone"}, "choose what"),
         ("/work", {"path": "/etc/passwd", "reason": "x"}, "choose one of the files"),
         ("/owner", {"student": "gil@x.edu", "reason": "x"}, "choose a student"),
         ("/comment", {"comment": " "}, "the comment is empty"),
         ("/comment", {"comment": "x", "file": "../x", "line": "1"}, "has no line 1"),
         ("/remove", {"key": "x"}, "has changed meanwhile"),
-    ],
-)
-def test_a_form_that_means_nothing_writes_nothing(
-    server: ReviewServer, lab: Path, path: str, form: dict[str, object], words: str
-):
-    answer = ask(server, path, {"name": "ben"} | form)
-    assert answer.status == 400 and words in answer.body
+    ]:
+        answer = ask(server, path, {"name": "ben"} | form)
+        assert answer.status == 400 and words in answer.body
     assert not (lab / "decisions.toml").exists()
-
-
-def test_words_of_submissions_are_text(server: ReviewServer):
     page = Reader(ask(server, "/student?name=eve").body)
     assert BAD in page.text and page.count("script") == 0 and not page.handlers
 
@@ -420,12 +400,6 @@ def tab_to(page: Any, *names: str) -> None:
     raise AssertionError(f"no Tab leads to {names}")
 
 
-def test_a_text_that_was_typed_is_shown_as_its_source():
-    shown = show_file("onlinetext.html", b"<html><p>I am ill</p></html>", [], 9)
-    assert shown.lines == ["<html><p>I am ill</p></html>"] and shown.note == "a web page"
-    assert show_file("report.pdf", b"%PDF-1.7", [], 9).lines == []
-
-
 # ---------------------------------------------------------------- mail
 
 
@@ -444,15 +418,6 @@ def test_who_must_send_work_again_gets_a_draft(lab: Path):
     assert set(rows) == set(drafts) and "save it as UTF-8" in rows["hana@x.edu"]["text"]
 
 
-def test_a_decided_mark_needs_no_mail(lab: Path):
-    call_class("mail", lab)
-    decision = '[[adjust]]\nstudent = "dora"\npoints = 9\nreason = "shown"\n'
-    (lab / "decisions.toml").write_text(decision, encoding="utf-8")
-    call_class("grade", lab)
-    assert "4 drafts in" in call_class("mail", lab)
-    assert not (lab / "mail" / "dora@x.edu.eml").exists()
-
-
 def test_an_edited_draft_stays(lab: Path):
     call_class("mail", lab)
     drafts = {name: lab / "mail" / f"{name}@x.edu.eml" for name in ("ben", "dora", "eve", "finn")}
@@ -467,22 +432,21 @@ def test_an_edited_draft_stays(lab: Path):
     assert own.exists() and "stays: its student needs none now" in said
 
 
-def test_who_is_decided_since_grading_gets_no_draft(lab: Path):
+def test_only_those_who_must_still_send_work_get_a_draft(lab: Path):
+    """Points decided are enough, work that still cannot be read is not."""
+    call_class("mail", lab)
     decision = '[[adjust]]\nstudent = "Dora Lee"\npoints = 9\nreason = "shown"\n'
     late = '[[adjust]]\nstudent = "eve"\nlate = false\nreason = "ill"\n'
-    (lab / "decisions.toml").write_text(decision + late, encoding="utf-8")
+    again = '[[adjust]]\nstudent = "hana"\ntake = "hana.zip"\nreason = "this"\n'
+    (lab / "decisions.toml").write_text(decision + late + again, encoding="utf-8")
     said = call_class("mail", lab)
-    assert "dora: no mail, decided since: grade again" in said
-    assert "4 drafts in" in said and (lab / "mail" / "eve@x.edu.eml").exists()
-
-
-def test_a_choice_that_did_not_help_is_asked_about_again(lab: Path):
-    decision = '[[adjust]]\nstudent = "dora"\ntake = "dora.zip"\nreason = "this"\n'
-    (lab / "decisions.toml").write_text(decision, encoding="utf-8")
+    assert "dora: no mail, decided since: grade again" in said and "3 drafts in" in said
     call_class("grade", lab)
-    assert "5 drafts in" in call_class("mail", lab)
+    assert "4 drafts in" in call_class("mail", lab)
+    assert not (lab / "mail" / "dora@x.edu.eml").exists()
+    assert (lab / "mail" / "eve@x.edu.eml").exists()
 
 
 def test_a_class_list_without_addresses_is_told_what_it_lacks(lab: Path):
-    (lab.parent / "list.csv").write_text("SIS Login ID,Full name\nann,Ann Lee\n", encoding="utf-8")
+    (lab / "roster.csv").write_text("SIS Login ID,Full name\nann,Ann Lee\n", encoding="utf-8")
     assert "holds no address in any column: add a column 'Email address'" in call_class("mail", lab)

@@ -172,18 +172,6 @@ def test_a_class_that_unpacks_without_end_is_said(tmp_path: Path, monkeypatch: p
         pass
 
 
-def test_an_entry_that_cannot_be_read_makes_no_class(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-):
-    write_honest(tmp_path / "class")
-    find = listing.find_programs
-    monkeypatch.setattr(listing, "READING", LITTLE)
-    monkeypatch.setattr(
-        listing, "find_programs", lambda each: loop() if each.name == "ben" else find(each)
-    )
-    assert listing.find_class(tmp_path / "class") == ["anna", GREEK]
-
-
 @pytest.mark.soak
 def test_a_page_that_cannot_be_made_says_so_and_the_others_are_made(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

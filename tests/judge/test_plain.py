@@ -7,7 +7,7 @@ import pytest
 
 from grader.intake import packing
 from grader.intake.found import CannotTake, Found
-from grader.intake.packing import lay_out, pack
+from grader.intake.packing import open_found, pack
 from grader.judge import plain, submission
 from grader.judge.plain import open_plain, read_plain
 from grader.judge.rubric import load_rubric
@@ -108,7 +108,10 @@ def test_an_upload_that_is_no_file_has_a_sentence(tree: Path, kind: str):
         os.mkfifo(upload)
     else:
         upload.symlink_to(tree / "integrators.py")
-    with pytest.raises(CannotTake, match=r"^it cannot be read: "), lay_out(Found("ann", (upload,))):
+    with (
+        pytest.raises(CannotTake, match=r"^it cannot be read: "),
+        open_found(Found("ann", (upload,))),
+    ):
         pass
 
 

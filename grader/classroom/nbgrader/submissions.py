@@ -17,7 +17,7 @@ from grader.classroom.fingerprint import make_key
 from grader.errors import Stop
 from grader.intake.found import Found, Intake
 from grader.intake.listing import open_class
-from grader.intake.packing import lay_out_opened, open_found
+from grader.intake.packing import lay_out, open_found
 from grader.judge.grade import KIT, Options
 from grader.judge.outer import READING, call_alone
 from grader.judge.plain import copy_plain, open_plain, size_of
@@ -57,8 +57,8 @@ def collect_submissions(folder: Path, course: Path) -> Iterator[Taken]:
 def take_found(found: Found, course: Path) -> Taken:
     """Take one submission, or say why it cannot be taken."""
     try:
-        with open_found(found) as opened, lay_out_opened(*opened) as (path, _):
-            return take_submission(found.name, path, opened[0], course)
+        with open_found(found) as (folder, laid, _), lay_out(folder, laid) as path:
+            return take_submission(found.name, path, folder, course)
     except Stop as error:
         return Taken(found.name, str(error), False)
 
