@@ -9,11 +9,11 @@ import difflib
 import re
 import tempfile
 import textwrap
-from collections.abc import Callable, Collection, Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
+from typing import Any
 
 import msgspec
 from msgspec import Struct
@@ -22,14 +22,13 @@ from rich.table import Table
 
 from grader.bank.members import Entry, Member
 from grader.bank.slips import SCOPES, Scope, make_slips
-from grader.bank.verify import run_in_processes, shared_worker
+from grader.bank.verify import collect, run_in_processes, shared_worker
 from grader.judge import misconceptions
 from grader.judge.grade import KIT, Options, grading, shipped_reference
 from grader.judge.lab import Observation
 from grader.judge.misconceptions import Undecided
 from grader.judge.result import CheckResult, Result
 from grader.judge.rubric import Rubric, load_rubric
-from grader.report.progress import Counter
 from grader.source.definitions import function_named, statements
 from grader.source.operators import make_changes, names_in, normalize
 from grader.source.regions import Region, python_files, read_source, regions_in
@@ -50,44 +49,31 @@ class Mutant:
     now: str
     code: str
 
-    @property
-    def patch(self) -> str:
-        return f"# TODO {self.todo}: {self.operator}\n{self.code}\n# END TODO {self.todo}\n"
-
     def __str__(self) -> str:
         return f"TODO {self.todo}, {self.operator}: {self.was}  ->  {self.now}"
 
 
 @cache
-def all_mutants() -> tuple[Mutant, ...]:
-    """Make every mutant of every TODO of the solution, in the order of the rubric."""
-    return tuple(
-        mutant for todo in load_rubric().todos if todo.function for mutant in mutants_of(todo.id)
-    )
-
-
-@cache
 def mutants_of(todo: str) -> tuple[Mutant, ...]:
-    """Make every mutant of one TODO of the solution."""
-    return tuple(mutate(todo))
-
-
-def mutate(todo: str) -> Iterator[Mutant]:
+    """Make every mutant of one TODO of the solution, each other code."""
     text, region = regions_of("solution")[todo]
-    _, unfinished = regions_of("starter")[todo]
     path = next(each.function or "" for each in load_rubric().todos if each.id == todo)
     function = function_named(statements(text), path.partition(":")[2])
     assert function is not None
-    parameters = frozenset(each.arg for each in function.args.args)
     scope = msgspec.structs.replace(
-        SCOPES.get(todo, Scope()), parameters=parameters, unfinished=code_of(unfinished)
+        SCOPES.get(todo, Scope()),
+        parameters=frozenset(each.arg for each in function.args.args),
+        unfinished=code_of(regions_of("starter")[todo][1]),
     )
     code = code_of(region)
-    operators: dict[str, str] = {}
+    operators = {normalize(code): ""}
     for operator, change in (*make_changes(code, names_in(function)), *make_slips(code, scope)):
         operators.setdefault(change, operator)
-    for change, operator in operators.items():
-        yield Mutant(todo, operator, *find_difference(code, change), change)
+    return tuple(
+        Mutant(todo, operator, *find_difference(code, change), change)
+        for change, operator in operators.items()
+        if operator
+    )
 
 
 @cache
@@ -123,7 +109,7 @@ def split_lines(code: str) -> list[str]:
     return re.split(r"\n|(?<=\)), (?=\()", code)
 
 
-def choose_mutants(todos: Collection[str], operators: Collection[str]) -> list[Mutant]:
+def choose_mutants(todos: Collection[str] = (), operators: Collection[str] = ()) -> list[Mutant]:
     """Return the mutants of these TODOs and operators; of all where none is named."""
     return [
         each
@@ -163,7 +149,6 @@ def load_equivalents() -> list[Equivalent]:
     return msgspec.toml.decode(text, type=dict[str, list[Equivalent]])["equivalent"]
 
 
-@cache
 def is_equivalent(mutant: Mutant) -> bool:
     return any(each.has(mutant) for each in load_equivalents())
 
@@ -179,6 +164,10 @@ class Outcome:
     lost: dict[str, int]  # by TODO
     mistake: str | None = None
     is_misnamed: bool = False
+
+    @property
+    def name(self) -> str:
+        return str(self.mutant)
 
     @property
     def verdict(self) -> str:
@@ -199,10 +188,6 @@ class Outcome:
         return f"is not {self.mistake}" if self.is_misnamed else ""
 
 
-class CheckFailed(Exception):
-    """Raised to end a run at the first check that fails."""
-
-
 def grade_mutant(mutant: Mutant, alone: bool = False) -> Outcome:
     """Grade it on all TODOs of its program, and test the name of its mistake.
 
@@ -210,9 +195,8 @@ def grade_mutant(mutant: Mutant, alone: bool = False) -> Outcome:
     survivors in a fraction of the time.
     """
     with tempfile.TemporaryDirectory(prefix="mutant-") as folder:
-        patch, submission = Path(folder, "patch.py"), Path(folder).resolve() / "mutant"
-        patch.write_text(mutant.patch, encoding="utf-8")
-        member = Member("wrong", "mutant", "package", Entry(), patch)
+        submission = Path(folder).resolve() / "mutant"
+        member = Member("wrong", f"{mutant.todo}-mutant", "package", Entry(code=mutant.code), None)
         member.build(KIT, submission)
         if alone:
             return Outcome(mutant, find_first_failure(submission, mutant.todo))
@@ -223,29 +207,30 @@ def grade_mutant(mutant: Mutant, alone: bool = False) -> Outcome:
         return Outcome(mutant, lost, mistake, misnamed)
 
 
+class CheckFailed(Exception):
+    """Raised to end a run at the first check that fails."""
+
+
 def find_first_failure(submission: Path, todo: str) -> dict[str, int]:
     """Grade one TODO until a check fails; return the points of that check."""
-    lost: dict[str, int] = {}
 
     def stop_where_it_fails(check: CheckResult) -> None:
         if check.state not in ("passed", "waiting"):
-            lost[todo] = check.max_points
-            raise CheckFailed
+            raise CheckFailed(check.max_points)
 
-    with suppress(CheckFailed):
+    try:
         grade_quickly(submission, frozenset({todo}), progress=stop_where_it_fails)
-    return lost
+    except CheckFailed as failure:
+        return {todo: failure.args[0]}
+    return {}
 
 
 def grade_quickly(
-    path: Path,
-    only: frozenset[str],
-    seed: int | None = None,
-    progress: Callable[[CheckResult], None] | None = None,
+    path: Path, only: frozenset[str], **options: Any
 ) -> tuple[Result, dict[str, list[Observation]]]:
     """Return the result and all answers by TODO, with a small budget for each check."""
-    options = Options(shipped_reference(), only=only, seed=seed, progress=progress, trusted=True)
-    with grading(path, options, shared_worker(), load_quick_rubric()) as run:
+    asked = Options(shipped_reference(), only=only, trusted=True, **options)
+    with grading(path, asked, shared_worker(), load_quick_rubric()) as run:
         return run.run(), run.observations
 
 
@@ -263,7 +248,7 @@ def load_quick_rubric() -> Rubric:
 
 def name_holds(submission: Path, todo: str, name: str) -> bool:
     """Return whether the mistake's model foretells the answers to other questions as well."""
-    answers = (grade_quickly(submission, frozenset({todo}), seed)[1] for seed in OTHER_SEEDS)
+    answers = (grade_quickly(submission, frozenset({todo}), seed=seed)[1] for seed in OTHER_SEEDS)
     return all(foretells_answers(todo, name, each.get(todo, [])) for each in answers)
 
 
@@ -294,13 +279,8 @@ def run_mutants(
     mutants: Sequence[Mutant], jobs: int, console: Console, alone: bool = False
 ) -> list[Outcome]:
     """Grade the mutants; print each complaint, and a table."""
-    outcomes: list[Outcome] = []
-    with Counter("grading mutants", len(mutants), console) as counter:
-        for outcome in run_in_processes(partial(grade_mutant, alone=alone), mutants, jobs):
-            outcomes.append(outcome)
-            counter.reached(len(outcomes))
-            if outcome.complaint:
-                console.print(f"{outcome.mutant}: {outcome.complaint}")
+    graded = run_in_processes(partial(grade_mutant, alone=alone), mutants, jobs)
+    outcomes = collect("grading mutants", graded, len(mutants), console)
     table = Table("TODO", "all", "killed", "survived", "equivalent", "named")
     for todo in dict.fromkeys(each.todo for each in mutants):
         table.add_row(

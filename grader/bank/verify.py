@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from multiprocessing import active_children, get_context
 from pathlib import Path
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 from rich.console import Console
 from rich.table import Table
@@ -37,10 +37,19 @@ from grader.report.progress import Counter
 
 One = TypeVar("One")
 Found = TypeVar("Found")
-Judged = TypeVar("Judged", "Verdict", "HalfwayVerdict")
 
 RESULTS = KIT / "build" / "verify"
 MIN_HELPED = 0.95  # share of the half-way states whose first failure must say what is wrong
+
+
+class HasComplaint(Protocol):
+    @property
+    def name(self) -> str: ...
+    @property
+    def complaint(self) -> str: ...
+
+
+Judged = TypeVar("Judged", bound=HasComplaint)
 
 
 @dataclass

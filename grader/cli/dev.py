@@ -137,10 +137,10 @@ def mutants_command(
     One with the same results is listed, with its reason, in grader/bank/equivalent.toml.
     """
     require_checkout("mutants")
-    from grader.bank.mutants import all_mutants, choose_mutants, run_mutants
+    from grader.bank.mutants import choose_mutants, run_mutants
 
     todos = check_todos(todo)
-    operators = sorted({mutant.operator for mutant in all_mutants()})
+    operators = sorted({mutant.operator for mutant in choose_mutants()})
     for name in operator or ():
         if name not in operators:
             raise Stop(f"there is no operator {name}; there are {', '.join(operators)}")

@@ -5,7 +5,6 @@ code that a hurried student could have written, and that a good check should not
 """
 
 import ast
-import copy
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -54,7 +53,6 @@ ATTRIBUTES = (
     ("bias", "k"),
 )
 ANY_ORDER = {"max", "min"}  # swapping arguments of these changes nothing
-SIGNS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 
 
 @dataclass(frozen=True)
@@ -98,20 +96,17 @@ def make_changes(code: str, names: frozenset[str] = frozenset()) -> Iterator[tup
     """Yield every change of one thing in `code`: the operator's name and the code after it.
 
     `names` are the variables in scope beside those of the code itself. The code comes in the
-    layout of `ast.unparse`, and no code comes twice.
+    layout of `ast.unparse`.
     """
     tree = ast.parse(code)
     known = names | names_in(tree)
-    seen = {ast.unparse(tree)}
     for place in list(walk_places(tree)):
         for operator in OPERATORS:
             for offer in operator(place.node, known):
                 restore = place.put(offer)
                 text = ast.unparse(ast.fix_missing_locations(tree))
                 restore()
-                if text not in seen:
-                    seen.add(text)
-                    yield operator.__name__, text
+                yield operator.__name__, text
 
 
 def names_in(tree: ast.AST) -> frozenset[str]:
@@ -255,27 +250,6 @@ def cut_loop_short(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
             yield ast.For(node.target, items, node.body, node.orelse)
 
 
-def change_in_place(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """`low = b.pos; low -= half`, which moves b: change a vector itself instead of a copy."""
-    if isinstance(node, ast.Assign | ast.AugAssign | ast.Return | ast.Expr):
-        for operation in find_operations(node):
-            left, sign = ast.unparse(operation.left), SIGNS[type(operation.op)]
-            update = parse_code(f"{left} {sign}= {ast.unparse(operation.right)}")
-            rest = Replacer(ast.unparse(operation), left).visit(copy.deepcopy(node))
-            yield [*update, rest]
-
-
-def find_operations(statement: ast.stmt) -> Iterator[ast.BinOp]:
-    """Yield each `u + v` in a statement where u is a variable or field, and no inner loop's."""
-    inner = [each for each in ast.walk(statement) if isinstance(each, ast.Lambda | ast.ListComp)]
-    hidden = {id(node) for each in inner for node in ast.walk(each)}
-    for node in ast.walk(statement):
-        match node:
-            case ast.BinOp(ast.Name() | ast.Attribute(), op) if type(op) in SIGNS:
-                if id(node) not in hidden:
-                    yield node
-
-
 OPERATORS: tuple[Operator, ...] = (
     change_arithmetic,
     change_comparison,
@@ -287,5 +261,4 @@ OPERATORS: tuple[Operator, ...] = (
     change_condition,
     change_statement,
     cut_loop_short,
-    change_in_place,
 )
