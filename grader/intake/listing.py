@@ -1,8 +1,8 @@
-"""List a class: whose each file and folder is, each submission once, and what cannot be graded."""
+"""List a class: each submission once with its owner, and what cannot be graded."""
 
 import pickle
 import unicodedata
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
@@ -18,11 +18,11 @@ from grader.intake.packing import pack, read_first_name
 from grader.intake.places import cut_suffix, has_program, is_archive, list_folder
 from grader.intake.roster import CALLED, ClassList, find_student
 from grader.intake.systems import ANY_OTHER, SYSTEMS
-from grader.judge.outer import READING, Allowance, Exceeded, Failed, Lost, call_alone, call_within
+from grader.judge.outer import Allowance, Exceeded, Failed, Lost, call_within
 from grader.judge.workplace import work_folder
 
 SIDE_FILES = {"adjustments.toml", "roster.csv"}.union(*(each.side_files for each in SYSTEMS))
-WORK = {".py", ".ipynb"}  # what is somebody's
+WORK = {".py", ".ipynb"}  # the suffixes of students' work
 UNREAD = {".zst", ".lz", ".lzma", ".z", ".lzh", ".arj", ".ace", ".cab", ".iso", ".dmg", ".001"}
 
 UNPACKING = Allowance("unpacking the class", cpu=1200)
@@ -31,7 +31,7 @@ LISTING = Allowance("listing the class", cpu=120)
 
 @contextmanager
 def open_class(path: Path, people: ClassList | None = None) -> Iterator[Intake]:
-    """List the submissions in a folder or an archive of them; unpacked ones stay till the end."""
+    """List the submissions in a folder or an archive, which stays unpacked till the end."""
     if path.is_dir():
         yield list_class(path, people or ClassList())
     elif is_archive(path) and path.is_file():
@@ -47,7 +47,7 @@ def open_class(path: Path, people: ClassList | None = None) -> Iterator[Intake]:
 
 
 def list_class(folder: Path, people: ClassList) -> Intake:
-    """Return the submissions in a folder, and what there is to say of everything else."""
+    """Return the submissions in a folder, and notes on everything else."""
     inner = list_folder(folder)
     if len(inner) == 1 and find_export(inner[0]).is_whole_export(inner[0]):
         folder = inner[0]  # Gradescope's zip holds one folder
@@ -64,49 +64,25 @@ def list_class(folder: Path, people: ClassList) -> Intake:
 
 
 def read_names(folder: Path, people: ClassList) -> Intake:
-    """Return whose each file and folder is, by its name and the lists of an export.
-
-    Names that cannot be read within the limits need manual review; the others are listed.
-    """
-    try:
-        return read_names_within(folder, people)
-    except (Exceeded, Failed, Lost) as error:
-        refused = dict(find_refused(list_folder(folder), people))
-        if not refused:
-            raise Stop(f"{folder}: {error}") from error
-    intake = read_names_within(folder, people, refused)
-    intake.troubles |= {make_portable(path.name): words for path, words in refused.items()}
-    return intake
-
-
-def read_names_within(folder: Path, people: ClassList, refused: Collection[Path] = ()) -> Intake:
-    """Read the names of a class, apart from refused ones, in a process with limits."""
+    """Return the owner of each file and folder, by names and the lists of an export."""
 
     def read() -> bytes:
         intake = Intake()
         intake.found += find_export(folder).read_export(folder, people, intake)
-        taken = {source for each in intake.found for source in each.sources}.union(refused)
+        taken = {source for each in intake.found for source in each.sources}
         left = [path for path in list_folder(folder) if path not in taken]
         intake.found += list_uploads(left, people, intake)
         return pickle.dumps(intake)
 
-    intake: Intake = pickle.loads(call_within(LISTING, bytes, read, (Stop,)))
+    try:
+        intake: Intake = pickle.loads(call_within(LISTING, bytes, read, (Stop,)))
+    except (Exceeded, Failed, Lost) as error:
+        raise Stop(f"{folder}: {error}") from error
     return intake
 
 
-def find_refused(paths: list[Path], people: ClassList) -> Iterator[tuple[Path, str]]:
-    """Yield each path whose name alone cannot be read within the limits, with the reason."""
-    for path in paths:
-
-        def read(path: Path = path) -> int:
-            return len(list(list_uploads([path], people, Intake())))
-
-        if isinstance(answer := call_alone(READING, int, read), Exception):
-            yield path, str(answer)
-
-
 def find_export(folder: Path) -> Lms:
-    """Return the system that listed the submissions of a folder in a file of its own."""
+    """Return the system whose list of submissions lies in a folder."""
     return next((each for each in SYSTEMS if each.is_export(folder)), ANY_OTHER)
 
 
@@ -123,7 +99,7 @@ def enter_wrapper(folder: Path) -> Path:
 
 
 def list_uploads(paths: list[Path], people: ClassList, intake: Intake) -> Iterator[Found]:
-    """Return submissions by the names of files and folders; say what becomes of the rest."""
+    """Return submissions by the names of files and folders; note the rest."""
     groups: dict[tuple[str, str], list[Upload]] = {}
     empty: dict[str, Path] = {}
     systems = sort_systems(paths)
@@ -147,7 +123,7 @@ def list_uploads(paths: list[Path], people: ClassList, intake: Intake) -> Iterat
 
 
 def choose_attempt(name: str, uploads: list[Upload], intake: Intake) -> Iterator[Found]:
-    """Return a student's last attempt: one submission, or each file where a person named them."""
+    """Return a student's last attempt: one submission, or each file if people named them."""
     attempts = sorted({each.attempt for each in uploads})
     if len(attempts) > 1 and any(each.timeless for each in uploads):
         files = " and ".join(sorted({each.path.name for each in uploads}))
@@ -166,15 +142,15 @@ def choose_attempt(name: str, uploads: list[Upload], intake: Intake) -> Iterator
 
 
 def sort_systems(paths: list[Path]) -> list[Lms]:
-    """Return the systems, first the one that may have named most of these files and folders.
+    """Return the systems, first the one whose pattern fits most of these names.
 
-    A student may give a file the name that another system gives to the work of somebody else.
+    So no student can claim another's work by a name that another system would write.
     """
     return sorted(SYSTEMS, key=lambda each: -sum(each.match(path) is not None for path in paths))
 
 
 def read_upload(path: Path, people: ClassList, systems: Iterable[Lms] = SYSTEMS) -> Upload | None:
-    """Return whose a file or folder is; of no system's name, a folder or archive has its own."""
+    """Return the owner of a file or folder; without a system, a folder or archive names it."""
     uploads = (each.read_upload(path, people) for each in systems)
     upload = next(filter(None, uploads), None)
     if upload is None and (path.is_dir() or is_archive(path)):
@@ -185,7 +161,7 @@ def read_upload(path: Path, people: ClassList, systems: Iterable[Lms] = SYSTEMS)
 
 
 def mention_file(path: Path, intake: Intake, people: ClassList) -> None:
-    """Say what to do about a file that is no submission, if anything is to be done."""
+    """Refuse a file that is no submission but may be somebody's work; note any other."""
     name = people.find_anywhere(path.stem)
     suffix = path.suffix.lower()
     if path.is_symlink():
@@ -210,7 +186,7 @@ def mention_file(path: Path, intake: Intake, people: ClassList) -> None:
 
 
 def drop_doubles(found: Iterable[Found], intake: Intake) -> Iterator[Found]:
-    """Return each submission once; where one student's differ, a person must choose."""
+    """Return each submission once; a person must choose between different ones of a student."""
     groups: dict[str, list[Found]] = {}
     for each in found:
         groups.setdefault(fold(each.name), []).append(each)
@@ -230,11 +206,11 @@ def drop_doubles(found: Iterable[Found], intake: Intake) -> Iterator[Found]:
             intake.refuse(group[0].name, words + other, *group)
 
 
-# ---------------------------------------------------------------- what a person chose
+# ---------------------------------------------------------------- choices of a person
 
 
 def apply_choices(intake: Intake, people: ClassList) -> None:
-    """Give each student the work that a person says is theirs."""
+    """Give each student the work that a person chose for them."""
     for who, path in people.chosen:
         names = intake.names
         name = find_student(who, [*names, *people.list_absent(names)], people)
@@ -243,9 +219,9 @@ def apply_choices(intake: Intake, people: ClassList) -> None:
 
 
 def choose_work(intake: Intake, people: ClassList, name: str, path: str) -> bool:
-    """Make the work at `path` a student's: a submission of the class, or a file or folder in one.
+    """Give a student the work at `path`: a submission of the class, or a file or folder in one.
 
-    Work under a name that is not in the class list is then nobody else's.
+    Work under a name that is not in the class list then belongs to nobody else.
     """
     first = path.partition("/")[0]
     works = intake.works
@@ -268,7 +244,7 @@ def choose_work(intake: Intake, people: ClassList, name: str, path: str) -> bool
 
 
 def enter_source(work: Found, path: str) -> str:
-    """Return the path as the submission is laid out; empty for all of it."""
+    """Return a path inside the work as its files are laid out; empty for all of it."""
     first, _, rest = path.partition("/")
     source = next((each for each in work.sources if each.name == first), None)
     if source is None or not rest:
@@ -277,7 +253,7 @@ def enter_source(work: Found, path: str) -> str:
 
 
 def tell_apart(names: list[str]) -> list[str]:
-    """Return names as they are, or letter by letter where they look the same."""
+    """Return names as they are, or in ASCII where they look the same."""
     same = len({unicodedata.normalize("NFC", name) for name in names}) < len(set(names))
     return [ascii(name) for name in names] if same else names
 

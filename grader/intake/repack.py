@@ -1,8 +1,8 @@
-"""Make a plain zip of a .tar, .7z or .rar, so that all archives are then read by the same rules.
+"""Make a plain zip of a .tar, .7z or .rar, so that the same rules apply to all archives.
 
-It is run in a process with limits on memory, time and disk, shut in as a child is: here alone the
-libraries for these formats meet a stranger's bytes. It prints the names of files that are too
-large, a line each, or why there is no zip.
+It runs in a process with limits on memory, time and disk, confined like a child: only here do the
+libraries for these formats read untrusted bytes. It prints the names of files that are too large,
+a line each, or why there is no zip.
 """
 
 import bz2
@@ -30,17 +30,16 @@ MAX_CONTENT = 20 * 1024**2  # bytes of one file: no submission may have more in 
 MAX_UNPACKED = 200 * 1024**2  # of one archive, unpacked
 MAX_MEMBERS = 200_000
 MEMORY = 768 * 1024**2  # bytes
-SECONDS = 12  # of the processor
-PEEK = 8  # bytes that tell a format
-PART = "this .rar is one part of several: ask for one zip"
+SECONDS = 12  # of processor time
+PEEK = 8  # bytes that identify a format
 RAR = b"Rar!\x1a\x07"
-REFUSED = 3  # exit status: what is printed is a sentence for people
+REFUSED = 3  # exit status: it printed a sentence for people
 
 Files = Iterator[tuple[str, bytes | None]]  # None: too large
 
 
 class Refused(Exception):
-    """An archive that is not unpacked; the message says why."""
+    """Raised for an archive that cannot be unpacked; says why."""
 
 
 def main(source: str, target: str, seconds: int = SECONDS) -> int:
@@ -62,7 +61,7 @@ def main(source: str, target: str, seconds: int = SECONDS) -> int:
         words = str(refusal)
     except MemoryError:
         words = "the archive takes too much memory to unpack"
-    except Exception as error:  # each library has many; the bytes are a stranger's
+    except Exception as error:  # each library has many kinds
         words = f"the archive is broken ({type(error).__name__}: {say_error(error):.100})"
     else:
         return 0
@@ -76,9 +75,9 @@ def say(words: str) -> None:
 
 
 def shut_in(source: str, folder: str) -> None:
-    """Let this process reach the archive, the zip and its libraries, and the unpackers of a .rar.
+    """Confine this process to the archive, the zip, its libraries, and the unpackers of a .rar.
 
-    As far as this machine can see to that; what it cannot, the process does without.
+    A machine without some of the layers goes on without them.
     """
     from grader.worker.confinement import shut_in_reader  # here: the judge imports this file, too
 
@@ -105,7 +104,7 @@ def set_limits(seconds: int) -> None:
 
 
 def read_files(source: str) -> Files:
-    """Return the files in an archive; of those that are too large, only the names."""
+    """Return the files in an archive, without the contents of files that are too large."""
     with open(source, "rb") as file:
         head = file.read(PEEK)
     if head.startswith(b"7z\xbc\xaf\x27\x1c"):
@@ -128,7 +127,7 @@ def read_tar(source: str) -> Files:
 
 
 def read_single(source: str) -> tuple[str, bytes | None]:
-    """Read a single compressed file, as `integrators.py.gz`, which is named after its archive."""
+    """Read a single compressed file, such as `integrators.py.gz`."""
     kinds: dict[bytes, Any] = {b"\x1f\x8b": gzip.open, b"BZh": bz2.open, b"\xfd7zXZ": lzma.open}
     with open(source, "rb") as file:
         head = file.read(PEEK)
@@ -169,52 +168,19 @@ def read_rar(source: str) -> Files:
         with rarfile.RarFile(source, errors="strict") as archive:
             if archive.needs_password():
                 raise Refused("the archive is encrypted: ask for one without a password")
-            plain = [each for each in archive.infolist() if each.is_file() and not each.file_redir]
-    except rarfile.BadRarFile as error:
-        if "next volume" in str(error):
-            raise Refused(PART) from error
-        raise
-    except rarfile.NeedFirstVolume as error:
-        raise Refused(PART) from error
-    yield from ((each.filename, None) for each in plain if each.file_size > MAX_CONTENT)
-    wanted = [each.filename for each in plain if each.file_size <= MAX_CONTENT]
-    tools, failed = find_unpackers(rarfile), []
-    for name in tools or ["no tool"]:
-        rarfile.CURRENT_SETUP = tools.get(name)
-        try:
-            with rarfile.RarFile(source) as archive:
-                contents = [archive.read(each) for each in wanted]
-        except rarfile.RarCannotExec as error:
-            raise Refused(
-                "this machine has nothing that unpacks a .rar: install one of unrar, unar, 7z and "
-                "bsdtar, or ask for a zip"
-            ) from error
-        except rarfile.Error:  # some lack what this archive takes, and say so in words of their own
-            failed.append(name)
-            continue
-        yield from zip(wanted, contents, strict=True)
-        return
-    raise Refused(
-        f"the archive is broken, or {' and '.join(failed)} cannot unpack it here: ask for a zip"
-    )
-
-
-def find_unpackers(rarfile: Any) -> dict[str, Any]:
-    """Return the programs of this machine that unpack a .rar, the best first."""
-    kinds = {
-        "unrar": rarfile.UNRAR_CONFIG,
-        "unar": rarfile.UNAR_CONFIG,
-        "7z": rarfile.SEVENZIP_CONFIG,
-        "7zz": rarfile.SEVENZIP2_CONFIG,
-        "bsdtar": rarfile.BSDTAR_CONFIG,
-    }
-    tools = {name: rarfile.ToolSetup(kind) for name, kind in kinds.items()}
-    # rarfile puts a -- behind -f, which is the file's name to bsdtar
-    tools["bsdtar"].open_cmdline = lambda password, path, *names: [
-        *(rarfile.BSDTAR_TOOL, "-x", "--to-stdout", "-f", path),
-        *filter(None, names),
-    ]
-    return {name: tool for name, tool in tools.items() if tool.check()}
+            for each in archive.infolist():
+                if each.is_file() and not each.file_redir:
+                    too_large = each.file_size > MAX_CONTENT
+                    yield each.filename, None if too_large else archive.read(each)
+    except rarfile.RarCannotExec as error:
+        raise Refused(
+            "this machine has nothing that unpacks a .rar: install one of unrar, unar and 7z, or "
+            "ask for a zip"
+        ) from error
+    except rarfile.Error as error:
+        raise Refused(
+            "the archive is broken, one part of several, or cannot be unpacked here: ask for a zip"
+        ) from error
 
 
 def load_library(name: str, format: str) -> Any:

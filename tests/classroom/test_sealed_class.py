@@ -17,7 +17,6 @@ from grader.classroom.grading import ClassOptions, run_class
 from grader.classroom.similarity import Prints, find_pairs
 from grader.errors import Stop
 from grader.intake import archives, listing
-from grader.intake.found import Upload
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.outer import Allowance, Exceeded
 
@@ -132,24 +131,6 @@ def test_nine_attacks_leave_the_others_as_they_are(tmp_path: Path):
 
 
 # ---------------------------------------------------------------- each place by itself
-
-
-def test_a_name_that_cannot_be_listed_needs_review_and_the_others_are_listed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-):
-    def read_or_loop(path: Path, *_: object) -> Upload | None:
-        return Upload(path, path.name) if path.name != "cem" else loop() and None
-
-    write_honest(tmp_path / "class")
-    (tmp_path / "class" / "cem").mkdir()
-    for name in ("LISTING", "READING"):
-        monkeypatch.setattr(listing, name, LITTLE)
-    monkeypatch.setattr(listing, "read_upload", read_or_loop)
-    with listing.open_class(tmp_path / "class") as intake:
-        assert [each.name for each in intake.found] == ["anna", "ben", GREEK]
-        assert intake.troubles == {
-            "cem": "needs manual review: reading it takes more than 0.3 s of processor time"
-        }
 
 
 def test_an_export_that_cannot_be_listed_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
