@@ -32,7 +32,7 @@ class Film:
         self.looks[number] = {"shapes": [[points, radius]], "mass": mass, "moment": None, "ref": 0}
 
     def shoot(self, time, rows, rods=()):
-        """One shot; `rows` has x, y, vx, vy, angle and omega of each body, by its number."""
+        """Record a shot; `rows` has x, y, vx, vy, angle and omega of each body, by its number."""
         rows = {n: [fixed(v, 2 if at > 3 else 1) for at, v in enumerate(row)] for n, row in rows}
         changed = [[n, *row] for n, row in rows.items() if self.last.get(n) != row]
         ends = [[fixed(v, 1) for v in each] for each in rods]
@@ -45,7 +45,7 @@ class Film:
 
 
 def fixed(value, digits):
-    """A number with so many decimals; far away is far enough."""
+    """Round a number to so many decimals, and cap one that is far away."""
     return round(max(-9999.0, min(9999.0, value)), digits) + 0.0
 
 
@@ -85,7 +85,7 @@ def state(body):
 
 
 def still_world(gravity=(0, 980)):
-    """A world without damping, but for what TODO 5 has wrong in each step."""
+    """Make a world without damping, so that only a mistake in TODO 5 damps."""
     return World(gravity, 0.0, 0.0)
 
 
@@ -131,7 +131,7 @@ FRAME = 1 / 50  # s: one frame owes 2.4 steps
 
 
 def in_frames(advance, world):
-    """The steps of a shot as frames of a window run them, at 50 frames a second."""
+    """Return a function that runs the steps of a shot in frames, 50 of them a second."""
     kept = {"accumulator": 0.0, "frames": 0}
 
     def run(shot):
@@ -178,7 +178,7 @@ def moving(body):
 
 
 def ball_of(space, pos, radius=22):
-    """A ball as the program makes it, of this size."""
+    """Let the program make a ball of this size."""
 
     class Chosen:
         def randint(self, low, high):
@@ -226,7 +226,7 @@ def falling_in_pymunk():
 
 
 def spring(method, steps=9, swings=3.0):
-    """x over the time on a spring that swings once a second, let go at 100 px."""
+    """Plot x over time on a spring that swings once a second, released at 100 px."""
 
     def scene():
         film = Film([0, -260, swings, 260], curve=True)

@@ -1,4 +1,4 @@
-"""A tower of ten balls in the lesson's engine, the stable engine and pymunk, with many settings.
+"""Film a tower of ten balls in the lesson's engine, the stable engine and pymunk, by settings.
 
     python film_tower.py
 
@@ -22,7 +22,7 @@ STILL = (  # what the still picture shows: a film of each engine
 
 
 def engines():
-    """Each engine with each setting: its name, passes, substeps, and what makes it."""
+    """Yield each engine with each setting: its name, passes, substeps, and a maker."""
     for passes, substeps in product(PASSES, SUBSTEPS):
         yield "lesson", passes, substeps, lambda s, p=passes, n=substeps: Lesson(s, p, n)
         yield "pymunk", passes, substeps, lambda s, p=passes, n=substeps: Pymunk(s, p, n)
@@ -31,7 +31,7 @@ def engines():
 
 
 def film(engine, scene, rate):
-    """The shots of a tower, how far its top ever came down, and the contacts that were solved."""
+    """Return the shots of a tower, how far its top sank at most, and the contacts solved."""
     top, last, solved, sink = scene.moving()[-1], {}, 0, 0.0
     start, frames = engine.read(top).y, []
     for step in range(SECONDS * rate + 1):
@@ -48,7 +48,7 @@ def film(engine, scene, rate):
 
 
 def row(state):
-    """To a tenth of a px. Nothing turns here, and no speed is drawn."""
+    """Round a state to a tenth of a px. Nothing turns here, and no speed is drawn."""
     return [round(state.x, 1) + 0.0, round(state.y, 1) + 0.0, 0, 0, 0, 0]
 
 

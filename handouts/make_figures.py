@@ -1,9 +1,9 @@
-"""Draw the figures of the lesson and of the leaderboard, as SVG files in handouts/figures.
+"""Draw the computed figures of the lesson and of the leaderboard, as SVG in handouts/figures.
 
     python handouts/make_figures.py
 
-What they show is computed by the solution's own engine, or stands in results.json. The same run
-gives the same files.
+The solution's own engine computes them, or results.json has their numbers. The same run gives the
+same files. Figures without numbers, such as step-order.svg, are edited by hand.
 """
 
 import json
@@ -28,7 +28,7 @@ SWING = 12  # steps per swing of the spring in the figure of the integrators
 
 
 class Svg:
-    """A drawing on white paper. Places are in px, y grows down."""
+    """A drawing on white paper. Positions are in px, y grows down."""
 
     def __init__(self, width, height, title):
         self.size = width, height
@@ -52,7 +52,7 @@ class Svg:
         self.add("polyline", points=path, fill="none", stroke=color, stroke_width=width, **more)
 
     def arrow(self, start, end, color=INK, width=2):
-        """A line with a head at its end."""
+        """Draw a line with a head at its end."""
         (x, y), back = end, math.atan2(start[1] - end[1], start[0] - end[0])
         self.line(start, end, color=color, width=width)
         sides = [(x + 9 * math.cos(back + t), y + 9 * math.sin(back + t)) for t in (-0.45, 0.45)]
@@ -74,7 +74,7 @@ class Svg:
 
 
 def say(value):
-    """A number with one decimal at most; anything else as it is."""
+    """Return a number with one decimal at most, and anything else as it is."""
     return f"{value:.1f}".removesuffix(".0") if isinstance(value, float) else str(value)
 
 
@@ -91,7 +91,7 @@ class Plot:
         return right, self.top + self.height * (1 - (y - y0) / (y1 - y0))
 
     def axes(self, xs, ys, x_name, y_name, x_text="{:g}", y_text="{:g}"):
-        """A grid with numbers, and what the axes are."""
+        """Draw a grid with numbers, and the names of the axes."""
         svg, bottom = self.svg, self.top + self.height
         for y in ys:
             svg.line(self.at(self.x[0], y), self.at(self.x[1], y), color=PALE, width=1)
@@ -109,46 +109,18 @@ class Plot:
         self.svg.line(*(self.at(x, y) for x, y in points), color=color, width=width, dash=dash)
 
 
-# ---------------------------------------------------------------- one step
-
-
-STAGES = [
-    ("1 forces", BLUE, ["gravity adds to vel,", "damping takes a", "share of it"]),
-    ("2 detect", ORANGE, ["every pair: do they", "overlap? where, how", "deep, along what?"]),
-    ("3 solve", RED, ["impulses change vel", "until contacts and", "rods are content"]),
-    ("4 move", GREEN, ["pos and angle follow", "the new vel and", "omega"]),
-]
-
-
-def step_order():
-    svg = Svg(860, 230, "The four stages of World.step")
-    for i, (name, color, lines) in enumerate(STAGES):
-        x = 20 + 212 * i
-        svg.rect(x, 30, 176, 120, "white", color, rx=8)
-        svg.rect(x, 30, 176, 32, color, rx=8)
-        svg.text(x + 88, 52, name, "white", 16, "middle", "bold")
-        for row, words in enumerate(lines):
-            svg.text(x + 14, 88 + 22 * row, words)
-        if i < 3:
-            svg.arrow((x + 180, 90), (x + 208, 90))
-    svg.line((744, 154), (744, 190), (108, 190), color=GREY)
-    svg.arrow((108, 190), (108, 156), GREY)
-    svg.text(426, 212, "the next step, STEP seconds later", GREY, 15, "middle")
-    svg.save("step-order.svg")
-
-
 # ---------------------------------------------------------------- the accumulator
 
 
 class StepCounter:
-    """Stands in for a world: it has a step, and nothing else."""
+    """A world that has a step and nothing else."""
 
     def step(self, dt):
         pass
 
 
 def accumulator():
-    """Frames of several lengths, the steps each one runs, and what waits for the next."""
+    """Draw frames of several lengths, the steps each one runs, and the time left for the next."""
     svg = Svg(860, 280, "Frames, steps and the remainder that waits")
     scale, x, waiting = 3.3, 84.0, 0.0  # px per ms, px, s
     for name, y in (("frame", 62), ("counted", 112), ("steps", 162), ("waiting", 212)):
@@ -200,7 +172,7 @@ def per_step(steps, hertz):
 
 
 def per_second(steps, hertz):
-    """The share that the solution's world leaves of a speed."""
+    """Return the share of a speed that the solution's world leaves."""
     world = World(gravity=(0, 0), linear_damping=0.6, angular_damping=0)
     ball = world.add(Body(Circle(10), (0, 0), mass=1))
     ball.vel.x = 1.0
@@ -234,79 +206,11 @@ def spirals():
     svg.save("integrators.svg")
 
 
-# ---------------------------------------------------------------- contacts
-
-
-def contact():
-    svg = Svg(860, 275, "A circle and a box: centre outside, centre inside")
-    svg.rect(60, 150, 320, 90, PALE, GREY)
-    svg.circle(220, 112, 60, "#dbe8f7", BLUE)
-    draw_contact(svg, (220, 112), (220, 150), (220, 216))
-    svg.text(148, 140, "closest point", RED, 15, "end")
-    svg.arrow((152, 137), (208, 149), RED, 1)
-    svg.line((296, 150), (296, 172), color=ORANGE, width=4)
-    svg.line((226, 172), (302, 172), color=ORANGE, width=1, dash="3 3")
-    svg.text(306, 167, "depth", ORANGE)
-    svg.text(60, 30, "Centre outside", INK, 16, weight="bold")
-    svg.text(60, 263, "depth = radius - distance", GREY, 14)
-    svg.rect(490, 80, 320, 160, PALE, GREY)
-    svg.circle(650, 112, 60, "#dbe8f7", BLUE)
-    draw_contact(svg, (650, 112), (650, 80), (650, 216))
-    svg.text(572, 68, "point on the nearest face", RED, 15, "end")
-    svg.arrow((576, 66), (638, 78), RED, 1)
-    svg.line((742, 80), (742, 172), color=ORANGE, width=4)
-    svg.text(752, 130, "depth", ORANGE)
-    svg.line((650, 172), (742, 172), color=ORANGE, width=1, dash="3 3")
-    svg.line((664, 80), (664, 112), color=ORANGE, width=4)
-    svg.text(671, 102, "gap", ORANGE)
-    svg.text(490, 30, "Centre inside", INK, 16, weight="bold")
-    svg.text(490, 263, "depth = radius + gap", GREY, 14)
-    svg.save("contact.svg")
-
-
-def draw_contact(svg, centre, point, tip):
-    svg.arrow(centre, tip, GREEN, 3)
-    svg.text(tip[0] + 10, tip[1], "normal", GREEN)
-    svg.circle(*centre, 4, INK)
-    svg.circle(*point, 5, RED)
-
-
-# ---------------------------------------------------------------- the solver's totals
-
-
-def totals():
-    """Three passes over a contact: they ask for +10, then -4, then +1."""
-    svg = Svg(860, 260, "Clamping the total, and clamping each change")
-    asked = [10, -4, 1]
-    rules = [("clamp the total", total_clamped), ("clamp each change", change_clamped)]
-    for i, (name, rule) in enumerate(rules):
-        left = 40 + 420 * i
-        svg.text(left, 30, name, INK, 16, weight="bold")
-        total = 0
-        for n, change in enumerate(asked):
-            total = rule(total, change)
-            x, y = left + 110 * n, 200 - 12 * total
-            svg.rect(x, y, 70, 12 * total, GREEN if total == sum(asked[: n + 1]) else RED, rx=3)
-            svg.text(x + 35, y - 8, f"jn = {total}", INK, 14, "middle")
-            svg.text(x + 35, 220, f"pass {n + 1}: {change:+d}", GREY, 14, "middle")
-        svg.line((left - 10, 200), (left + 310, 200), color=GREY, width=1)
-    svg.text(40, 248, "The second pass sees that the first one gave 4 too much.", GREY, 14)
-    svg.save("accumulated.svg")
-
-
-def total_clamped(total, change):
-    return max(total + change, 0)
-
-
-def change_clamped(total, change):
-    return total + max(change, 0)
-
-
 # ---------------------------------------------------------------- impulses
 
 
 def effective_mass():
-    """The same impulse at three places of a disc, and how the disc gives way."""
+    """Draw the same impulse at three points of a disc, and how the disc gives way."""
     svg = Svg(860, 300, "How a disc gives way to an impulse, by where it is hit")
     disc, fixed = Body(Circle(60), (0, 0), mass=2), Body(Box((1, 1)), (0, 0))
     push = Vector2(0, 1)
@@ -325,24 +229,6 @@ def effective_mass():
         svg.text(x, 245, words, INK, 14, "middle")
     svg.text(430, 282, "A disc of 2 kg: per kg, how far it gives way there.", GREY, 14, "middle")
     svg.save("effective-mass.svg")
-
-
-def rod():
-    """A rod that is too long, and one that is too short."""
-    svg = Svg(860, 190, "A rod that is too long, and one that is too short")
-    for i, (name, length) in enumerate([("too long", 190), ("too short", 80)]):
-        a, b, y = 120 + 430 * i, 120 + 430 * i + length, 80
-        way = 1 if length > 120 else -1
-        svg.text(a - 40, 30, name, INK, 16, weight="bold")
-        svg.line((a, y), (b, y), color=GREY, width=4)
-        for place, name in ((a, "A"), (b, "B")):
-            svg.circle(place, y, 20, "#dbe8f7", BLUE)
-            svg.text(place, y + 5, name, INK, 15, "middle")
-        svg.arrow((a, y + 36), (a + 40 * way, y + 36), RED, 3)
-        svg.arrow((b, y + 36), (b - 40 * way, y + 36), RED, 3)
-        svg.line((a, 150), (a + 120, 150), color=GREEN, width=3)
-        svg.text(a, 172, "as long as it is meant to be", GREEN)
-    svg.save("rod.svg")
 
 
 # ---------------------------------------------------------------- rolling
@@ -419,10 +305,7 @@ def leaderboard():
     svg.save("hard-cases-leaderboard.svg")
 
 
-ALL = [
-    *(step_order, accumulator, damping, spirals, contact),
-    *(effective_mass, totals, rolling, rod, leaderboard),
-]
+ALL = [accumulator, damping, spirals, effective_mass, rolling, leaderboard]
 
 
 def main():

@@ -36,7 +36,7 @@ STUB, RIGHT = "stub", "right"
 
 
 def tree_of(todo, variant, folder):
-    """The solution, with a mistake in one TODO."""
+    """Copy the solution, with a mistake in one TODO; return the folder."""
     tree = folder / "tree"
     shutil.copytree(
         KIT / "solution", tree, ignore=shutil.ignore_patterns("__pycache__", "notebooks")
@@ -70,7 +70,7 @@ def recorded(todo, variant):
 
 
 def prediction(todo):
-    """The three films of a TODO, in their order, and which of them is right."""
+    """Return the three films of a TODO in order, and the number of the right one."""
     at = "ABC".index(PREDICTIONS[todo]["right"])
     made = [(each["of"], each["says"]) for each in PREDICTIONS[todo]["mistake"]]
     made.insert(at, (RIGHT, "is right"))
@@ -89,7 +89,7 @@ WIDE, TALL, GAP = 230, 200, 15  # px, of one of three pictures
 
 
 def still_of(name, data):
-    """Three pictures side by side, each with some of the places of all that moves."""
+    """Draw three pictures side by side, each with some positions of all that moves."""
     svg = Svg(3 * WIDE + 4 * GAP, TALL + 2 * GAP + 20, "Three films, A, B and C")
     for number, film in enumerate(data["films"]):
         left = GAP + number * (WIDE + GAP)
@@ -156,7 +156,7 @@ def clipped(value, low, size):
 
 
 def still_of_tower(data):
-    """The towers of three engines after their last shot, beside where the balls should be."""
+    """Draw the towers of three engines after their last shot."""
     svg = Svg(3 * WIDE + 4 * GAP, TALL + 2 * GAP + 40, "A tower of ten balls in three engines")
     for number, (engine, key) in enumerate(data["still"]):
         left, top = GAP + number * (WIDE + GAP), GAP + 20
@@ -169,7 +169,7 @@ def still_of_tower(data):
 
 
 def whole(first, frames):
-    """The last shot with all that is in it."""
+    """Return the last shot with everything in it."""
     rows = {row[0]: row for row in first[2]}
     for frame in frames:
         rows |= {row[0]: row for row in frame[2]}
@@ -180,7 +180,7 @@ def whole(first, frames):
 
 
 def engines_hash():
-    """Of all code that the films come from: a test sees by it that they were made of another."""
+    """Hash all code that the films come from, so that a test can tell when they are stale."""
     digest = hashlib.sha256()
     folders = [KIT / "solution" / name for name in ("mini_engine", "stable_engine")]
     files = [path for folder in folders for path in sorted(folder.rglob("*.py"))]

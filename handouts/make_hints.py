@@ -40,12 +40,12 @@ def read(name):
 
 
 def as_html(words):
-    """A hint as HTML: everything in it stands for itself, but for `code`."""
+    """Return a hint as HTML, everything escaped except `code`."""
     return re.sub(r"`([^`]+)`", r"<code>\1</code>", html.escape(words, quote=False))
 
 
 def section(todo, hints):
-    """One TODO with its hints, each folded away."""
+    """Return one TODO with its hints, each folded away."""
     title = todo.title[0].lower() + todo.title[1:]
     if todo.title.startswith("RK"):
         title = todo.title
@@ -59,7 +59,7 @@ def section(todo, hints):
 
 
 def page(course=FULL):
-    """The whole of hints.md, as a course has it."""
+    """Return the text of hints.md for a course."""
     hints = read("hints.toml")
     todos = [todo for todo in course.rubric.todos if todo.function]
     text = "\n".join([HEAD, *(section(todo, hints[todo.id]) for todo in todos)])

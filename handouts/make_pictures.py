@@ -42,7 +42,7 @@ SHOTS = {
 
 
 def tree_with(done, folder):
-    """A copy of the starter in which the TODOs of these ids stand as in the solution."""
+    """Copy the starter with these TODOs solved; return the folder."""
     from grader.source.regions import python_files, regions_in, replaced
 
     tree = folder / "tree"
@@ -57,7 +57,7 @@ def tree_with(done, folder):
 
 
 def done_before(todo):
-    """The ids done in the picture before, those of the same program."""
+    """Return the TODOs that are solved in the picture before."""
     program = ENGINE if todo in ENGINE else PYMUNK
     if "thrown" in SHOTS[todo]:
         return [other for other in program if other != todo]
@@ -65,7 +65,7 @@ def done_before(todo):
 
 
 def environment_in(tree):
-    """For a process without a window that knows nothing but this tree."""
+    """Return the environment of a process without a window that imports this tree alone."""
     return {
         **os.environ,
         "SDL_VIDEODRIVER": "dummy",
@@ -77,7 +77,7 @@ def environment_in(tree):
 
 
 def take(tree, picture, shot):
-    """Take one picture in a fresh process that knows nothing but this tree."""
+    """Take one picture in a fresh process that imports this tree alone."""
     order = json.dumps({**shot, "picture": str(picture)})
     command = [sys.executable, str(Path(__file__).resolve()), "--shoot", order]
     subprocess.run(command, cwd=tree, env=environment_in(tree), check=True)
@@ -114,7 +114,7 @@ def shoot(order):
 
 
 def shoot_scene(screen, order):
-    """The scene of the window after some frames, with a dot where each body has been."""
+    """Draw the scene of the window after some frames, with a dot where each body has been."""
     import pygame
 
     advance, world, draw, places = open_scene(order["module"], screen)
@@ -130,7 +130,7 @@ def shoot_scene(screen, order):
 
 
 def open_scene(module, screen):
-    """Return what advances it, its world, what draws it, and what tells where moving bodies are."""
+    """Return its `advance`, its world, and functions that draw it and list moving bodies."""
     import pygame
 
     if module == "pymunk_scene":
@@ -157,7 +157,7 @@ def open_scene(module, screen):
 
 
 def shoot_thrown(screen, friction):
-    """A ball thrown along the floor at 300 px/s, seen every quarter of a second."""
+    """Draw a ball thrown along the floor at 300 px/s, every quarter of a second."""
     import pygame
 
     from mini_engine import STEP, Body, Box, Circle, Window, World

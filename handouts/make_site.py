@@ -51,7 +51,7 @@ def sources(folder, instructors, course):
 
 
 def settings(instructors, there):
-    """The text of mkdocs.yml, with the pages that are there; for students without its last part."""
+    """Return the text of mkdocs.yml with the pages that exist; students get no last part."""
     text = (OURS / "mkdocs.yml").read_text(encoding="utf-8")
     before, found, _ = text.partition(f"  - {INSTRUCTORS}:\n")
     assert found, f"mkdocs.yml has no part of the menu named {INSTRUCTORS}"

@@ -506,7 +506,7 @@ def rewrite(change: Callable[[bytes], bytes]) -> Callable[[Path], None]:
 
 
 def into_one_file(folder: Path) -> None:
-    """The package as one mini_engine.py, in which each part follows those that it imports."""
+    """Merge the package into one mini_engine.py; each part follows those that it imports."""
     package = folder / "mini_engine"
     texts = {path: read_source(path) for path in package.rglob("[!_]*.py")}
     needs = {path: list(imported_parts(path, text)) for path, text in texts.items()}
@@ -522,7 +522,7 @@ RENAMED_IMPORT = re.compile(r"^from \..* import (\w+) as (\w+)\n", re.MULTILINE)
 
 
 def imported_parts(path: Path, text: str) -> Iterator[Path]:
-    """The files of the package that one of them imports from, as in `from ..world import World`."""
+    """Yield the files of the package that one imports from, as in `from ..world import World`."""
     for dots, name in re.findall(r"^from (\.+)(\w+)", text, re.MULTILINE):
         yield path.parents[len(dots) - 1] / f"{name}.py"
 

@@ -310,7 +310,7 @@ def find_complaint(member: Member, result: Result, seconds: float) -> str:
 
 @cache
 def shared_worker() -> Worker:
-    """One for all members that this process grades; it ends when this process does."""
+    """Start one worker for all members that this process grades; it ends with the process."""
     worker = start_worker()
     atexit.register(worker.close)
     if isinstance(worker, WarmWorker):

@@ -40,7 +40,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Maker:
-    """Makes one question about some TODOs, of numbers that are drawn from `draws`."""
+    """A maker of one question about some TODOs, with numbers drawn from `draws`."""
 
     name: str
     todos: tuple[str, ...]
