@@ -1,8 +1,7 @@
-"""Define the messages between the judge and the worker's children: all that both sides share.
+"""Define the messages between the judge and the worker's children.
 
-Everything that crosses is plain data in MessagePack, decoded into the strict types below: a number
-stays a number, a bool is never one, and an unknown shape is a `ProtocolError`. A message is framed
-by its length (4 bytes, big-endian).
+Messages are plain data in MessagePack, decoded into the strict types below: a bool is never a
+number, and unknown data is an error. Each message follows its length (4 bytes, big-endian).
 """
 
 import select
@@ -15,13 +14,12 @@ from typing import Annotated, Literal
 import msgspec
 from msgspec import Meta, Struct
 
-MAX_MESSAGE = 1024 * 1024  # bytes; a longer one is refused unread; usual are up to 250 KB
-RUNAWAY = 2000  # steps in one frame at which a program is stopped
-MAX_BODIES, MAX_TOUCHES, MAX_RODS = 80, 120, 20  # in one moment
+MAX_MESSAGE = 1024 * 1024  # bytes; a longer one is refused unread; the usual size is up to 250 KB
+RUNAWAY = 2000  # steps in one frame after which a program is stopped
+MAX_BODIES, MAX_TOUCHES, MAX_RODS = 80, 120, 20  # of one moment
 HEADER = struct.Struct(">I")
 
-# What every child finds in its environment, whatever stood in ours: a window that nobody sees,
-# sets in the same order each time, English, and one clock.
+# The environment of every child: no window, sets in the same order each time, English, one clock.
 ENVIRONMENT = {
     "SDL_VIDEODRIVER": "dummy",
     "SDL_AUDIODRIVER": "dummy",
@@ -29,31 +27,31 @@ ENVIRONMENT = {
     "PYTHONHASHSEED": "0",
     "LANG": "C.UTF-8",
     "TZ": "UTC",
-    "OPENBLAS_NUM_THREADS": "1",  # or numpy wants memory for each core that there is
+    "OPENBLAS_NUM_THREADS": "1",  # or numpy takes memory for each core
 }
 
 # ---------------------------------------------------------------- texts
 
-# Each text has a greatest length, and a message with a longer one is none: what a child sends is
-# kept, written and shown, so its length would be multiplied. A child of ours cuts its texts before.
+# A message with a longer text is refused: texts are stored and shown several times. A child cuts
+# its texts before it sends them.
 MAX_NAME, MAX_TEXT = 200, 2000  # characters
-MAX_PRINTED = 65 * 1024  # of one answer
-MAX_LINES = 200  # that a program printed
-MAX_OUTPUT = 64 * 1024  # bytes kept of what is printed before an answer, and characters of a check
-MAX_STEP_SIZES = 16  # different ones that a play reports
-MAX_PHOTOS, MAX_PHOTO = 5, 150 * 1024  # bytes of each; usual are 15 KB
-MAX_FRAMES = 12  # functions that an error went through
-MAX_LINE = 16 * 1024 * 1024  # a line's number: a file has no more bytes
+MAX_PRINTED = 65 * 1024  # characters of one answer
+MAX_LINES = 200  # printed by a program
+MAX_OUTPUT = 64 * 1024  # bytes printed before an answer, and characters printed in a check
+MAX_STEP_SIZES = 16  # reported by a play
+MAX_PHOTOS, MAX_PHOTO = 5, 150 * 1024  # bytes of each; usually 15 KB
+MAX_FRAMES = 12  # of a traceback
+MAX_LINE = 16 * 1024 * 1024  # a line number: a file has no more bytes
 
 Name = Annotated[str, Meta(max_length=MAX_NAME)]
 Text = Annotated[str, Meta(max_length=MAX_TEXT)]
 Printed = Annotated[str, Meta(max_length=MAX_PRINTED)]
 
-# And each list has a greatest length: what is done with it may take the square of that. Of what the
-# solution sends and the scenes hold, each is four times the most, or more.
-MAX_PRESENT = 400  # bodies, shapes, rods or contacts at one moment; 49 in the scene
-MAX_STATES = 4000  # steps or frames of one request, in order; 600 of a program, and RUNAWAY more
-MAX_ITEMS = 4000  # entries of a list that a function returns; 1000 states of an integrator
+# Limits of lists: the judge may take quadratic time. Each is at least four times what the solution
+# sends.
+MAX_PRESENT = 400  # bodies, shapes, rods or contacts at one moment; the scene has 49
+MAX_STATES = 4000  # steps or frames of one request; a program has 600, and up to RUNAWAY more
+MAX_ITEMS = 4000  # entries of a returned list; an integrator returns 1000 states
 
 PRESENT, STATES = Meta(max_length=MAX_PRESENT), Meta(max_length=MAX_STATES)
 ITEMS, NUMBERS = Meta(max_length=MAX_ITEMS), Meta(max_length=6 * MAX_PRESENT)
@@ -61,10 +59,7 @@ Row = Annotated[list[float], NUMBERS]  # six numbers for each body
 
 
 def cut(text: str, most: int) -> str:
-    """Return a text of at most `most` characters; its last one shows that some are missing.
-
-    Halves of letters, which no message can hold, become their numbers.
-    """
+    """Cut a text to `most` characters, with … at its end; surrogates become their numbers."""
     text = text[: most + 1].encode(errors="backslashreplace").decode()
     return text if len(text) <= most else f"{text[: most - 1]}…"
 
@@ -73,7 +68,7 @@ def cut(text: str, most: int) -> str:
 
 
 class Vec(Struct, frozen=True, tag="vec"):
-    """A pair of numbers, in px or px/s; also any returned pair, such as (x, v)."""
+    """A pair of numbers: px, px/s, or any other pair, such as (x, v)."""
 
     x: float
     y: float
@@ -83,7 +78,7 @@ class Vec(Struct, frozen=True, tag="vec"):
 
 
 class Ref(Struct, frozen=True, tag="ref"):
-    """An object that lives in the child; `kind` is its type's name."""
+    """An object in the child; `kind` is the name of its type."""
 
     id: int
     kind: Name = ""
@@ -94,7 +89,7 @@ class Items(Struct, frozen=True, tag="items"):
 
 
 class BodyValue(Struct, frozen=True, tag="body"):
-    """A lesson body as the child shows it: px, px/s, rad, rad/s."""
+    """A body of the lesson's engine: px, px/s, rad, rad/s."""
 
     ref: int
     pos: Vec
@@ -123,11 +118,11 @@ class ShapeValue(Struct, frozen=True):
     box: tuple[float, float, float, float]  # left, bottom, right, top in px
     friction: float
     elasticity: float
-    solid: bool = True  # whether it pushes all others: no sensor, no filter
+    solid: bool = True  # pushes all others: no sensor, no filter
 
 
 class SpaceBody(Struct, frozen=True, tag="space_body"):
-    """A pymunk body, or the space's static body with the shapes on it."""
+    """A pymunk body with its shapes; the space's static body, too."""
 
     ref: int
     kind: Literal["dynamic", "kinematic", "static"]
@@ -136,7 +131,7 @@ class SpaceBody(Struct, frozen=True, tag="space_body"):
     angle: float
     omega: float
     mass: float
-    moment: float | None  # None where pymunk says infinity
+    moment: float | None  # None: infinite
     shapes: Annotated[list[ShapeValue], PRESENT]
 
 
@@ -147,7 +142,7 @@ class SpaceJoint(Struct, frozen=True):
     anchor_a: Vec | None  # in world coordinates
     anchor_b: Vec | None
     distance: float | None
-    reach: tuple[float, float] | None = None  # px, between which a slide joint keeps its ends
+    reach: tuple[float, float] | None = None  # px: shortest and longest, of a slide joint
 
 
 class SpaceValue(Struct, frozen=True, tag="space"):
@@ -175,7 +170,7 @@ Value = (
 
 
 class Rng(Struct, frozen=True, tag="rng"):
-    """Becomes `random.Random(seed)` in the child."""
+    """An argument that becomes `random.Random(seed)` in the child."""
 
     seed: int
 
@@ -186,39 +181,39 @@ Argument = None | bool | int | float | str | Vec | Ref | Rng
 
 
 class Piece(Struct, frozen=True):
-    """One function of the reference, to stand in for the submission's own."""
+    """A function of the reference that replaces the submission's own."""
 
     target: str  # module:name or module:Class.method
     source: str
     imports: str
     parameters: list[str]
     names: list[str]  # the globals it reads, beyond its imports
-    given: dict[str, str] = {}  # given functions that it calls, for a submission without them
-    asked: str = ""  # what the check is about, which stays, also where it has this name, too
+    given: dict[str, str] = {}  # sources of given functions, for a submission without them
+    asked: str = ""  # the function that the check is about, which is never replaced
 
 
 class Import(Struct, frozen=True, tag="import"):
     module: str
     pieces: list[Piece] = []
-    watched: bool = False  # so that it can be asked what was kept since; see Remembered
-    deal: int = 0  # added to the seed of each random.Random: other balls than usual
+    watched: bool = False  # store the state after the import, for Remembered
+    deal: int = 0  # added to the seed of each random.Random, for other balls than usual
 
 
 class Remembered(Struct, frozen=True, tag="remembered"):
-    """Ask for the names in the submission that hold something else than after the import."""
+    """Ask for the names in the submission whose data has changed since the import."""
 
 
 class Call(Struct, frozen=True, tag="call"):
-    """`target` is module:name, or #id.method for an object of the child."""
+    """Call a target: module:name, or #id.method for an object of the child."""
 
     target: str
     args: list[Argument] = []
     kwargs: dict[str, Argument] = {}
-    work: bool = False  # count the lines of the submission that run meanwhile
-    framed: bool = False  # tell what it changed of what is around it
-    twice: bool = False  # ask again at once: an answer may hang on nothing but the arguments
-    stepping: bool = False  # count the steps of the world that it is given; none of them is run
-    states: list[int] = []  # the objects whose state afterwards comes with the answer
+    work: bool = False  # count the lines that run
+    framed: bool = False  # report changes outside the call
+    twice: bool = False  # call twice: the answer may depend on nothing but the arguments
+    stepping: bool = False  # count the steps of the world in the arguments, without running them
+    states: list[int] = []  # objects whose state after the call comes with the answer
 
 
 class Get(Struct, frozen=True, tag="get"):
@@ -232,9 +227,9 @@ class Set(Struct, frozen=True, tag="set"):
 
 
 class MakeBody(Struct, frozen=True, tag="make_body"):
-    """A lesson body in one go: its shape, the Body around it, then further fields."""
+    """Make a body of the lesson's engine with its shape, and set further fields."""
 
-    ref: int  # what it is to be called
+    ref: int  # its number from now on
     module: str
     shape: Literal["Circle", "Box"]
     size: float | Vec  # radius or half extents
@@ -245,12 +240,12 @@ class MakeBody(Struct, frozen=True, tag="make_body"):
 
 
 class MakeWorld(Struct, frozen=True, tag="make_world"):
-    """A lesson world with bodies added and joints appended.
+    """Make a world of the lesson's engine with bodies and joints.
 
-    `bonus`: the world that the bonus tasks attach to, where the submission has one of its own.
+    `bonus`: a BonusWorld, where the submission has that class.
     """
 
-    ref: int  # what it is to be called
+    ref: int  # its number from now on
     module: str
     gravity: Vec
     linear_damping: float
@@ -261,7 +256,7 @@ class MakeWorld(Struct, frozen=True, tag="make_world"):
 
 
 class Simulate(Struct, frozen=True, tag="simulate"):
-    """Call `step(dt)` on an object `steps` times; record the watched bodies each `every` steps."""
+    """Call `step(dt)` of an object `steps` times; record the watched bodies every so many steps."""
 
     ref: int
     dt: float
@@ -272,7 +267,7 @@ class Simulate(Struct, frozen=True, tag="simulate"):
 
 
 class Integrate(Struct, frozen=True, tag="integrate"):
-    """Call an integrator `steps` times, each time with the (x, v) that it answered last."""
+    """Call an integrator `steps` times, each time with its last (x, v)."""
 
     target: str  # module:name
     x: float
@@ -280,56 +275,53 @@ class Integrate(Struct, frozen=True, tag="integrate"):
     dt: float
     force: list[float]  # accel(x), a polynomial in x, lowest power first
     steps: int = 1
-    twice: bool = False  # ask again at once, and look at what is around it
-    places: bool = False  # answer with the places at which accel was asked
+    twice: bool = False  # call twice, and report changes outside the call
+    places: bool = False  # answer with the positions at which accel was called
 
 
 class Event(Struct, frozen=True):
-    """An input of a person, after `frame` frames, at least one."""
+    """An input of a person after `frame` frames, at least 1."""
 
     frame: int
     kind: Literal["click", "key"]
     pos: tuple[int, int] = (0, 0)
-    button: int = 1  # of the mouse: 1 is the left one, 4 a turn of the wheel
+    button: int = 1  # of the mouse: 1 is left, 4 turns the wheel
     key: str = ""
-    held: str = ""  # keys that are held meanwhile, such as "left shift" or "left shift+left ctrl"
+    held: str = ""  # keys that are down, such as "left shift+left ctrl"
 
 
 class Play(Struct, frozen=True, tag="play"):
-    """Run a program headless: one entry of `frames` per frame, its length in whole ms."""
+    """Run a program without a window; `frames` has the length of each frame in whole ms."""
 
     module: str
     frames: list[int]
     events: list[Event] = []
-    physics: bool = True  # False: steps are counted and not run
-    trail_every: int = 0  # record every moving body after each so many steps; 0 = never
-    pictures: bool = False  # False: next to nothing is drawn
-    photos: list[int] = []  # the frames at whose end the window is photographed
-    step_ms: float = 0.0  # how long each step takes on the scripted clock
+    physics: bool = True  # False: count steps without running them
+    trail_every: int = 0  # record all moving bodies every so many steps; 0: never
+    pictures: bool = False  # False: draw one pixel only
+    photos: list[int] = []  # frames at whose end the window is photographed
+    step_ms: float = 0.0  # duration of each step on the scripted clock
 
 
-Setup = Set | MakeBody | MakeWorld  # what needs no answer of its own
+Setup = Set | MakeBody | MakeWorld  # requests that need no answer of their own
 Request = (
     Import | Remembered | Call | Get | Set | MakeBody | MakeWorld | Simulate | Integrate | Play
 )
 
 
 class Record(Struct, frozen=True, tag="record"):
-    """Answer a request and record the bodies meanwhile: for replays, once marks are decided."""
+    """Answer a request and record the bodies meanwhile, for a replay."""
 
     request: Request
-    most: int  # moments; of more steps or frames only some are taken
-    cut: bool = False  # a new scene: what was made before is not shown any more
+    most: int  # moments; of more steps or frames only some are recorded
+    cut: bool = False  # begin a new scene, which does not show earlier objects
 
 
 # ---------------------------------------------------------------- child to judge
 
 
 class Change(Struct, frozen=True, array_like=True):
-    """Something that a call left otherwise than it found it.
-
-    `ref` is an object of the child; for an argument it is minus its number; for a constant 0.
-    """
+    """A change by a call. `ref` is an object, minus the number of an argument, or 0: a constant."""
 
     ref: int
     name: Name
@@ -337,13 +329,12 @@ class Change(Struct, frozen=True, array_like=True):
 
 class Returned(Struct, frozen=True, tag="returned"):
     value: Value
-    lines: int = 0  # that ran, where they were to be counted; one that ran twice counts twice
+    lines: int = 0  # that ran; one that ran twice counts twice
     changed: Annotated[list[Change], ITEMS] = []
-    again: Value = None  # the second answer, where two were asked for
-    steps: int = 0  # of worlds, where they were to be counted
+    again: Value = None  # the second answer
+    steps: int = 0  # of worlds
     dts: Annotated[list[float], STATES] = []  # their different sizes
-    # Of the objects that were asked about; None where one cannot be told.
-    states: Annotated[list[Value], ITEMS] = []
+    states: Annotated[list[Value], ITEMS] = []  # None for an object that cannot be described
 
 
 class CodeLine(Struct, frozen=True):
@@ -356,12 +347,11 @@ class CodeLine(Struct, frozen=True):
 class Raised(Struct, frozen=True, tag="raised"):
     error: Name
     message: Text
-    # The student's own frames, outermost first.
-    frames: Annotated[list[CodeLine], Meta(max_length=MAX_FRAMES)]
+    frames: Annotated[list[CodeLine], Meta(max_length=MAX_FRAMES)]  # the student's, outermost first
 
 
 class Missing(Struct, frozen=True, tag="missing"):
-    """A name or file that the contract asks for is not there."""
+    """A name or file of the lab sheet is missing or has another type."""
 
     what: Text
 
@@ -387,7 +377,7 @@ class Simulated(Struct, frozen=True, tag="simulated"):
 
 
 class Photo(Struct, frozen=True, array_like=True):
-    """The window when a frame ended; nothing where no frame was shown."""
+    """The window at the end of a frame."""
 
     frame: int
     width: int  # px
@@ -396,19 +386,17 @@ class Photo(Struct, frozen=True, array_like=True):
 
 
 class Played(Struct, frozen=True, tag="played"):
-    """The record of a program, frame by frame; the last entry covers what came after."""
+    """The record of a program, frame by frame; the last entry covers the time after them."""
 
-    steps: Annotated[list[int], STATES]  # fixed steps that ran in each frame
-    # The scripted time when they had run, ms since the start.
-    clock: Annotated[list[float], STATES]
-    dts: Annotated[list[float], STATES]  # the different step sizes seen, at most 16 of them
+    steps: Annotated[list[int], STATES]  # that ran in each frame
+    clock: Annotated[list[float], STATES]  # scripted ms since the start, at the end of each frame
+    dts: Annotated[list[float], STATES]  # different step sizes, at most MAX_STEP_SIZES
     ended: Literal["returned", "stopped", "runaway"]  # stopped: it ran on after QUIT
-    lines: Annotated[list[Text], Meta(max_length=MAX_LINES)]  # what it printed, the last of them
+    lines: Annotated[list[Text], Meta(max_length=MAX_LINES)]  # the last lines that it printed
     bodies: Annotated[list[BodyValue | SpaceBody], PRESENT]
-    rods: Annotated[list[tuple[float, float]], PRESENT]  # distance now, length meant; px
+    rods: Annotated[list[tuple[float, float]], PRESENT]  # present and intended length, px
     trail: Annotated[list[Row], STATES] = []
-    # A checksum of what the window showed when each frame ended.
-    pictures: Annotated[list[int], STATES] = []
+    pictures: Annotated[list[int], STATES] = []  # checksums of the window at the end of each frame
     photos: Annotated[list[Photo], Meta(max_length=MAX_PHOTOS)] = []
     paced: bool = False  # every step ran in advance(world, accumulator, frame_seconds)
 
@@ -417,23 +405,23 @@ Reply = Returned | Raised | Missing | Simulated | Played
 
 
 class ShapeLook(Struct, frozen=True, array_like=True):
-    """One point is a disc, two are a segment, more are a polygon; px from the body's centre."""
+    """A disc (one point), a segment (two) or a polygon (more); px from the body's centre."""
 
     points: Annotated[list[tuple[float, float]], PRESENT]
     radius: float
 
 
 class BodyLook(Struct, frozen=True):
-    """The fixed properties of a body that is shown."""
+    """The fixed properties of a body in a replay."""
 
-    ref: int  # 0 where no request can name it
+    ref: int  # 0: no request can name it
     shapes: Annotated[list[ShapeLook], PRESENT]
     mass: float | None  # None: static
     moment: float | None
 
 
 class BodyRow(Struct, frozen=True, array_like=True):
-    number: int  # bodies are numbered as they come into the picture
+    number: int  # bodies are numbered in the order of their first moments
     x: float
     y: float
     vx: float
@@ -453,23 +441,23 @@ class Moment(Struct, frozen=True, array_like=True):
 
 
 class WithMoments(Struct, frozen=True, tag="with-moments"):
-    """The reply to a recorded request, and its moments: the last one shows how it ended."""
+    """The reply to a recorded request, and its moments; the last shows the end."""
 
     reply: Reply
-    looks: Annotated[dict[int, BodyLook], PRESENT]  # by number, of the bodies that are new
+    looks: Annotated[dict[int, BodyLook], PRESENT]  # of new bodies, by number
     moments: Annotated[list[Moment], STATES]
 
 
 class Asked(Struct, frozen=True):
     number: int
     request: Request | Record
-    first: list[Setup] = []  # to be done before it; what fails there is the answer
+    first: list[Setup] = []  # performed before it; a failure there is the answer
 
 
 class Answered(Struct, frozen=True):
     number: int
     reply: Reply | WithMoments
-    output: Printed = ""  # what the submission printed since the last answer, cut to a bound
+    output: Printed = ""  # printed since the last answer
 
 
 # ---------------------------------------------------------------- starting a child
@@ -477,8 +465,8 @@ class Answered(Struct, frozen=True):
 
 class Limits(Struct, frozen=True):
     cpu_seconds: int
-    memory_mb: int = 1024  # of addresses: each thread takes many and uses few
-    data_mb: int = 704  # of memory that it writes to: with the judge's own it makes 1 GB
+    memory_mb: int = 1024  # of addresses: each thread reserves many and uses few
+    data_mb: int = 704  # of memory written to: 1 GB with the judge's own
     file_mb: int = 16  # each
     scratch_mb: int = 64  # all files together
     scratch_files: int = 2000
@@ -487,16 +475,16 @@ class Limits(Struct, frozen=True):
 
 
 class ChildSetup(Struct, frozen=True):
-    submission: str  # the read-only copy, from which each child takes one of its own
-    scratch: str  # an empty folder, for that copy and for temporary files
+    submission: str  # a read-only folder, which each child copies
+    scratch: str  # an empty folder for that copy and for temporary files
     limits: Limits
     confine: bool
     hidden: list[str]  # folders that must be out of reach
     bytecode: str  # a folder for compiled files
-    compiles: bool  # whether this child fills that folder, and does nothing else
-    loads: list[str] = []  # libraries that are slow to load, to be loaded before the fork
-    bans: list[str] = []  # modules that it may import elsewhere, and not here
-    shown: list[str] = []  # folders of the submission that it only reads: it needs no copy of them
+    compiles: bool  # this child fills that folder, and does nothing else
+    loads: list[str] = []  # slow libraries to load before the fork
+    bans: list[str] = []  # allowed modules that this check forbids
+    shown: list[str] = []  # folders of the submission that the child only reads, without a copy
 
 
 class Ready(Struct, frozen=True):
@@ -512,7 +500,7 @@ class Open(Struct, frozen=True, tag="open"):
 
 class End(Struct, frozen=True, tag="end"):
     pid: int
-    gone: bool  # the channel broke: let it finish dying, so that its own exit status is seen
+    gone: bool  # the channel broke: wait for the child's own exit status
 
 
 class Ended(Struct, frozen=True):
@@ -524,10 +512,10 @@ class Ended(Struct, frozen=True):
 
 
 class ProtocolError(Exception):
-    """The other side sent something that is not a message of ours."""
+    """The other side sent something that is no message."""
 
 
-# What decoding can raise: text that is not UTF-8 is no DecodeError to msgspec.
+# The errors of decoding; msgspec raises UnicodeDecodeError for a text that is not UTF-8.
 NOT_A_MESSAGE = (ProtocolError, msgspec.DecodeError, UnicodeDecodeError, RecursionError)
 
 
@@ -539,11 +527,11 @@ class ChannelTimeout(Exception):
     """No answer in time."""
 
 
-AT_ONCE = getattr(socket, "MSG_DONTWAIT", 0)  # as much as there is room for; not on Windows
+AT_ONCE = getattr(socket, "MSG_DONTWAIT", 0)  # do not block; not on Windows
 
 
 def packed(message: object) -> bytes:
-    """Return a message as it is sent, its length first."""
+    """Encode a message, with its length first."""
     body = msgspec.msgpack.encode(message)
     if len(body) > MAX_MESSAGE:
         raise ProtocolError(f"a message of {len(body)} bytes is longer than {MAX_MESSAGE}")
@@ -551,17 +539,17 @@ def packed(message: object) -> bytes:
 
 
 class Channel:
-    """Send and receive framed messages over a connected socket.
+    """Sends and receives messages over a connected socket.
 
-    `eager` reads ahead; leave it off where file descriptors travel. `send` and `receive` block;
-    `post`, `gone` and `complete` do not wait longer than told.
+    An `eager` channel reads ahead, which would lose file descriptors. `send` and `receive` block;
+    `flush`, `complete` and `wait` take the seconds that they may wait.
     """
 
     def __init__(self, sock: socket.socket, eager: bool = True) -> None:
         self.sock = sock
         self.eager = eager
-        self.ahead = bytearray()  # read already, not asked for yet
-        self.behind = b""  # posted, not sent yet
+        self.unread = bytearray()  # received by the channel, not by its user
+        self.unsent = b""  # posted, not sent yet
 
     def send(self, message: object) -> None:
         try:
@@ -570,16 +558,16 @@ class Channel:
             raise ChannelClosed(str(error)) from error
 
     def post(self, message: object) -> None:
-        """Have a message ready, to be sent by `gone`."""
-        self.behind = packed(message)
+        """Prepare a message for `flush` to send."""
+        self.unsent = packed(message)
 
-    def gone(self, seconds: float) -> bool:
-        """Send what was posted, for `seconds` at most; return whether all of it is sent."""
+    def flush(self, seconds: float) -> bool:
+        """Send the posted message for up to `seconds`; return whether all of it is sent."""
         deadline = time.monotonic() + seconds
         try:
-            while self.behind:
+            while self.unsent:
                 with suppress(BlockingIOError):
-                    self.behind = self.behind[self.sock.send(self.behind, AT_ONCE) :]
+                    self.unsent = self.unsent[self.sock.send(self.unsent, AT_ONCE) :]
                     continue
                 left = deadline - time.monotonic()
                 if left <= 0 or not select.select([], [self.sock], [], left)[1]:
@@ -589,12 +577,12 @@ class Channel:
         return True
 
     def complete(self, seconds: float | None = None) -> bool:
-        """Return whether all of a message is there, after `seconds` at the latest.
+        """Wait up to `seconds` for all of a message; return whether it is there.
 
-        Stop waiting once it is too long: `receive` refuses it.
+        Stops at a message that is too long, which `receive` refuses.
         """
         deadline = None if seconds is None else time.monotonic() + seconds
-        while (missing := self._end - len(self.ahead)) > 0:
+        while (missing := self._end - len(self.unread)) > 0:
             left = None if deadline is None else max(0.0, deadline - time.monotonic())
             if not self._take(1 << 16 if self.eager else missing, left):
                 return False
@@ -602,37 +590,32 @@ class Channel:
 
     @property
     def _end(self) -> int:
-        """Return where the first message ends; or its header, while that is missing or says too
-        much.
-        """
-        if len(self.ahead) < HEADER.size:
+        """Return the end of the first message, or of its header if the rest must not be read."""
+        if len(self.unread) < HEADER.size:
             return HEADER.size
-        (length,) = HEADER.unpack_from(self.ahead)
+        (length,) = HEADER.unpack_from(self.unread)
         return HEADER.size + (length if length <= MAX_MESSAGE else 0)
 
     def receive(self, timeout: float | None = None) -> bytes:
-        """Return the body of the next message; `timeout` in seconds is for the whole of it."""
+        """Return the body of the next message, which must be complete within `timeout` seconds."""
         if not self.complete(timeout):
             raise ChannelTimeout
-        (length,) = HEADER.unpack_from(self.ahead)
+        (length,) = HEADER.unpack_from(self.unread)
         if length > MAX_MESSAGE:
             raise ProtocolError(f"a message of {length} bytes is longer than {MAX_MESSAGE}")
-        body = bytes(self.ahead[HEADER.size : self._end])
-        del self.ahead[: self._end]
+        body = bytes(self.unread[HEADER.size : self._end])
+        del self.unread[: self._end]
         return body
 
     def wait(self, seconds: float) -> bool:
-        """Return whether there is something to read, after `seconds` at the latest.
-
-        For eager channels only: what is there is taken in at once.
-        """
-        return bool(self.ahead) or self._take(1 << 16, seconds)
+        """Wait up to `seconds` for anything to read; for eager channels only."""
+        return bool(self.unread) or self._take(1 << 16, seconds)
 
     def close(self) -> None:
         self.sock.close()
 
     def _take(self, most: int, seconds: float | None) -> bool:
-        """Take in what is there; return whether anything came within `seconds`."""
+        """Read what is there; return whether anything came within `seconds`."""
         if seconds is not None and not select.select([self.sock], [], [], seconds)[0]:
             return False
         try:
@@ -641,12 +624,12 @@ class Channel:
             raise ChannelClosed(str(error)) from error
         if not chunk:
             raise ChannelClosed("end of stream")
-        self.ahead += chunk
+        self.unread += chunk
         return True
 
 
 class InnerChannel(Channel):
-    """A channel to a child that has no process: it answers on this side of the channel."""
+    """A channel to a child without a process, which answers in this interpreter."""
 
     cpu: float  # s of a usual processor that the child used
-    status: int  # the exit status of a process in its place
+    status: int  # the exit status that a process would have

@@ -163,7 +163,7 @@ class Child:
         It may leave a question unread, so that no more of it can be sent, or answer by halves.
         """
         deadline = self.waited + self.wall_seconds
-        self._wait_for(self.channel.gone, deadline)
+        self._wait_for(self.channel.flush, deadline)
         self._wait_for(self.channel.complete, deadline)
         return self.channel.receive()
 

@@ -1,4 +1,4 @@
-"""Write a replay as one HTML file that needs nothing else: no network, no second file."""
+"""Write a replay as one HTML file that needs no network and no other file."""
 
 import base64
 import hashlib
@@ -18,7 +18,7 @@ MAX_WORDS_ON_A_PAGE = 1000  # characters of a submission in one line: more than 
 
 
 def make_page(title: str, words: Sequence[tuple[str, str]], replay: Replay, script: str) -> str:
-    """Return the page of one failed check: `words` say why it failed, `script` asks again."""
+    """Return the page of one failed check: its reasons in `words`, and its script."""
     return fill_template(
         TEMPLATES / "player.html",
         "player.css",
@@ -34,9 +34,9 @@ def make_page(title: str, words: Sequence[tuple[str, str]], replay: Replay, scri
 def fill_template(
     template: Path, css: str, *scripts: str, has_replays: bool = False, **values: object
 ) -> str:
-    """Return a page with the style sheet `css` beside its template, and the theme's.
+    """Return a page with the style sheet `css`, which lies beside its template, and the theme's.
 
-    Only these scripts may run in it, and where it `has_replays` their player.
+    Only these scripts may run in it, and the player if it `has_replays`.
     """
     style = read_style(template.with_name(css))
     styles, allowed = [style], list(scripts)
@@ -58,14 +58,14 @@ def list_sources(contents: Sequence[str]) -> Markup:
 
 @cache
 def load_environment(templates: Path) -> jinja2.Environment:
-    """Load templates that escape what is put in, unless it is markup; all extend `page.html`."""
+    """Load templates that escape every value but markup; all extend `page.html`."""
     loader = jinja2.FileSystemLoader([templates, TEMPLATES])
     return jinja2.Environment(loader=loader, autoescape=True, undefined=jinja2.StrictUndefined)
 
 
 @cache
 def read_style(path: Path) -> str:
-    """Read a style sheet behind the style of all pages, which is for light and dark."""
+    """Read a style sheet, after the theme of all pages for light and dark."""
     theme = TEMPLATES / "theme.css"
     return theme.read_text(encoding="utf-8") + path.read_text(encoding="utf-8")
 

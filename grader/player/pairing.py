@@ -18,19 +18,19 @@ from grader.player.runs import (
 from grader.protocol import BodyLook, BodyRow, Moment
 from grader.text import about
 
-VISIBLE = 0.5  # px, and px/s where nothing has moved yet
-A_SHARE = 0.01  # of the fastest speed, where all are slow, and of a mass
-ROUNDING = 1e-6  # of the fastest speed, and of a mass; px
+VISIBLE = 0.5  # px or px/s
+A_SHARE = 0.01  # of the highest speed, where that is less, and of a mass
+ROUNDING = 1e-6  # px, and of the highest speed and of a mass
 
-COUNTED = "Nothing is off to be seen: what is asked here is how much work it takes."
+COUNTED = "There is no visible difference: this check counts work."
 
-MomentPair = tuple[Moment, Moment | None]  # yours, and what should be
+MomentPair = tuple[Moment, Moment | None]  # yours and expected
 
 
 class Tolerance(NamedTuple):
     """The largest differences at which two runs still count as equal."""
 
-    place: float  # px
+    distance: float  # px
     speed: float  # px/s
     share: float  # of a mass
 
@@ -49,12 +49,9 @@ class PairedRequest(NamedTuple):
 
 
 def pair_runs(yours: Sequence[Run], expected: Sequence[Run], exact: bool = True) -> Replay:
-    """Return the replay of both runs.
-
-    `expected` may be empty or end early; its numbers are rounded unless `exact`.
-    """
-    runs = [(mine, right or Run("")) for mine, right in zip_longest(yours, expected[: len(yours)])]
-    rows = [list(pair_requests(mine, right)) for mine, right in runs]
+    """Return the replay of both runs. `expected` may be shorter; unless `exact`, it is rounded."""
+    runs = [(one, other or Run("")) for one, other in zip_longest(yours, expected[: len(yours)])]
+    rows = [list(pair_requests(*pair)) for pair in runs]
     scenes = [make_scene(*pair, each) for pair, each in zip(runs, rows, strict=True)]
     tolerances = [visible_tolerance, heavier_tolerance]
     if exact:
@@ -66,13 +63,13 @@ def pair_runs(yours: Sequence[Run], expected: Sequence[Run], exact: bool = True)
             for number, (pair, each) in enumerate(zip(runs, rows, strict=True))
         )
         parting = parting or next(filter(None, found), None)
-    counted = any(line.counts_work for mine in yours for line in mine.lines)
+    counted = any(line.counts_work for run in yours for line in run.lines)
     note = COUNTED if counted and parting is None else ""
     return Replay(scenes, parting, any(each.expected for each in scenes), note)
 
 
 def pair_requests(run: Run, other_run: Run) -> Iterator[PairedRequest]:
-    """Yield each request beside its counterpart, until the two runs ask something different."""
+    """Yield each request beside its counterpart, as long as both runs make the same requests."""
     known = True
     for line, other in zip_longest(run.lines, other_run.lines[: len(run.lines)]):
         known = known and other is not None and other.signature == line.signature
@@ -85,39 +82,39 @@ def pair_requests(run: Run, other_run: Run) -> Iterator[PairedRequest]:
 
 
 def moment_at(line: Line, number: int) -> Moment | None:
-    """Return a moment of a line; the last one stays when there are no more."""
+    """Return a moment of a line, or its last one."""
     return line.moments[min(number, len(line.moments) - 1)] if line.moments else None
 
 
-def make_scene(mine: Run, right: Run, rows: Sequence[PairedRequest]) -> Scene:
+def make_scene(yours: Run, expected: Run, rows: Sequence[PairedRequest]) -> Scene:
     lines: list[LinePair] = []
     pairs: list[MomentPair] = []
     for row in rows:
-        place = len(pairs), len(row.pairs)
-        lines.append(LinePair(row.line.code, *row.answers, *place, row.line.marks))
+        at, count = len(pairs), len(row.pairs)
+        lines.append(LinePair(row.line.code, *row.answers, at, count, row.line.marks))
         pairs += row.pairs
     return Scene(
-        mine.experiment,
-        mine.curve,
-        mine.names,
-        mine.looks,
-        right.looks,
+        yours.experiment,
+        yours.curve,
+        yours.names,
+        yours.looks,
+        expected.looks,
         lines,
         list(encode_moments(moment for moment, _ in pairs)),
         list(encode_moments(moment for _, moment in pairs if moment is not None)),
     )
 
 
-# ---------------------------------------------------------------- where they part
+# ---------------------------------------------------------------- the first difference
 
 
 def visible_tolerance(speed: float) -> Tolerance:
-    """Return the smallest difference that a person sees, where `speed` (px/s) is the fastest."""
+    """Return the smallest visible difference; `speed` is the highest of both runs, px/s."""
     return Tolerance(VISIBLE, min(VISIBLE, A_SHARE * speed), math.inf)
 
 
 def heavier_tolerance(speed: float) -> Tolerance:
-    """Allow no difference in mass either, which shows only later."""
+    """Return the same, but with no difference in mass, which is visible only later."""
     return visible_tolerance(speed)._replace(share=A_SHARE)
 
 
@@ -127,7 +124,7 @@ def rounding_tolerance(speed: float) -> Tolerance:
 
 
 def find_fastest(run: Run) -> float:
-    """Return the highest speed of a body, or of its rim, px/s."""
+    """Return the highest speed of a body or its rim, px/s."""
     speeds = [0.0]
     for row in (row for line in run.lines for moment in line.moments for row in moment.bodies):
         rim = row.omega * find_reach(run.looks.get(row.number))
@@ -136,7 +133,7 @@ def find_fastest(run: Run) -> float:
 
 
 def find_reach(look: BodyLook | None) -> float:
-    """Return the largest radius of a body's shapes, px: a turn moves that point the most."""
+    """Return the largest radius of a body's shapes, px."""
     return max((shape.radius for shape in look.shapes), default=0.0) if look else 0.0
 
 
@@ -161,14 +158,14 @@ def compare_moments(
     moment: Moment, other: Moment, runs: tuple[Run, Run], tolerance: Tolerance
 ) -> tuple[int, str] | None:
     """Return the number of the first body that differs, and how; 0 for a rod or contact."""
-    mine, right = runs
+    yours, right = runs
     expected = {row.number: row for row in other.bodies}
     for row in moment.bodies:
         name = name_of(row.number, runs)
         wanted = expected.pop(row.number, None)
         if wanted is None:
             return row.number, f"{name} should not be there"
-        look, right_look = mine.looks.get(row.number), right.looks.get(row.number)
+        look, right_look = yours.looks.get(row.number), right.looks.get(row.number)
         words = compare_bodies(row, wanted, max(find_reach(look), 1.0), tolerance)
         if not words and look and right_look and mass_differs(look, right_look, tolerance.share):
             words = "has another mass or moment"
@@ -183,28 +180,28 @@ def compare_moments(
         if len(here) != len(there):
             return 0, f"{len(here)} {what} instead of {len(there)}"
     if any(
-        math.dist(*pair) > tolerance.place for pair in zip(moment.rods, other.rods, strict=True)
+        math.dist(*pair) > tolerance.distance for pair in zip(moment.rods, other.rods, strict=True)
     ):
-        return 0, "a rod has its ends elsewhere"
+        return 0, "a rod has other ends"
     return None
 
 
 def name_of(number: int, runs: tuple[Run, Run]) -> str:
-    """Return a body's name: the names of your run are those of its script."""
-    mine, right = runs
-    return mine.names.get(number) or right.names.get(number, f"body {number}")
+    """Return a body's name: that of your run, which its script has too."""
+    yours, expected = runs
+    return yours.names.get(number) or expected.names.get(number, f"body {number}")
 
 
 def compare_bodies(row: BodyRow, right: BodyRow, radius: float, tolerance: Tolerance) -> str:
     """Say how a body differs from the expected one; return nothing if it does not."""
     if not all(map(math.isfinite, numbers_of(row))):
-        return "is nowhere: its numbers are not finite"
+        return "has numbers that are not finite"
     away = math.dist((row.x, row.y), (right.x, right.y))
     turned, spin = abs(row.angle - right.angle), abs(row.omega - right.omega)
     faster = math.dist((row.vx, row.vy), (right.vx, right.vy))
-    if away > tolerance.place:
+    if away > tolerance.distance:
         return f"is {about(away)} px off"
-    if turned * radius > tolerance.place:
+    if turned * radius > tolerance.distance:
         return f"is turned by {about(turned)} rad too much or too little"
     if faster > tolerance.speed:
         return f"has a velocity that is {about(faster)} px/s off"
@@ -213,8 +210,8 @@ def compare_bodies(row: BodyRow, right: BodyRow, radius: float, tolerance: Toler
     return ""
 
 
-def mass_differs(mine: BodyLook, right: BodyLook, share: float) -> bool:
-    pairs = ((mine.mass, right.mass), (mine.moment, right.moment))
+def mass_differs(yours: BodyLook, right: BodyLook, share: float) -> bool:
+    pairs = ((yours.mass, right.mass), (yours.moment, right.moment))
     return any(
         (a is None) != (b is None)
         or (a is not None and b is not None and not math.isclose(a, b, rel_tol=share))

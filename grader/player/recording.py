@@ -1,12 +1,13 @@
-"""Record a check: it runs once more, and each request is kept with what it does to the bodies.
+"""Record a check: run it again and store each request, its answer and the moments of the bodies.
 
-The recorder is the `send` of a lab's connection, so that all requests and answers pass through it.
+The recorder is the `send` of a lab's connection: all requests and answers pass through it.
 """
 
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import islice
+from string import ascii_letters
 
 import msgspec
 
@@ -20,6 +21,7 @@ from grader.protocol import (
     MAX_RODS,
     MAX_TOUCHES,
     Answered,
+    BodyLook,
     BodyRow,
     Call,
     Get,
@@ -54,6 +56,7 @@ class Recorder:
     """Records the requests of a lab: a line of a run for each."""
 
     translator: Translator
+    shows_all: bool = False  # the replay shows every scene, not only the last
     experiment: str = ""
     scenes: list[list[Run]] = field(default_factory=lambda: [[]])
     steps: list[list[Step]] = field(default_factory=lambda: [[]])  # by scene
@@ -62,15 +65,17 @@ class Recorder:
     _count: int = 0
 
     def begin_scene(self, text: str) -> None:
-        """Begin another experiment, which `text` describes."""
+        """Begin another experiment, described by `text`."""
         self.experiment = text
         self._new_scene = self._new_run = True
+        if not self.shows_all:
+            self.translator.begin_scene()
 
     def send(self, child: Child, request: Request) -> Answered:
-        """Ask the child, and record the request unless it only loads or reads."""
+        """Ask the child; record the request unless it only imports or reads."""
         if isinstance(request, Import):
             self._new_run = True
-            self.translator.forget()
+            self.translator.begin_child()
             return child.ask(request)
         if isinstance(request, Get):
             return self._ask_only(child, request)
@@ -105,7 +110,6 @@ class Recorder:
     def _add_line(self, request: Request, answered: Answered, recorded: WithMoments) -> None:
         run = self.scenes[-1][-1]
         step = self._add_step(request, answered)
-        step.place = run, len(run.lines)
         moments = limit_moments(recorded.moments)
         answer = describe_reply(recorded.reply) if isinstance(request, Call | Play) else ""
         if isinstance(request, Integrate):
@@ -115,47 +119,48 @@ class Recorder:
             answer = describe_reply(Returned(answers[-1]) if answers else recorded.reply)
         for number, look in islice(recorded.looks.items(), MAX_BODIES):
             run.looks[number] = look
-            run.names[number] = describe_body(look, str(number))
+            name = self._name_of(look)
+            run.names[number] = describe_body(
+                look, name.lstrip(ascii_letters) if name else f"{number}"
+            )
         self._count += len(moments)
         if is_setup(request) and run.lines and run.lines[-1].is_setup:
-            run.lines[-1] = msgspec.structs.replace(run.lines[-1], moments=[])
-        run.lines.append(
-            Line(
-                signature_of(request),
-                answer,
-                moments,
-                is_setup(request),
-                "\n".join(step.code),
-                find_marks(request, run),
-                isinstance(request, Call) and request.work,
-            )
+            run.lines[-1].moments = []  # only the last request of a setup is shown
+        step.line = Line(
+            signature_of(request),
+            answer,
+            moments,
+            is_setup(request),
+            "\n".join(step.code),
+            find_marks(request, run),
+            isinstance(request, Call) and request.work,
         )
+        run.lines.append(step.line)
         if moments:
-            step.bodies = {self._name_of(run, row.number): row for row in moments[-1].bodies}
-        elif len(run.lines) == 1:
-            step.bodies = {}  # those of another process
+            rows = moments[-1].bodies
+            names = {row.number: self._name_of(run.looks.get(row.number)) for row in rows}
+            step.bodies = {names[row.number]: row for row in rows if names[row.number]}
 
-    def _name_of(self, run: Run, number: int) -> str:
-        """Return a body's name in the script, or else its name on the page."""
-        ref = run.looks[number].ref if number in run.looks else 0
-        name = self.translator.names.get(ref, "")
-        return name if name.isidentifier() else run.names.get(number, "")
+    def _name_of(self, look: BodyLook | None) -> str:
+        """Return a body's variable in the script; empty if it has none."""
+        name = self.translator.names.get(look.ref, "") if look else ""
+        return name if name.isidentifier() else ""
 
     def _add_step(self, request: Request, answered: Answered) -> Step:
         reply = answered.reply
         assert not isinstance(reply, WithMoments)
         code = self.translator.translate(request, reply)
-        before = self.steps[-1][-1].bodies if self.steps[-1] else {}
+        before = self.steps[-1][-1].bodies if self.steps[-1] else {}  # until it is recorded
         value = reply.value if isinstance(reply, Returned) else reply
         watched = self.translator.watched_names(request)
-        step = Step(request, code, value is None, watched, before)
+        step = Step(request, code, value is None, self.translator.recalled, watched, before)
         self.steps[-1].append(step)
         return step
 
-    def scenes_to_show(self, every_scene: bool) -> slice:
-        """Return the last scene, or all where only all of them together say something."""
-        summed_up = self._new_scene and self.scenes[-1] != []
-        return slice(None) if every_scene or summed_up else slice(-1, None)
+    def scenes_to_show(self) -> slice:
+        """Return the last scene, or all; a check that fails between scenes needs all."""
+        is_between = self._new_scene and self.scenes[-1] != []
+        return slice(None) if self.shows_all or is_between else slice(-1, None)
 
 
 class RecordingLab(Lab):
@@ -165,8 +170,9 @@ class RecordingLab(Lab):
         open_child: Callable[[], Child],
         pieces: list[Piece],
         secret: str | None = None,
+        shows_all: bool = False,
     ) -> None:
-        self.recorder = Recorder(Translator(module))
+        self.recorder = Recorder(Translator(module), shows_all)
         super().__init__(module, open_child, pieces, self.recorder.send, secret)
 
     def ran(self, text: str) -> None:
@@ -175,14 +181,14 @@ class RecordingLab(Lab):
 
 
 def let_steps_run(request: Request) -> Request:
-    """Let steps run where they are only counted: there is more to see."""
+    """Run steps that the check only counts, so that the replay shows motion."""
     if isinstance(request, Play) and not request.trail_every:
         return msgspec.structs.replace(request, physics=True)
     return request
 
 
 def limit_moments(moments: list[Moment]) -> list[Moment]:
-    """Keep what our own recorder could have sent: a submission may send anything."""
+    """Cut the moments to the limits of our own recorder: a submission may send anything."""
     return [
         Moment(
             each.time,
@@ -210,7 +216,7 @@ def find_marks(request: Request, run: Run) -> list[Mark]:
 
 
 def is_setup(request: Request) -> bool:
-    """Return whether it sets something up; of several such in a row only the last is shown."""
+    """Return whether a request sets up a scene; of several in a row, only the last is shown."""
     return isinstance(request, MakeBody | MakeWorld | Set)
 
 
@@ -233,10 +239,16 @@ def draw_curve(request: Integrate, answers: list[Value]) -> list[Moment]:
 
 
 def record_again(failing: Failing, open_child: OpenChild, pieces: list[Piece]) -> RecordingLab:
-    """Run a failed check once more, recorded; it fails again, or ends where it did."""
+    """Run a failed check again and record it."""
     todo, check = failing.todo, failing.check
     module = check.module or todo.module
-    lab = RecordingLab(module, lambda: open_child(check.cpu_seconds), pieces, failing.secret)
+    lab = RecordingLab(
+        module,
+        lambda: open_child(check.cpu_seconds),
+        pieces,
+        failing.secret,
+        shows_all=check.kind == "property",
+    )
     with lab.opened(), suppress(Exception):
         failing.again(lab=lab)
     return lab

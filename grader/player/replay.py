@@ -1,6 +1,6 @@
-"""Make replays: a failed check once more, beside the run that should have been.
+"""Make replays: run each failed check again, beside the right run.
 
-All marks are decided by then. A replay that cannot be made is left out and changes nothing else.
+All marks are decided before. A replay that cannot be made is omitted and changes nothing else.
 """
 
 import importlib
@@ -23,10 +23,10 @@ from grader.player.page import make_page
 from grader.player.pairing import pair_runs
 from grader.player.recording import OpenChild, record_again
 from grader.player.runs import Run
-from grader.player.script import find_parting_step, renumber, write_script
+from grader.player.script import find_parting_step, write_script
 
-MAX_CHARACTERS, MAX_TOGETHER = 3_000_000, 20_000_000  # of a page, and of all; usual are 30,000
-MAX_DEATHS = 3  # of children, after which no more runs of a submission are recorded
+MAX_CHARACTERS, MAX_TOGETHER = 3_000_000, 20_000_000  # of a page and of all; usually 30,000
+MAX_DEATHS = 3  # children that ended, after which no more runs of a submission are recorded
 RECORDED = CHECKS / "expected_runs.json"
 
 ExpectedRuns = dict[str, list[list[Run]]]  # by TODO and check: the runs of each scene
@@ -84,7 +84,7 @@ class Replays:
             return check
         try:
             made = self.make_files(todo, check, found)
-        except Exception:  # whatever a submission makes of it: the marks stand without a picture
+        except Exception:  # a submission may cause any error; the marks stand
             made = None
         if made is None or self.written + sum(map(len, made)) > MAX_TOGETHER:
             return check
@@ -98,12 +98,12 @@ class Replays:
     def make_files(
         self, todo: TodoResult, check: CheckResult, failing: Failing
     ) -> list[str] | None:
-        """Return the page and the script, or None where nothing is to be seen."""
+        """Return the page and the script, or None if there is nothing to show."""
         lab = record_again(failing, for_words(self.open_child), failing.pieces)
         self.budget.charge_for_words(lab.connection)
         self.deaths += lab.ended
         recorder = lab.recorder
-        shown = recorder.scenes_to_show(check.kind == "property")
+        shown = recorder.scenes_to_show()
         yours = [run for runs in recorder.scenes[shown] for run in runs]
         if not any(run.lines for run in yours):
             return None
@@ -111,7 +111,6 @@ class Replays:
         right = self._expected_scenes(failing)[:count]
         expected = [run for runs in right[shown] for run in runs] if len(right) == count else []
         steps = [step for steps in recorder.steps[shown] for step in steps]
-        renumber(steps)
         both = pair_runs(yours, expected, exact=self.open_reference is not None)
         parting = find_parting_step(both, yours, steps)
         task = f"TODO {todo.id}, {todo.title}" if failing.todo.function else todo.title
@@ -124,12 +123,12 @@ class Replays:
         return made if len(made[0]) <= MAX_CHARACTERS else None
 
     def _has_pacing(self, module: str) -> bool:
-        """Return whether the program has a function that runs the steps of a frame."""
+        """Return whether the submission has advance(), which runs the steps of a frame."""
         todos = [todo.id for todo in load_rubric().todos if todo.function == f"{module}:advance"]
         return any(todo in self.functions for todo in todos)
 
     def _expected_scenes(self, failing: Failing) -> list[list[Run]]:
-        """Return the scenes of the right run: the reference's, or what was recorded of it."""
+        """Return the scenes of the right run: of the reference, or recorded before."""
         if self.open_reference is not None:
             return record_again(failing, self.open_reference, []).recorder.scenes
         return load_expected().get(f"{failing.todo.id}/{failing.check.id}", [])
@@ -137,7 +136,7 @@ class Replays:
 
 @cache
 def load_expected() -> ExpectedRuns:
-    """Load the right runs that came with this copy of the checks; the kit itself has none."""
+    """Load the right runs of a student's copy of the checks; the kit itself has none."""
     if not RECORDED.exists():
         return {}
     return msgspec.json.decode(RECORDED.read_bytes(), type=ExpectedRuns)
@@ -146,7 +145,7 @@ def load_expected() -> ExpectedRuns:
 def record_expected(open_child: OpenChild, rubric: Rubric) -> bytes:
     """Record the right runs of all checks with fixed inputs, for a copy without a reference.
 
-    `open_child` opens children of the reference.
+    `open_child` must open children of the reference.
     """
     runs: ExpectedRuns = {}
     for todo in rubric.todos:
@@ -162,7 +161,7 @@ def record_expected(open_child: OpenChild, rubric: Rubric) -> bytes:
 
 
 def round_deeply(value: Any) -> Any:
-    """Round all numbers in it to two decimals."""
+    """Round all numbers in lists and dicts to two decimals."""
     match value:
         case float():
             return round(value, 2)

@@ -1,4 +1,4 @@
-"""Hold the data of a replay: recorded runs, and the moments of two runs as the page reads them."""
+"""Hold the data of a replay: recorded runs, and two runs side by side as the page reads them."""
 
 import math
 from collections.abc import Iterable, Iterator
@@ -20,18 +20,19 @@ from grader.protocol import (
     SpaceValue,
     Value,
     Vec,
+    cut,
 )
 from grader.text import digits, printable
 
 MAX_ANSWER = 160  # characters
+DRAWN = 8  # numbers of a contact on a page: all but its bodies
 
-PageMoment = list[
-    Any
-]  # as the page reads it: time, steps, bodies that changed, touches, rods, gone
+# A moment on a page: time, steps, changed bodies, contacts, rods, numbers of bodies that are gone.
+PageMoment = list[Any]
 
 
 class Mark(Struct, frozen=True, array_like=True):
-    """An arm of a body and the axis along which an impulse acts at its end; px from its centre."""
+    """An arm of a body, px from its centre, and the axis of an impulse at its end."""
 
     body: int  # its number
     x: float
@@ -40,16 +41,16 @@ class Mark(Struct, frozen=True, array_like=True):
     axis_y: float
 
 
-class Line(Struct, frozen=True, omit_defaults=True):
-    """One request, its answer, and the moments recorded meanwhile."""
+class Line(Struct, omit_defaults=True):
+    """One request, its answer, and its recorded moments."""
 
-    signature: str  # without its numbers; the runs go together as far as these are equal
+    signature: str  # the request without numbers; two runs are compared while these are equal
     answer: str
     moments: list[Moment]
     is_setup: bool = False
     code: str = ""
     marks: list[Mark] = []
-    counts_work: bool = False  # the question is how many lines run
+    counts_work: bool = False  # the check counts lines that run
 
 
 class Run(Struct, omit_defaults=True):
@@ -57,11 +58,11 @@ class Run(Struct, omit_defaults=True):
     lines: list[Line] = []
     looks: dict[int, BodyLook] = {}  # of the bodies by number
     names: dict[int, str] = {}
-    curve: bool = False  # no bodies, but an x over the time
+    curve: bool = False  # x over the time, without bodies
 
 
 class LinePair(Struct, frozen=True):
-    """One request in both runs, and the moments in which the page shows it."""
+    """One request in both runs, and its moments on the page."""
 
     code: str
     yours: str
@@ -85,7 +86,7 @@ class Scene(Struct, frozen=True):
 
 
 class Parting(Struct, frozen=True):
-    """The first moment in which the runs differ, and in what."""
+    """The first moment in which the runs differ, and the difference in words."""
 
     scene: int
     moment: int
@@ -96,12 +97,12 @@ class Parting(Struct, frozen=True):
 class Replay(Struct, frozen=True):
     scenes: list[Scene]
     parting: Parting | None
-    compared: bool  # whether any of it is compared with the right run
-    note: str = ""  # shown in place of a comparison
+    compared: bool  # the right run is known
+    note: str = ""  # shown if the runs do not differ
 
 
 def encode_moments(moments: Iterable[Moment]) -> Iterator[PageMoment]:
-    """Yield each moment with what changed since the one before, and which bodies are gone."""
+    """Yield each moment with its changes since the moment before."""
     bodies: dict[int, list[float]] = {}
     touches: Any = []
     rods: Any = []
@@ -112,7 +113,9 @@ def encode_moments(moments: Iterable[Moment]) -> Iterator[PageMoment]:
         }
         changed = [row for number, row in rows.items() if bodies.get(number) != row]
         gone = [number for number in bodies if number not in rows]
-        new_touches = [[round_number(each) for each in numbers_of(row)] for row in moment.touches]
+        new_touches = [
+            [round_number(each) for each in numbers_of(row)[:DRAWN]] for row in moment.touches
+        ]
         new_rods = [[round_number(each) for each in ends] for ends in moment.rods]
         yield [
             round_number(moment.time),
@@ -135,7 +138,7 @@ def round_number(value: float) -> float:
 
 
 def describe_body(look: BodyLook, number: str) -> str:
-    """Return the name of a body on the page: its kind, a number if any, and its mass."""
+    """Name a body on the page: its kind, a number if any, and its mass."""
     corners = [len(shape.points) for shape in look.shapes]
     kind = "ball" if corners == [1] else "box" if corners == [4] else "body"
     weight = "static" if look.mass is None else f"{digits(look.mass)} kg"
@@ -143,7 +146,7 @@ def describe_body(look: BodyLook, number: str) -> str:
 
 
 def describe_reply(reply: Reply) -> str:
-    """Return an answer on one line; a submission's words in it are cut and cleaned."""
+    """Return an answer on one line, with the submission's words cut and cleaned."""
     match reply:
         case Returned(value):
             text = describe_value(value)
@@ -156,8 +159,7 @@ def describe_reply(reply: Reply) -> str:
             text = f"{sum(steps)} steps{seen}"
         case _:
             text = ""
-    line = printable(text[: 4 * MAX_ANSWER])
-    return line if len(line) <= MAX_ANSWER else line[: MAX_ANSWER - 1] + "…"
+    return cut(printable(text[: 4 * MAX_ANSWER]), MAX_ANSWER)
 
 
 def describe_value(value: Value) -> str:

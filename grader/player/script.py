@@ -1,14 +1,11 @@
-"""Translate requests to a submission into Python: a line each, and a script to run at home."""
+"""Translate requests into Python: lines for the replay, and a script that a student can run."""
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
-from string import ascii_letters
 
-import msgspec
-
-from grader.player.runs import Replay, Run, describe_body
+from grader.player.runs import Line, Replay, Run
 from grader.protocol import (
     Argument,
     BodyRow,
@@ -32,60 +29,68 @@ from grader.protocol import (
     SpaceValue,
     Value,
     Vec,
+    cut,
 )
 from grader.text import printable
 
-MAX_WIDTH = 96  # of a comment
-FINDERS = ("circle_box", "circle_circle", "collide")  # what returns a Contact or None
-FEW = 40  # lines that are shown as they are
-MANY = 4  # times that the same line is said before a loop says it
+MAX_COMMENT = 288  # characters
+FINDERS = ("circle_box", "circle_circle", "collide")  # return a Contact or None
+FEW = 40  # a script of so many steps is not shortened
+MANY = 4  # equal lines that become a loop
 STATE = ("pos", "vel", "angle", "omega")
-PARTS = {  # what a package without a BonusWorld does not pass on
+PARTS = {  # modules of names that a package without a BonusWorld does not export
     "mini_engine:between": "mini_engine.game_loop",
     "mini_engine:wake": "mini_engine.sleeping",
 }
 
+Exchange = tuple[Request, Reply]
+
 
 @dataclass
 class Step:
-    """One request, its code in Python, and what a script needs of the answer."""
+    """One request, its code in Python, and the state of the bodies after it."""
 
     request: Request
     code: list[str]
     silent: bool  # nothing came back
-    watched: list[str] = field(default_factory=list)  # the bodies it looked at, by name
-    bodies: dict[str, BodyRow] = field(default_factory=dict)  # by name, as they were then
-    place: tuple[Run, int] | None = None  # in the replay: a run and its line
-
-    def rename(self, names: "Names") -> None:
-        """Give it other names, on its line of the replay, too."""
-        self.code = [names.in_code(line) for line in self.code]
-        self.watched = [names.in_code(each) for each in self.watched]
-        self.bodies = {
-            names.in_code(name) if name.isidentifier() else name: row
-            for name, row in self.bodies.items()
-        }
-        if self.place is None:
-            return
-        run, at = self.place
-        run.lines[at] = msgspec.structs.replace(run.lines[at], code="\n".join(self.code))
-        for name, row in self.bodies.items():
-            if name.isidentifier() and row.number in run.looks:
-                number = name.lstrip(ascii_letters)
-                run.names[row.number] = describe_body(run.looks[row.number], number)
+    recalled: list[str] = field(default_factory=list)  # code that makes objects of earlier scenes
+    watched: list[str] = field(default_factory=list)  # names of the bodies that it reads
+    bodies: dict[str, BodyRow] = field(default_factory=dict)  # by name
+    line: Line | None = None  # of the replay
 
 
 @dataclass
 class Translator:
-    """Translates requests into Python and remembers the names of objects."""
+    """Translates requests into Python and gives names to objects, anew in each scene."""
 
     module: str
     names: dict[int, str] = field(default_factory=dict)  # by the child's number
+    makers: dict[int, list[Exchange]] = field(default_factory=dict)  # made and set up each object
     imports: set[tuple[str, str]] = field(default_factory=set)
     libraries: set[str] = field(default_factory=set)
-    parts: dict[str, str] = field(default_factory=dict)  # where to find what is not passed on
+    parts: dict[str, str] = field(default_factory=dict)  # modules of names without a BonusWorld
+    recalled: list[str] = field(default_factory=list)  # see Step
+
+    def begin_scene(self) -> None:
+        self.names.clear()
+
+    def begin_child(self) -> None:
+        """Forget all objects: a new child numbers its own."""
+        self.names.clear()
+        self.makers.clear()
 
     def translate(self, request: Request, reply: Reply) -> list[str]:
+        """Return the code of a request; `recalled` is the code that must stand before it."""
+        self.recalled = []
+        code = self._translate(request, reply)
+        made = list_refs(reply.value) if isinstance(reply, Returned) else []
+        for ref in made:
+            self.makers.setdefault(ref, [(request, reply)])
+        if isinstance(request, Set) and request.ref in self.makers:
+            self.makers[request.ref].append((request, reply))
+        return code
+
+    def _translate(self, request: Request, reply: Reply) -> list[str]:
         value = reply.value if isinstance(reply, Returned) else None
         match request:
             case MakeBody():
@@ -93,16 +98,14 @@ class Translator:
             case MakeWorld():
                 return self._make_world(request, value)
             case Call(target, args, kwargs):
+                function = self._write_target(target)
                 given = [*map(self.write_argument, args)]
                 given += [f"{name}={self.write_argument(each)}" for name, each in kwargs.items()]
-                call = f"{self._write_target(target)}({', '.join(given)})"
-                return [self._assign(value, call, target)]
+                return [self._assign(value, f"{function}({', '.join(given)})", target)]
             case Get(ref, name):
                 return [self._assign(value, f"{self.name(ref)}.{name}")] if name else []
             case Set(ref, fields):
-                return [
-                    f"{self.name(ref)}.{k} = {self.write_argument(v)}" for k, v in fields.items()
-                ]
+                return self._set_fields(self.name(ref), fields)
             case Simulate(ref, dt, steps):
                 stepping = f"{self.name(ref)}.step({write_number(dt)})"
                 return [f"for _ in range({steps}):", f"    {stepping}"] if steps > 1 else [stepping]
@@ -121,6 +124,9 @@ class Translator:
             return [start, step]
         return [start, f"for _ in range({request.steps}):", f"    {step}"]
 
+    def _set_fields(self, name: str, fields: Mapping[str, Argument]) -> list[str]:
+        return [f"{name}.{key} = {self.write_argument(each)}" for key, each in fields.items()]
+
     def watched_names(self, request: Request) -> list[str]:
         """Return the names of the bodies, or of the space, whose state a request reads."""
         match request:
@@ -130,22 +136,25 @@ class Translator:
                 return [self.name(ref) for ref in watch]
         return []
 
-    def forget(self) -> None:
-        self.names.clear()
-
     # ------------------------------------------------------------ names
 
     def name(self, ref: int) -> str:
+        """Return the name of an object; an object of an earlier scene is made again."""
+        if ref not in self.names and ref in self.makers:
+            exchanges = self.makers.pop(ref)  # so that it cannot ask for itself
+            for request, reply in exchanges:
+                self.recalled += self._translate(request, reply)
+            self.makers[ref] = exchanges
         return self.names.get(ref, f"object_{ref}")
 
     def _name_new(self, ref: int, kind: str) -> str:
-        taken = set(self.names.values())
+        taken = {*self.names.values(), *(name for _, name in self.imports)}
         numbered = (f"{kind}{number}" if number > 1 else kind for number in range(1, 1000))
         self.names[ref] = next(name for name in numbered if name not in taken)
         return self.names[ref]
 
     def _assign(self, value: Value, code: str, target: str = "") -> str:
-        """Keep the result of the code under a name if it is something new."""
+        """Assign the result of the code to a name if it is a new object."""
         match value:
             case BodyValue(ref=ref) | SpaceBody(ref=ref) if ref not in self.names:
                 return f"{self._name_new(ref, 'body')} = {code}"
@@ -219,7 +228,7 @@ class Translator:
         shape = f"{request.shape}({self.write_argument(request.size)})"
         given = [shape, self.write_argument(request.pos), write_number(request.mass)]
         given += [f"{key}={write_number(each)}" for key, each in request.kwargs.items()]
-        fields = [f"{name}.{k} = {self.write_argument(v)}" for k, v in request.fields.items()]
+        fields = self._set_fields(name, request.fields)
         return [f"{name} = Body({', '.join(given)})", *fields]
 
     def _make_world(self, request: MakeWorld, value: Value) -> list[str]:
@@ -243,8 +252,20 @@ class Translator:
         return lines + [f"{name}.joints.append({self.name(ref)})" for ref in request.joints]
 
 
+def list_refs(value: Value) -> list[int]:
+    """Return the numbers of all objects in an answer."""
+    match value:
+        case Ref(id=ref) | BodyValue(ref=ref) | ContactValue(ref=ref) | SpaceBody(ref=ref):
+            return [ref]
+        case SpaceValue(ref=ref, bodies=bodies):
+            return [ref, *(body.ref for body in bodies)]
+        case Items(items):
+            return [ref for each in items for ref in list_refs(each)]
+    return []
+
+
 def write_number(value: float) -> str:
-    """Write the exact number; a step size as a fraction."""
+    """Write the exact number, a step size as a fraction."""
     parts = round(1 / value) if value and abs(value) < 0.1 else 0
     if parts % 10 == 0 and parts and 1 / parts == value:
         return f"1 / {parts}"
@@ -252,7 +273,7 @@ def write_number(value: float) -> str:
 
 
 def write_polynomial(coefficients: Sequence[float]) -> str:
-    """Write the force as the judge computes it: by Horner's rule."""
+    """Write a polynomial of x by Horner's rule, as the worker computes it."""
     terms = list(coefficients)
     while len(terms) > 1 and not terms[-1]:
         terms.pop()
@@ -261,42 +282,6 @@ def write_polynomial(coefficients: Sequence[float]) -> str:
         text = f"({text}) * x" if "+" in text else f"{text} * x"
         text += f" + {each!r}" if each else ""
     return f"lambda x: {text}"
-
-
-# ---------------------------------------------------------------- names
-
-KINDS = ("ball", "box", "body", "contact", "world", "rod", "space", "thing")
-NAME = re.compile(rf"(?<![\w.'\"])({'|'.join(KINDS)})(\d*)\b(?![=(])")
-
-
-class Names:
-    """New names for what a script makes, counted from its own beginning.
-
-    A child numbers what it makes from its start on. A script of its end alone would begin with the
-    sixth ball.
-    """
-
-    def __init__(self, lines: Sequence[str]) -> None:
-        text = "\n".join(lines)
-        self.new: dict[str, str] = {}
-        counts = dict.fromkeys(KINDS, 0) | {
-            kind: 1 for kind in KINDS if re.search(rf"(?<![\w.]){kind}\(", text)
-        }  # a function has that name
-        for found in NAME.finditer(text):
-            if found[0] not in self.new:
-                counts[found[1]] += 1
-                number = counts[found[1]]
-                self.new[found[0]] = f"{found[1]}{number if number > 1 else ''}"
-
-    def in_code(self, text: str) -> str:
-        return NAME.sub(lambda found: self.new.get(found[0], found[0]), text)
-
-
-def renumber(steps: Sequence[Step]) -> None:
-    """Name the bodies, contacts and worlds of a script, and of its replay, from 1 on."""
-    names = Names([line for step in steps for line in step.code])
-    for step in steps:
-        step.rename(names)
 
 
 # ---------------------------------------------------------------- the whole script
@@ -310,7 +295,7 @@ def write_script(
     words: Sequence[str],
     paced: bool,
 ) -> str:
-    """Write a script that asks the same again; `words` say what was expected and what came.
+    """Write a script with the same calls; `words` become comments at its end.
 
     `paced`: the program has a function advance() that runs the steps of a frame.
     """
@@ -327,17 +312,18 @@ def write_script(
 
 
 def find_parting_step(both: Replay, runs: Sequence[Run], steps: Sequence[Step]) -> Step | None:
+    """Return the step at which the runs part."""
     if both.parting is None:
         return None
-    lines = both.scenes[both.parting.scene].lines
-    at = max(n for n, line in enumerate(lines) if line.at <= both.parting.moment)
-    run = runs[both.parting.scene]
-    return next((s for s in steps if s.place and s.place[0] is run and s.place[1] == at), None)
+    number = both.parting.scene
+    pairs = zip(both.scenes[number].lines, runs[number].lines, strict=True)
+    line = [line for pair, line in pairs if pair.at <= both.parting.moment][-1]
+    return next((step for step in steps if step.line is line), None)
 
 
 def write_imports(translator: Translator, body: str) -> Iterator[str]:
-    """Yield the imports of what the body uses, libraries first."""
-    for library in sorted(translator.libraries, reverse=True):  # random stands before pymunk
+    """Yield the imports that the body uses, libraries first."""
+    for library in sorted(translator.libraries, reverse=True):  # random before pymunk
         if f"{library}." in body:
             yield f"import {library}"
     sources = {source for source, _ in translator.imports}
@@ -349,13 +335,12 @@ def write_imports(translator: Translator, body: str) -> Iterator[str]:
 
 
 def write_comment(text: str) -> str:
-    """Put it on one line, whatever a submission put into it."""
-    line = printable(text)
-    return line if len(line) <= MAX_WIDTH * 3 else line[: MAX_WIDTH * 3] + "…"
+    """Return a text of a submission on one line."""
+    return cut(printable(text), MAX_COMMENT)
 
 
 def shorten(steps: Sequence[Step], parting: Step | None) -> Iterator[str]:
-    """Yield the script's lines: one round of a long loop, and `print` for each value to look at."""
+    """Yield the script's lines: one round of a long loop, and a `print` for each answer."""
     start, period = find_rounds(steps)
     chosen = list(steps)
     if period:
@@ -366,6 +351,7 @@ def shorten(steps: Sequence[Step], parting: Step | None) -> Iterator[str]:
     for index, step in enumerate(chosen):
         if period and index == start:
             yield from restore_bodies(steps[start - 1], steps[begin - 1])
+        yield from step.recalled
         last = index == len(chosen) - 1
         for line in step.code:
             assigned = re.match(r"[\w, ]+ = ", line)
@@ -377,7 +363,7 @@ def shorten(steps: Sequence[Step], parting: Step | None) -> Iterator[str]:
 
 
 def fold_repeats(lines: Iterable[str]) -> Iterator[str]:
-    """Turn the same line many times over into a loop."""
+    """Turn equal lines in a row into a loop."""
     for line, group in groupby(lines):
         count = len(list(group))
         if count < MANY or line.startswith(" "):
@@ -387,7 +373,7 @@ def fold_repeats(lines: Iterable[str]) -> Iterator[str]:
 
 
 def drop_setup(steps: Sequence[Step]) -> list[Step]:
-    """Leave out of a round what sets the next one up."""
+    """Drop from the end of a round what sets up the next one."""
     last_call = max((i for i, s in enumerate(steps) if isinstance(s.request, Call)), default=0)
     return [s for i, s in enumerate(steps) if i < last_call or not isinstance(s.request, Set)]
 
@@ -399,7 +385,7 @@ def print_form(code: str) -> str:
 
 
 def find_rounds(steps: Sequence[Step]) -> tuple[int, int]:
-    """Return where the same few requests begin to repeat until the end, and their number."""
+    """Find requests that repeat until the end; return where they begin, and their number."""
     signs = [signature_of(each.request) for each in steps]
     if len(signs) <= FEW:
         return 0, 0
@@ -413,7 +399,7 @@ def find_rounds(steps: Sequence[Step]) -> tuple[int, int]:
 
 
 def signature_of(request: Request) -> str:
-    """Return the kind of a request without its numbers and objects: runs may differ in both."""
+    """Describe a request without its numbers and objects, in which two runs may differ."""
     match request:
         case Integrate(target):
             return f"integrate {target}"
@@ -427,16 +413,16 @@ def signature_of(request: Request) -> str:
 
 
 def restore_bodies(before: Step, after: Step) -> Iterator[str]:
-    """Move the bodies to where the rounds left out have brought them."""
+    """Yield code that moves the bodies to their states after the omitted rounds."""
     for name, row in after.bodies.items():
-        if before.bodies.get(name) != row and name.isidentifier():
+        if name in before.bodies and before.bodies[name] != row:
             yield f"{name}.pos = Vector2({row.x!r}, {row.y!r})"
             yield f"{name}.vel = Vector2({row.vx!r}, {row.vy!r})"
             yield f"{name}.angle, {name}.omega = {row.angle!r}, {row.omega!r}"
 
 
 def print_last_state(steps: Sequence[Step]) -> Iterator[str]:
-    """Print what the check looked at last."""
+    """Yield code that prints the last answers of the check."""
     last = next((step for step in reversed(steps) if step.code), None)
     if last is None:
         return
@@ -459,7 +445,7 @@ def print_last_state(steps: Sequence[Step]) -> Iterator[str]:
 
 
 def write_play(module: str, play: Play, paced: bool) -> tuple[list[str], list[str]]:
-    """Write the lab scene with the same frames; clicks and keys are left to a person."""
+    """Write the imports and code for a program; clicks and keys become a comment."""
     if play.events or play.pictures or not paced:
         person = [
             f"{each.kind} {each.pos}{f' with {each.held}' if each.held else ''}"

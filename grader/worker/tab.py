@@ -201,7 +201,7 @@ class TabChannel(InnerChannel):
     def post(self, message: object) -> None:
         self.asked = child.decoder.decode(msgspec.msgpack.encode(message))
 
-    def gone(self, seconds: float) -> bool:
+    def flush(self, seconds: float) -> bool:
         return True
 
     def complete(self, seconds: float | None = None) -> bool:

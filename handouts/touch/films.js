@@ -62,7 +62,7 @@ class Projector {
   }
 
   get last() {
-    return this.scene.mine.length - 1;
+    return this.scene.yours.length - 1;
   }
 
   draw() {
@@ -70,7 +70,7 @@ class Projector {
     this.stage.readColours();
     const { scene, frame } = this;
     scene.arrows = 0; // speeds are to be seen, not read
-    this.stage.draw({ scene, mine: scene.mine[frame], right: scene.right[frame] });
+    this.stage.draw({ scene, yours: scene.yours[frame], expected: scene.expected[frame] });
     this.canvas.dataset.frame = frame;
   }
 
@@ -81,7 +81,7 @@ class Projector {
 
   /** How long the scene takes, s. */
   get length() {
-    return this.scene.mine[this.last].time;
+    return this.scene.yours[this.last].time;
   }
 
   /** Run from here on. With others, all from their start: they keep step, and wait for the longest. */
@@ -90,7 +90,7 @@ class Projector {
     this.playing = true;
     if (this.frame === this.last || others.length) this.frame = 0;
     const all = [this, ...others];
-    let begun = performance.now() - 1000 * this.scene.mine[this.frame].time;
+    let begun = performance.now() - 1000 * this.scene.yours[this.frame].time;
     const REST = 0.8; // s, on the last shot
     const next = (now) => {
       if (!this.playing || !this.canvas.isConnected) return;
@@ -105,7 +105,7 @@ class Projector {
 
   /** Show the shot of a time, s. */
   goTo(seconds) {
-    const at = this.scene.mine.findIndex((each) => each.time > Math.min(seconds, this.length));
+    const at = this.scene.yours.findIndex((each) => each.time > Math.min(seconds, this.length));
     this.go(at < 0 ? this.last : Math.max(0, at - 1));
   }
 

@@ -66,9 +66,9 @@ def test_a_long_message_is_not_sent_either(ends):
 def test_a_question_that_nobody_reads_holds_up_nobody(ends):
     ours, theirs = ends
     ours.post("x" * (MAX_MESSAGE // 2))
-    assert not ours.gone(0.01)
-    assert not theirs.complete(0) and not ours.gone(0.01), "only what was read makes room"
-    while not ours.gone(0):
+    assert not ours.flush(0.01)
+    assert not theirs.complete(0) and not ours.flush(0.01), "only what was read makes room"
+    while not ours.flush(0):
         theirs.complete(0)
     assert theirs.complete(1) and len(theirs.receive(0)) > MAX_MESSAGE // 2
 

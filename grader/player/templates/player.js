@@ -14,7 +14,7 @@
   for (const scene of replay.scenes) {
     stage.prepare(scene);
     starts.push(count);
-    count += scene.mine.length;
+    count += scene.yours.length;
   }
   const partAt = replay.parting ? starts[replay.parting.scene] + replay.parting.moment : null;
 
@@ -23,16 +23,16 @@
     while (starts[number] > position) number -= 1;
     const scene = replay.scenes[number], moment = position - starts[number];
     const line = scene.lines.findLast((each) => each.at <= moment);
-    return { scene, number, moment, line, mine: scene.mine[moment], right: scene.right[moment] };
+    return { scene, number, moment, line, yours: scene.yours[moment], expected: scene.expected[moment] };
   }
 
-  // How far apart the runs are in a moment, in px of the picture; a body that one of them lacks is.
+  // Return the distance of the runs in a moment, px of the picture; Infinity if a body is missing.
   function apart(position) {
-    const { scene, mine, right } = at(position);
-    if (!right) return 0;
+    const { scene, yours, expected } = at(position);
+    if (!expected) return 0;
     let most = 0;
-    for (const [number, state] of mine.bodies) {
-      const other = right.bodies.get(number);
+    for (const [number, state] of yours.bodies) {
+      const other = expected.bodies.get(number);
       if (!other) return Infinity;
       const away = Math.hypot(state[0] - other[0], state[1] - other[1]);
       if (Number.isFinite(away)) most = Math.max(most, away * scene.scale);
@@ -40,29 +40,29 @@
     return most;
   }
 
-  const SEEN = 2; // px of the picture
+  const VISIBLE = 2; // px of the picture
   for (const scene of replay.scenes) scene.scale = stage.scaleOf(scene);
   const gaps = Array.from({ length: count }, (_, position) => apart(position));
-  const seenAt = gaps.findIndex((gap) => gap >= SEEN);
+  const seenAt = gaps.findIndex((gap) => gap >= VISIBLE);
   const largestAt = gaps.reduce((best, gap, position) => (gap > gaps[best] ? position : best), 0);
   // ---------------------------------------------------------------- words and numbers
 
-  // Where nothing is off to be seen, the end is the fullest picture.
+  // Open where the difference is visible; without a difference, at the end.
   const nowhere = partAt ?? (replay.note ? count - 1 : 0);
   let position = seenAt < 0 ? nowhere : seenAt, chosen = replay.parting?.body || null;
 
   function showValues(now) {
     const { scene } = now;
-    const known = now.mine.bodies.has(chosen) || now.right?.bodies.has(chosen);
+    const known = now.yours.bodies.has(chosen) || now.expected?.bodies.has(chosen);
     if (!known) {
-      const moving = [...now.mine.bodies.keys()].find((each) => scene.looks[each]?.mass !== null);
-      chosen = moving ?? [...now.mine.bodies.keys()][0] ?? null;
+      const moving = [...now.yours.bodies.keys()].find((each) => scene.looks[each]?.mass !== null);
+      chosen = moving ?? [...now.yours.bodies.keys()][0] ?? null;
     }
-    const mine = now.mine.bodies.get(chosen), right = now.right?.bodies.get(chosen);
+    const yours = now.yours.bodies.get(chosen), expected = now.expected?.bodies.get(chosen);
     byId("who").textContent = chosen === null ? "" : scene.names[chosen] ?? `body ${chosen}`;
     const rows = FIELDS.filter((name) => !scene.curve || name === "x" || name === "vx").map((name) => {
       const index = FIELDS.indexOf(name);
-      return [scene.curve && name === "vx" ? "v" : name, UNITS[name], mine?.[index], right?.[index]];
+      return [scene.curve && name === "vx" ? "v" : name, UNITS[name], yours?.[index], expected?.[index]];
     });
     if (!scene.curve) {
       for (const name of ["mass", "moment"]) {
@@ -88,13 +88,13 @@
   }
 
   function showTouches(now) {
-    const mine = now.mine.touches, right = now.right?.touches ?? [];
+    const yours = now.yours.touches, expected = now.expected?.touches ?? [];
     const rows = [];
-    for (let index = 0; index < Math.min(4, Math.max(mine.length, right.length)); index += 1) {
+    for (let index = 0; index < Math.min(4, Math.max(yours.length, expected.length)); index += 1) {
       for (const [name, place, unit] of [["depth", 4, "px"], ["jn", 5, "kg px/s"], ["jt", 6, "kg px/s"]]) {
-        const own = mine[index]?.[place], other = right[index]?.[place], row = document.createElement("tr");
+        const own = yours[index]?.[place], other = expected[index]?.[place], row = document.createElement("tr");
         row.append(cell("th", `contact ${index + 1}: ${name} (${unit})`), cell("td", digits(own)), cell("td", digits(other)));
-        if (now.right && own !== other && !(Math.abs(own - other) <= 1e-3 * Math.max(1e-3, Math.abs(other)))) row.className = "off";
+        if (now.expected && own !== other && !(Math.abs(own - other) <= 1e-3 * Math.max(1e-3, Math.abs(other)))) row.className = "off";
         rows.push(row);
       }
     }
@@ -102,17 +102,17 @@
     byId("touches").tBodies[0].replaceChildren(...rows);
   }
 
-  // What the lines in the picture are, where there are some that need words.
+  // Explain the lines in the picture.
   function legend(now) {
     if (now.line?.marks.length) return "Dashed: the arm. Grey: the axis. Red: the velocity that an impulse along it gives that point.";
-    const pushed = now.mine.touches.some(([, , , , , jn, , limit]) => jn > 0 && limit > 0);
+    const pushed = now.yours.touches.some(([, , , , , jn, , limit]) => jn > 0 && limit > 0);
     return pushed ? "Arrow at a contact: its impulse. Dashed: how far friction may turn it." : "";
   }
 
   function showWords(now) {
-    const steps = now.mine.steps > 1 || now.right?.steps > 1
-      ? ` · ${now.mine.steps} steps${now.right && now.right.steps !== now.mine.steps ? ` (expected ${now.right.steps})` : ""}` : "";
-    const time = now.mine.time ? ` · ${now.mine.time.toFixed(3)} s` : "";
+    const steps = now.yours.steps > 1 || now.expected?.steps > 1
+      ? ` · ${now.yours.steps} steps${now.expected && now.expected.steps !== now.yours.steps ? ` (expected ${now.expected.steps})` : ""}` : "";
+    const time = now.yours.time ? ` · ${now.yours.time.toFixed(3)} s` : "";
     byId("position").textContent = `moment ${position + 1} of ${count}${time}${steps}`;
     slider.setAttribute("aria-valuetext", byId("position").textContent);
     byId("legend").textContent = legend(now);
@@ -123,8 +123,8 @@
     byId("answers").hidden = !talks;
     byId("answer-yours").textContent = now.line?.yours ?? "";
     byId("answer-expected").textContent = now.line?.expected ?? "";
-    byId("row-expected").hidden = !now.right;
-    byId("answers").className = now.right && now.line?.yours !== now.line?.expected ? "answers off" : "answers";
+    byId("row-expected").hidden = !now.expected;
+    byId("answers").className = now.expected && now.line?.yours !== now.line?.expected ? "answers off" : "answers";
     byId("play").textContent = timer === null ? "Play" : "Stop";
     const current = items.get(now.line);
     for (const item of items.values()) item.removeAttribute("aria-current");
@@ -160,10 +160,10 @@
     show();
   }
 
-  // Real time where time runs; else as slowly as there is little to see.
+  // Return the ms until the next moment: real time where time passes, else longer for short replays.
   function pause() {
     const here = at(position), next = at(position + 1);
-    const passed = here.scene === next.scene ? next.mine.time - here.mine.time : 0;
+    const passed = here.scene === next.scene ? next.yours.time - here.yours.time : 0;
     const usual = Math.min(0.8, Math.max(1 / 30, 6 / count));
     return 1000 * (passed > 0 && passed < 1 ? passed : usual) / Number(byId("speed").value);
   }
@@ -204,12 +204,12 @@
   const toLargest = () => toParting(seenAt < 0 ? partAt : largestAt);
 
   function nextBody() {
-    const now = at(position), all = [...now.mine.bodies.keys()];
+    const now = at(position), all = [...now.yours.bodies.keys()];
     if (all.length) chosen = all[(all.indexOf(chosen) + 1) % all.length];
     show();
   }
 
-  // ---------------------------------------------------------------- hands
+  // ---------------------------------------------------------------- input
 
   const KEYS = {
     " ": toggle, ArrowLeft: () => step(-1), ArrowRight: () => step(1),
@@ -237,7 +237,7 @@
     if (now.scene.curve) return;
     const { x, y, px } = stage.place(event);
     let best = Infinity, found = null;
-    for (const [moment, looks] of [[now.mine, now.scene.looks], [now.right, now.scene.expected_looks]]) {
+    for (const [moment, looks] of [[now.yours, now.scene.looks], [now.expected, now.scene.expected_looks]]) {
       for (const [number, state] of moment?.bodies ?? []) {
         const look = looks[number];
         if (!look || !stage.isFinitePlace(state)) continue;
@@ -250,7 +250,7 @@
       show();
     }
   };
-  for (const kind of ["pointermove", "pointerdown"]) canvas.addEventListener(kind, pick); // a finger's tap, too
+  for (const kind of ["pointermove", "pointerdown"]) canvas.addEventListener(kind, pick); // also a tap
 
   byId("copy").addEventListener("click", async () => {
     const text = byId("script").textContent;
@@ -280,25 +280,21 @@
 
   const words = byId("parting");
   if (replay.parting) {
-    const seen = seenAt < 0
+    const visible = seenAt < 0
       ? replay.parting.body ? " The difference is too small to see." : ""
       : ` You can see it from moment ${seenAt + 1} on; it is largest in moment ${largestAt + 1}.`;
-    words.textContent = `The runs part in moment ${partAt + 1} of ${count}: ${replay.parting.words}.${seen}`;
+    words.textContent = `The runs differ from moment ${partAt + 1} of ${count} on: ${replay.parting.words}.${visible}`;
     words.className = "parting apart";
     const mark = byId("mark"), share = count > 1 ? position / (count - 1) : 0;
     mark.hidden = false;
     mark.style.left = `calc(${100 * share}% + ${0.5 - share}rem)`;
-  } else if (replay.note) {
-    words.textContent = replay.note;
-    byId("key-expected").hidden = !replay.compared;
-    for (const each of document.querySelectorAll(".right")) each.hidden = !replay.compared;
-  } else if (replay.compared) {
-    words.textContent = "Nothing is visibly off: the difference is in the numbers named above.";
   } else {
-    words.textContent = "The right run is not known here: this is yours alone.";
-    byId("key-expected").hidden = true;
-    for (const each of document.querySelectorAll(".right")) each.hidden = true;
+    words.textContent = replay.note || (replay.compared
+      ? "There is no visible difference: it is in the numbers named above."
+      : "Your run alone: the right run is not known here.");
   }
+  byId("key-expected").hidden = !replay.compared;
+  for (const each of document.querySelectorAll(".right")) each.hidden = !replay.compared;
   byId("part").disabled = byId("largest").disabled = partAt === null;
   slider.max = count - 1;
   if (window !== window.top) document.body.className = "framed";

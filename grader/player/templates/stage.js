@@ -1,7 +1,7 @@
-// The stage: draws one scene of a replay on a canvas, moment by moment. It knows no page around it.
+// The stage draws one scene of a replay on a canvas, moment by moment; it needs no page around it.
 //
-// A scene has `yours` and `expected`, both lists of moments, and the looks of the bodies in each. Where
-// nothing is expected, that list is empty.
+// A scene has `yours` and `expected`, two lists of moments, and the looks of the bodies in each. Without
+// a right run, `expected` is empty.
 "use strict";
 
 function stageOn(canvas) {
@@ -11,7 +11,7 @@ function stageOn(canvas) {
 
   // ---------------------------------------------------------------- moments
 
-  // A moment tells only what changed: [time, steps, bodies, touches, rods, gone].
+  // A moment has only changes: [time, steps, bodies, touches, rods, gone].
   function unfold(moments) {
     let bodies = new Map(), touches = [], rods = [];
     return moments.map(([time, steps, changed, newTouches, newRods, gone]) => {
@@ -24,22 +24,22 @@ function stageOn(canvas) {
     });
   }
 
-  // The moments of both runs as they are drawn, and what is in view.
+  // Unfold the moments of both runs, and choose the view.
   function prepare(scene) {
-    scene.mine = unfold(scene.yours);
-    scene.right = unfold(scene.expected);
+    scene.yours = unfold(scene.yours);
+    scene.expected = unfold(scene.expected);
     scene.view ??= scene.curve ? curveView(scene) : viewOf(scene);
     return scene;
   }
 
-  // ---------------------------------------------------------------- what is in view
+  // ---------------------------------------------------------------- the view
 
   const NOTHING = [Infinity, Infinity, -Infinity, -Infinity];
   const isFinitePlace = (state) => Number.isFinite(state[0]) && Number.isFinite(state[1]);
   const reach = (look) => Math.max(0, ...(look?.shapes ?? []).flatMap(
     ([points, radius]) => points.map(([x, y]) => Math.hypot(x, y) + radius)));
 
-  // How far a body reaches in each direction: left, up, right, down.
+  // Return the reach of a body: left, up, right, down.
   function extent(look) {
     if (look?.mass !== null) return [reach(look), reach(look), reach(look), reach(look)];
     let box = NOTHING;
@@ -63,16 +63,16 @@ function stageOn(canvas) {
     return box;
   }
 
-  // All that moves and what is no larger than that; of the rest what lies near.
+  // Show all that moves and bodies of similar size; of the rest, the near part.
   function viewOf(scene) {
-    const both = [[scene.mine, scene.looks], [scene.right, scene.expected_looks]];
+    const both = [[scene.yours, scene.looks], [scene.expected, scene.expected_looks]];
     const moves = (look) => look && look.mass !== null;
     const join = (wanted) => both.reduce((box, [moments, looks]) => {
       const other = boundsOf(moments, looks, wanted);
       return [Math.min(box[0], other[0]), Math.min(box[1], other[1]), Math.max(box[2], other[2]), Math.max(box[3], other[3])];
     }, NOTHING);
-    let core = scene.right.length ? boundsOf(scene.right, scene.expected_looks, moves) : NOTHING;
-    if (core[0] > core[2]) core = boundsOf(scene.mine, scene.looks, moves);
+    let core = scene.expected.length ? boundsOf(scene.expected, scene.expected_looks, moves) : NOTHING;
+    if (core[0] > core[2]) core = boundsOf(scene.yours, scene.looks, moves);
     if (core[0] > core[2]) core = join(() => true);
     if (core[0] > core[2]) core = [-50, -50, 50, 50];
     const size = Math.max(core[2] - core[0], core[3] - core[1], 2);
@@ -94,7 +94,7 @@ function stageOn(canvas) {
 
   function curveView(scene) {
     let box = NOTHING;
-    for (const moments of [scene.mine, scene.right]) {
+    for (const moments of [scene.yours, scene.expected]) {
       for (const moment of moments) {
         const state = moment.bodies.get(1);
         if (state && Number.isFinite(state[0])) box = around(box, moment.time, state[0], 0);
@@ -183,8 +183,8 @@ function stageOn(canvas) {
     }
   }
 
-  // Points and normals. Where impulses are known, an arrow shows the one on the second body, and the
-  // two lines of a cone how far friction may turn it from the normal.
+  // Draw points and normals. If impulses are known, an arrow shows the one on the second body, and
+  // the two lines of a cone show how far friction may turn it from the normal.
   function touches(moment, colour) {
     pen.strokeStyle = pen.fillStyle = colour;
     const largest = Math.max(...moment.touches.map(([, , , , , jn, jt]) => Math.hypot(jn, jt)), 0);
@@ -213,7 +213,7 @@ function stageOn(canvas) {
     }
   }
 
-  // Arms, the axis of an impulse at their ends, and the velocity that a unit of it gives each end.
+  // Draw arms, the axis of an impulse at their ends, and the velocity that a unit of it gives them.
   function drawMarks(scene, moment, marks) {
     const ends = [];
     for (const [number, x, y, axisX, axisY] of marks) {
@@ -242,7 +242,7 @@ function stageOn(canvas) {
     }
   }
 
-  // How long a round number of px is in this picture.
+  // Draw a scale of a round number of px.
   function drawScale(wide, tall) {
     const most = wide / 5 / scale, power = 10 ** Math.floor(Math.log10(most));
     const length = [5, 2, 1].map((each) => each * power).find((each) => each <= most);
@@ -303,11 +303,11 @@ function stageOn(canvas) {
     touches(moment, colours.expected);
   }
 
-  function drawGap(mine, right) {
+  function drawGap(yours, expected) {
     pen.strokeStyle = colours.wrong;
     pen.lineWidth = 2;
-    for (const [number, state] of mine.bodies) {
-      const other = right.bodies.get(number);
+    for (const [number, state] of yours.bodies) {
+      const other = expected.bodies.get(number);
       if (!other || !isFinitePlace(state) || !isFinitePlace(other)) continue;
       if (Math.hypot(state[0] - other[0], state[1] - other[1]) <= 0.5) continue;
       pen.beginPath();
@@ -317,10 +317,10 @@ function stageOn(canvas) {
     }
   }
 
-  // The fastest body's arrow takes an eighth of the picture.
+  // Return the scale at which the fastest body's arrow takes an eighth of the picture.
   function arrowScale(scene, wide) {
     let fastest = 0;
-    for (const moment of [...scene.mine, ...scene.right]) {
+    for (const moment of [...scene.yours, ...scene.expected]) {
       for (const [, state] of moment.bodies) {
         const speed = Math.hypot(state[2], state[3]);
         if (Number.isFinite(speed)) fastest = Math.max(fastest, speed);
@@ -329,7 +329,7 @@ function stageOn(canvas) {
     return fastest ? wide / 8 / fastest : 0;
   }
 
-  // From three to six round numbers between two others.
+  // Return three to six round numbers between two others.
   function roundNumbers(low, high) {
     const rough = (high - low) / 3, power = 10 ** Math.floor(Math.log10(rough));
     const apart = [5, 2, 1].map((each) => each * power).find((each) => each <= rough);
@@ -363,27 +363,27 @@ function stageOn(canvas) {
       pen.setLineDash(dash);
       pen.beginPath();
       moments.forEach((moment, index) => {
-        const state = moment.bodies.get(1), time = scene.mine[index]?.time ?? moment.time;
+        const state = moment.bodies.get(1), time = scene.yours[index]?.time ?? moment.time;
         if (!state || !Number.isFinite(state[0])) return;
-        if (index && time > scene.mine[index - 1].time) pen.lineTo(x(time), y(state[0]));
+        if (index && time > scene.yours[index - 1].time) pen.lineTo(x(time), y(state[0]));
         else pen.moveTo(x(time), y(state[0]));
       });
       pen.stroke();
       pen.setLineDash([]);
     };
-    trace(scene.mine, colours.yours, []);
-    trace(scene.right, colours.expected, [6, 4]);
-    for (const [moment, colour] of [[now.right, colours.expected], [now.mine, colours.yours]]) {
+    trace(scene.yours, colours.yours, []);
+    trace(scene.expected, colours.expected, [6, 4]);
+    for (const [moment, colour] of [[now.expected, colours.expected], [now.yours, colours.yours]]) {
       const state = moment?.bodies.get(1);
       if (!state || !Number.isFinite(state[0])) continue;
       pen.fillStyle = colour;
       pen.beginPath();
-      pen.arc(x(now.mine.time), y(state[0]), 5, 0, 2 * Math.PI);
+      pen.arc(x(now.yours.time), y(state[0]), 5, 0, 2 * Math.PI);
       pen.fill();
     }
   }
 
-  // `now` has a scene and its moments `mine` and `right`; the outline of a body can be picked out.
+  // `now` has a scene and its moments `yours` and `expected`; the body `chosen` gets an outline.
   function draw(now, chosen = null) {
     const { scene } = now;
     const [wide, tall] = fit(scene);
@@ -393,22 +393,22 @@ function stageOn(canvas) {
       return;
     }
     scene.arrows ??= arrowScale(scene, wide);
-    drawYours(scene, now.mine, scene.arrows, chosen);
-    if (now.right) {
-      drawExpected(scene, now.right, scene.arrows);
-      drawGap(now.mine, now.right);
+    drawYours(scene, now.yours, scene.arrows, chosen);
+    if (now.expected) {
+      drawExpected(scene, now.expected, scene.arrows);
+      drawGap(now.yours, now.expected);
     }
-    drawMarks(scene, now.mine, now.line?.marks ?? []);
+    drawMarks(scene, now.yours, now.line?.marks ?? []);
     drawScale(wide, tall);
   }
 
-  // How many px of the picture a px of a scene is; of a curve, along its height.
+  // Return the px of the picture per px of a scene; of a curve, along its height.
   function scaleOf(scene) {
     const [, tall] = fit(scene), [, low, , high] = scene.view;
     return scene.curve ? (tall - 40) / (high - low) : scale;
   }
 
-  // Where in the scene a point of the page is, px, and how many px of the scene a px of the page is.
+  // Convert a point of the page to the scene, px; also return the px of the scene per px of the page.
   function place(event) {
     const box = canvas.getBoundingClientRect();
     return { x: (event.clientX - box.left - offset[0]) / scale, y: (event.clientY - box.top - offset[1]) / scale, px: 1 / scale };
