@@ -12,7 +12,7 @@ import pytest
 from grader.judge.drawing import kept_examples
 from grader.judge.failures import Broke, NotYet
 from grader.judge.grade import Grading, Options, grading, shipped_reference
-from grader.judge.loop import load_checks
+from grader.judge.jobs import load_checks
 from grader.judge.rubric import CHECKS, Check, Todo, load_rubric
 
 GRADING = pytest.StashKey[Grading]()

@@ -1,25 +1,26 @@
-"""Find what changed given code has to do with a failed check: ask it with that code put back.
+"""Find out whether changed given code makes a check fail: run it with that code put back.
 
-What passes then keeps its points, since the student's own code is right: changed given code costs
-the program as a whole. Each failed check is asked once more for that, as far as the submission's
-budget goes. What puts all of it back cannot help a TODO that is done elsewhere: only regions stay.
+A check that passes then keeps its points, since the student's own code is right: changed given code
+costs the program as a whole. Code that Python loads from elsewhere is not put back.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from grader.judge.children import Child
 from grader.judge.failures import Broke, NotYet
+from grader.judge.jobs import Key
 from grader.judge.lab import Lab, Observation
 from grader.judge.numbers import readable, tidied
 from grader.judge.result import CheckResult, Where
-from grader.source.given import Changed
+from grader.judge.submission import Submission, load_given
+from grader.source.given import Changed, change_of_file, changes, restored
+from grader.source.regions import read_source
 
-MOST_ALONE = 8  # changes that are each put back alone, to see which of them it is
+MOST_ALONE = 8  # changes that are each put back alone, to find the one that matters
 EXPERIMENTS = {"ITERATIONS"}
-MOST_ASKED = 60  # times that checks are asked for that
+MOST_ASKED = 60  # runs of checks with one change put back
 
-Key = tuple[str, str]  # the ids of a TODO and a check
 OpenChild = Callable[[int], Child]
 
 
@@ -28,25 +29,25 @@ class Blamed:
     """The changes of given code that a failed check depends on."""
 
     changes: tuple[Changed, ...]
-    mended: bool  # whether the check passes once they are undone
+    mended: bool  # the check passes once they are undone
 
     @property
     def is_all(self) -> bool:
-        """Return whether nothing else needs to be told; a name that is gone may have a new one."""
+        """Return whether nothing else needs to be said; a name that is gone may have a new one."""
         return self.mended and all(each.theirs for each in self.changes)
 
     @property
     def is_gone(self) -> bool:
-        """Return whether code is missing, without which nothing of its TODO runs."""
+        """Return whether code is missing without which nothing of its TODO runs."""
         return not self.mended and not any(each.theirs for each in self.changes)
 
     @property
     def is_experiment(self) -> bool:
-        """Return whether only the passes of the solver differ, which the lesson proposes to try."""
+        """Return whether only the passes of the solver differ, which the lesson suggests trying."""
         return all(each.name in EXPERIMENTS for each in self.changes)
 
     def place(self, check: CheckResult) -> Where:
-        """Return the line of the first change; of code that is gone, where its absence shows."""
+        """Return the line of the first change; for missing code, the line where the check fails."""
         first = self.changes[0]
         place = check.where if check.where is not None and not first.theirs else first
         return Where(place.file, place.line, given=True)
@@ -61,20 +62,44 @@ class Blamed:
         return f"Given code was changed: {how}. check {undo} puts it back{then}."
 
 
+def find_changes(submission: Submission, unusable: Iterable[Broke | NotYet] = ()) -> list[Changed]:
+    """Return how the given code of a submission differs from what was handed out.
+
+    `unusable`: how imports failed. A file in which one fails counts as a whole: code that was added
+    may be the reason.
+    """
+    folder, given = submission.folder, load_given()
+    own = {n: read_source(folder / n) for n in given if (folder / n).is_file()}
+    raised = [each.raised for each in unusable if isinstance(each, Broke) and each.raised]
+    fails = {each.frames[-1].file for each in raised if each.frames} & own.keys()
+    whole = [c for name in sorted(fails) for c in change_of_file(name, own[name], given[name])]
+    others = {name: text for name, text in own.items() if name not in fails}
+    return [*whole, *changes(others, given)]
+
+
+def undo(submission: Submission, undone: Sequence[Changed]) -> dict[str, str]:
+    """Return the changed files with these changes undone, as texts by name."""
+    texts = {each.file: read_source(submission.folder / each.file) for each in undone}
+    return {
+        name: restored(text, [each for each in undone if each.file == name])
+        for name, text in texts.items()
+    }
+
+
 @dataclass
 class Blame:
-    """Asks the failed checks of a submission again, with changes of given code undone."""
+    """Runs the failed checks of a submission again, with changes of given code undone."""
 
     changes: Sequence[Changed]
     open_with: Callable[[Sequence[Changed]], OpenChild]  # children of the tree with these undone
     again: Callable[[Key, OpenChild], Lab]
     spent: Callable[[], bool] = lambda: False  # whether the submission has used up its time
-    asked: int = 0  # times, with one change undone alone
+    asked: int = 0  # runs with one change undone
     found: dict[Key, Blamed] = field(default_factory=dict)
-    seen: dict[Key, list[Observation]] = field(default_factory=dict)  # with all of them undone
+    answers: dict[Key, list[Observation]] = field(default_factory=dict)  # with all changes undone
 
     def look_into(self, failed: Mapping[Key, CheckResult]) -> None:
-        """Ask all, and then with each change undone alone those in which they make a difference."""
+        """Undo all changes, and then each one alone for the checks that this makes differ."""
         differ: dict[Key, bool] = {}
         open_child = self.open_with(self.changes)
         for key, check in failed.items():
@@ -82,7 +107,7 @@ class Blame:
                 break
             lab = self.again(key, open_child)
             if not isinstance(lab.failure, Broke):  # else their own code needs what was undone
-                self.seen[key] = lab.observations
+                self.answers[key] = lab.observations
             if makes_a_difference(lab, check):
                 differ[key] = lab.failure is None
         alone = self._find_one(failed, differ) if differ else {}
@@ -92,14 +117,14 @@ class Blame:
     def _find_one(
         self, failed: Mapping[Key, CheckResult], differ: Mapping[Key, bool]
     ) -> dict[Key, Sequence[Changed]]:
-        """Return the one change that makes the difference to a check, as far as there is one.
+        """Return the one change that makes the difference to a check, if there is one.
 
-        Of several checks with the same error only the first is asked.
+        Of several checks with the same error only the first runs.
         """
         if not 1 < len(self.changes) <= MOST_ALONE:
             return {}
         found: dict[Key, Sequence[Changed]] = {}
-        first = {key: first_alike(failed, key) for key in differ}
+        first = {key: find_first_like(failed, key) for key in differ}
         for change in self.changes:
             left = [key for key in differ if key not in found and first[key] == key]
             open_child = self.open_with([change])
@@ -115,7 +140,7 @@ class Blame:
         return {key: found[same] for key, same in first.items() if same in found}
 
 
-def first_alike(failed: Mapping[Key, CheckResult], key: Key) -> Key:
+def find_first_like(failed: Mapping[Key, CheckResult], key: Key) -> Key:
     """Return the first check with the same error, or the check itself."""
     if failed[key].state != "error":
         return key
@@ -129,7 +154,5 @@ def makes_a_difference(lab: Lab, check: CheckResult) -> bool:
         return True
     if lab.connection.pieces or lab.ended or not isinstance(failure, NotYet):
         return False
-    return (tidied(failure.ran), readable(failure.expected, failure.got)[1]) != (
-        check.ran,
-        check.got,
-    )
+    got = readable(failure.expected, failure.got)[1]
+    return (tidied(failure.ran), got) != (check.ran, check.got)

@@ -13,11 +13,11 @@ from difflib import get_close_matches
 from functools import cache, cached_property
 from itertools import islice
 
-from grader.judge.failures import REBOUND
 from grader.judge.submission import handed_out, load_given
 from grader.source.definitions import statements
 from grader.source.given import given_pieces, imported_names
 from grader.source.regions import read_regions
+from grader.source.suspects import REBOUND
 from grader.text import listed
 
 RAISED = re.compile(r"(?P<error>\w+(?:: .*)?) \(in (?P<file>.+?), line (?P<line>\d+): ", re.DOTALL)

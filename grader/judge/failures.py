@@ -11,19 +11,6 @@ REMEMBERS = (
     "earlier calls, or on chance. The answer must follow from what is given to this call alone."
 )
 TRESPASS = "{name} must leave everything as it is but what its docstring names."
-REBOUND = (
-    "Line {line} gives `{name}` another value. From there on `{name}` is no longer what the "
-    "function was given: use another name."
-)
-IDLE = "Line {line}, `{text}`, computes a value and keeps it nowhere: is return or = missing?"
-UNREAD = "Line {line} gives `{name}` a value, and nothing reads it."
-ALIAS = (
-    "Line {line} makes no copy: `{name}` is `{value}` itself, and changes with it. Write "
-    "Vector2({value})."
-)
-SWAPPED = "Line {line} has {got}, which keeps nothing of the old value: write {meant}."
-RETURNS = "Line {line} returns in the first round of its loop: is it indented too far?"
-LOOP = "The loop in line {line}, `{text}`, seems not to end: its body must change what it asks."
 ENDLESS = "it used up its"  # how the words of a check begin that ran out of processor time
 MOST_NAMES = 3  # in one sentence
 KEPT = (

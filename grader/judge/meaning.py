@@ -1,23 +1,23 @@
-"""Find what a failed check means, and where to look: the first explanation that fits is told."""
+"""Find what a failed check means, and where to look: the first explanation that fits is used."""
 
 import math
 import re
-from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
 
 import msgspec
 
 from grader.judge.blame import Blamed
 from grader.judge.diagnosis import Diagnosis
-from grader.judge.failures import ENDLESS, KEPT, MOST_NAMES, REMEMBERS, TRESPASS
+from grader.judge.failures import ENDLESS, KEPT, MOST_NAMES, TRESPASS
 from grader.judge.lab import Observation
-from grader.judge.mending import Mend
 from grader.judge.misconceptions import Mistake
+from grader.judge.one_change import Mend
 from grader.judge.result import CheckResult, Where
 from grader.judge.rubric import Todo
 from grader.judge.submission import load_given
+from grader.source.suspects import Suspect
 from grader.text import listed
 
 OUTSIDE = "No TODO is to blame for this: look at the code around them."
@@ -35,272 +35,262 @@ CALLED_BACK = {  # what to do about an error of such a function, by a part of th
     "NoneType": "Its data is None: hand data to on_collision as well, data=data.",
     "UnboundLocalError": "What it assigns is its own alone: count in data.",
 }
-LINE = re.compile(r"\b[Ll]ine (\d+)")  # as the words about a region begin
 UNFIT = ("ZeroDivisionError", "ValueError: Can't normalize")  # a case came where it must not
 LONGEST = 110  # letters of what is said beside a line
-NEARLY, NOTHING = 5e-5, 1e-9  # of a number, and what counts as none
+NEARLY, NOTHING = 5e-5, 1e-9  # relative error of a rounded number; error of one that is 0
 NUMBER = re.compile(r"(?<![\w.^])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 FINISH = "TODO {ids} must be right before this can be checked: finish {it} first."
 
 
 @dataclass(frozen=True)
 class Left:
-    """Say what was left in a TODO's region and should be gone, and in which line."""
+    """A line that should be gone from a TODO's region, and a sentence about it."""
 
     words: str
     where: Where
-    is_all: bool  # whether nothing else needs to be told
-    answers: bool = False  # whether it gives all answers that come at all
-
-
-class RegionWords(NamedTuple):
-    """Say what the text of a TODO shows, in words; empty where it shows no such thing."""
-
-    outside: str = ""  # which line of its function stands outside its region
-    rebound: str = ""  # which argument gets another value
-    loop: str = ""  # which loop of its code may never end
-    unread: str = ""  # which name gets a value that nothing reads
-    swapped: str = ""  # which line has =+ for +=
-    returns: str = ""  # which line returns in the first round of its loop
-    alias: str = ""  # which line gives another's vector a second name, under which it is changed
-
-
-NOTHING_SHOWN = RegionWords()
+    is_all: bool  # nothing else needs to be said
+    answers: bool = False  # the line returns every answer of the function
 
 
 @dataclass(frozen=True)
 class Evidence:
-    """The evidence on the failures of one TODO; all mappings are by the ids of its checks."""
+    """Evidence on all failures of one TODO."""
 
     todo: Todo
     mistake: Mistake | None = None
-    answers: Mapping[str, list[Observation]] = field(default_factory=dict)
-    kept: Mapping[str, list[str]] = field(default_factory=dict)  # names that held something
-    trespasses: Mapping[str, str] = field(default_factory=dict)  # what was changed that must stay
-    blamed: Mapping[str, Blamed] = field(default_factory=dict)
-    earlier: Mapping[str, list[str]] = field(default_factory=dict)  # TODOs that it fails in first
-    hint: Callable[[CheckResult], str] = lambda check: ""  # about names and arguments
-    where: Mapping[str, Where] = field(default_factory=dict)  # where the program begins
+    answers: Sequence[Observation] = ()  # to all its checks
     left: Left | None = None
-    region: RegionWords = NOTHING_SHOWN
+    suspects: Mapping[str, Suspect] = field(default_factory=dict)  # by kind; see find_suspects
     remark: str = ""  # why no code of the TODO counts
-    mends: Mapping[str, Mend] = field(default_factory=dict)  # the line in which a change mends it
 
     @cached_property
     def diagnosis(self) -> Diagnosis:
-        return Diagnosis(self.todo.id, [each for some in self.answers.values() for each in some])
+        return Diagnosis(self.todo.id, self.answers)
+
+    def suspect(self, kind: str) -> str:
+        """Return the words about a suspect line of this kind; empty if there is none."""
+        return self.suspects[kind].words if kind in self.suspects else ""
 
 
-def explain(
-    evidence: Evidence, checks: list[CheckResult], failed: Collection[str]
-) -> list[CheckResult]:
-    """Return the checks, those that ran and failed with their meaning and a place to look at."""
-    by_chance = any(check.meaning == REMEMBERS for check in checks)  # no number means anything
-    known = replace(evidence, answers={}) if by_chance else evidence
-    return [explain_check(known, c) if c.failed and c.id in failed else c for c in checks]
+@dataclass(frozen=True)
+class Failure:
+    """A failed check, with the evidence on it and on its TODO."""
+
+    check: CheckResult
+    evidence: Evidence
+    answers: Sequence[Observation] = ()
+    kept: Sequence[str] = ()  # names that held a value from call to call
+    trespass: str = ""  # what it changed that must stay, in words
+    blamed: Blamed | None = None
+    earlier: Sequence[str] = ()  # TODOs in which the program fails first
+    start: Where | None = None  # where the program begins
+    hint: Callable[[], str] = lambda: ""  # about names, arguments and errors
+    mend: Mend | None = None
+
+    @property
+    def is_error(self) -> bool:
+        return self.check.state == "error"
 
 
-def is_unexplained(evidence: Evidence, check: CheckResult) -> bool:
-    """Return whether nothing names the reason of a wrong answer."""
-    if evidence.mistake is not None:
+def explain(failure: Failure) -> CheckResult:
+    """Return a failed check with its meaning and a place to look at."""
+    check, evidence = failure.check, failure.evidence
+    meaning = next(filter(None, (each(failure) for each in EXPLAINERS)), check.meaning)
+    where = check.where or failure.start
+    if failure.blamed is not None:
+        where = failure.blamed.place(check)
+    elif evidence.left is not None and evidence.left.is_all:
+        where = evidence.left.where
+    elif where is not None and (line := find_line(failure, meaning)):
+        where = Where(where.file, line)
+    return msgspec.structs.replace(check, meaning=meaning, where=where)
+
+
+def is_unexplained(failure: Failure) -> bool:
+    """Return whether no reason of a wrong answer is known."""
+    check = failure.check
+    if failure.evidence.mistake is not None:
         return False
     if check.got.startswith(UNFIT):
         return True
     before = EXPLAINERS[: EXPLAINERS.index(point_to_line)]
     wrong = check.state == "not yet" and not check.meaning
-    return wrong and not any(explainer(evidence, check) for explainer in before)
+    return wrong and not any(explainer(failure) for explainer in before)
 
 
-def explain_check(evidence: Evidence, check: CheckResult) -> CheckResult:
-    told = (explainer(evidence, check) for explainer in EXPLAINERS)
-    meaning = next(filter(None, told), check.meaning)
-    where = check.where or evidence.where.get(check.id)
-    if check.id in evidence.blamed:
-        where = evidence.blamed[check.id].place(check)
-    elif evidence.left is not None and evidence.left.is_all:
-        where = evidence.left.where
-    elif where is not None and (line := find_told_line(evidence, check, meaning)):
-        where = Where(where.file, line)
-    return msgspec.structs.replace(check, meaning=meaning, where=where)
+def find_line(failure: Failure, meaning: str) -> int:
+    """Return the line that our own words name; 0 if none does.
 
-
-def find_told_line(evidence: Evidence, check: CheckResult, meaning: str) -> int:
-    """Return the line that our own words name; 0 where none does.
-
-    Never a line out of the words of a submission, which may name any.
+    A line is never read out of a submission's words, which may name any.
     """
-    mend = evidence.mends.get(check.id)
-    if mend is not None and mend.in_words in meaning:
-        return mend.lines[0]
-    told = (words for words in evidence.region if words and words in meaning)
-    return next((int(found[1]) for words in told if (found := LINE.search(words))), 0)
+    if failure.mend is not None and failure.mend.in_words in meaning:
+        return failure.mend.lines[0]
+    suspects = failure.evidence.suspects.values()
+    return next((each.line for each in suspects if each.words in meaning), 0)
 
 
 # ---------------------------------------------------------------- the explanations
 
 
-def blame_given_code(evidence: Evidence, check: CheckResult) -> str:
-    """Name the changed given code; where it is not the only reason, the next one follows."""
-    blamed = evidence.blamed.get(check.id)
+def blame_given_code(failure: Failure) -> str:
+    """Name the changed given code, and the next reason where it is not the only one."""
+    blamed = failure.blamed
     if blamed is None:
         return ""
     if blamed.is_gone:
-        return f"{blamed.in_words} {explain_names(evidence, check)}".rstrip()
-    told = "" if blamed.is_all else explain_after(blame_given_code, evidence, check)
-    return f"{blamed.in_words} {told}".rstrip()
+        return f"{blamed.in_words} {explain_names(failure)}".rstrip()
+    more = "" if blamed.is_all else explain_after(blame_given_code, failure)
+    return f"{blamed.in_words} {more}".rstrip()
 
 
-def explain_after(explainer: "Explainer", evidence: Evidence, check: CheckResult) -> str:
-    """Return what the first explainer behind this one says that says anything."""
+def explain_after(explainer: "Explainer", failure: Failure) -> str:
+    """Return the first explanation by one of the explainers after this one."""
     after = EXPLAINERS[EXPLAINERS.index(explainer) + 1 :]
-    return next(filter(None, (each(evidence, check) for each in after)), "")
+    return next(filter(None, (each(failure) for each in after)), "")
 
 
-def name_what_was_left(evidence: Evidence, check: CheckResult) -> str:
-    """Name lines that the starter had, or that end the function before the student's own.
+def name_leftover(failure: Failure) -> str:
+    """Name lines of the starter, or a line that ends the function before the student's code.
 
-    Where some of these run, what they do comes first.
+    Where some of the student's code runs, explain that first.
     """
-    if evidence.left is None:
+    left = failure.evidence.left
+    if left is None or (left.answers and failure.trespass):  # it returns what this code changed
         return ""
-    if evidence.left.answers and evidence.trespasses.get(check.id):
-        return ""  # the line returns what this code has changed
-    if evidence.left.is_all or (evidence.left.answers and check.state != "error"):
-        return evidence.left.words
-    told = explain_after(name_what_was_left, evidence, check)
-    return f"{told} {evidence.left.words}".strip()
+    if left.is_all or (left.answers and not failure.is_error):
+        return left.words
+    return f"{explain_after(name_leftover, failure)} {left.words}".strip()
 
 
-def name_loop(evidence: Evidence, check: CheckResult) -> str:
-    """Name the loop of a TODO whose check ran out of time: no answer was there to be explained."""
-    return evidence.region.loop if check.state == "error" and check.got.startswith(ENDLESS) else ""
+def name_loop(failure: Failure) -> str:
+    """Name the loop of a TODO whose check ran out of time."""
+    out_of_time = failure.is_error and failure.check.got.startswith(ENDLESS)
+    return failure.evidence.suspect("loop") if out_of_time else ""
 
 
-def name_printed_error(evidence: Evidence, check: CheckResult) -> str:
+def name_printed_error(failure: Failure) -> str:
     """Name the error of a function that pymunk calls: pymunk prints it and goes on."""
-    found = PRINTED_ERROR.search(check.printed or "") if check.state == "not yet" else None
+    printed = "" if failure.is_error else failure.check.printed or ""
+    found = PRINTED_ERROR.search(printed)
     error = re.sub(r"\w+\.<locals>\.", "", found[1].strip()) if found else ""
     if not error:
         return ""
-    told = next((f". {words}" for part, words in CALLED_BACK.items() if part in error), "")
-    return f"pymunk called a function of yours that raised an error: {error}{told}"
+    advice = next((f". {words}" for part, words in CALLED_BACK.items() if part in error), "")
+    return f"pymunk called a function of yours that raised an error: {error}{advice}"
 
 
-def explain_names(evidence: Evidence, check: CheckResult) -> str:
-    """Name a function or an argument that is called otherwise than it was handed out.
-
-    Or say what an error means, unless it is known how the code came to it.
-    """
-    known = evidence.mistake is not None or check.id in evidence.mends
-    return "" if known and check.got.startswith(UNFIT) else evidence.hint(check)
+def explain_names(failure: Failure) -> str:
+    """Name a renamed function or argument, or explain an error whose cause is not known."""
+    known = failure.evidence.mistake is not None or failure.mend is not None
+    return "" if known and failure.check.got.startswith(UNFIT) else failure.hint()
 
 
-def name_swapped_sign(evidence: Evidence, check: CheckResult) -> str:
-    """Name a line that gives a name a new value where it seems to add to the old one."""
-    return evidence.region.swapped if check.state != "error" else ""
+def name_swapped_sign(failure: Failure) -> str:
+    """Name a line with =+ instead of +=."""
+    return "" if failure.is_error else failure.evidence.suspect("swapped sign")
 
 
-def name_unread(evidence: Evidence, check: CheckResult) -> str:
-    """Name a value that nothing reads, which may be why the answers are wrong as they are."""
-    if not evidence.region.unread or check.state == "error":
+def name_unread(failure: Failure) -> str:
+    """Name a value that nothing reads, after what the answers show."""
+    words = failure.evidence.suspect("unread")
+    if not words or failure.is_error:
         return ""
-    return f"{explain_after(name_unread, evidence, check)} {evidence.region.unread}".strip()
+    return f"{explain_after(name_unread, failure)} {words}".strip()
 
 
-def name_return_in_loop(evidence: Evidence, check: CheckResult) -> str:
-    """Name a return that no second round of its loop outlives, with what the answers are like."""
-    if not evidence.region.returns or check.state == "error":
+def name_return_in_loop(failure: Failure) -> str:
+    """Name a return that ends its loop in the first round, after what the answers show."""
+    words = failure.evidence.suspect("return in loop")
+    if not words or failure.is_error:
         return ""
-    return (
-        f"{explain_after(name_return_in_loop, evidence, check)} {evidence.region.returns}".strip()
-    )
+    return f"{explain_after(name_return_in_loop, failure)} {words}".strip()
 
 
-def name_kind(evidence: Evidence, check: CheckResult) -> str:
-    """Say what kind of thing came instead: no known mistake of other answers explains that."""
+def name_kind(failure: Failure) -> str:
+    """Name an answer of the wrong kind: a known mistake of other answers does not explain it."""
+    check = failure.check
     return check.meaning if check.meaning.endswith(f"; it is {check.got}.") else ""
 
 
-def name_mistake(evidence: Evidence, check: CheckResult) -> str:
+def name_mistake(failure: Failure) -> str:
     """Name the one known mistake that gives all the answers of the TODO."""
-    return evidence.mistake.meaning if evidence.mistake else ""
+    return failure.evidence.mistake.meaning if failure.evidence.mistake else ""
 
 
-def name_trespass(evidence: Evidence, check: CheckResult) -> str:
-    """Name a change of what must stay as it is, which may be why an answer is wrong as well."""
-    found = evidence.trespasses.get(check.id)
-    rule = evidence.region.alias or TRESPASS.format(name="It")
-    return f"{found}. {rule}" if found else ""
+def name_earlier_todos(failure: Failure) -> str:
+    """Name the TODOs in which the program fails before it reaches this one."""
+    ids = failure.earlier
+    return FINISH.format(ids=listed([*ids]), it="it" if len(ids) == 1 else "them") if ids else ""
 
 
-def point_out_of_region(evidence: Evidence, check: CheckResult) -> str:
-    """Name code of the TODO outside its region, with what its answers are like."""
-    told = describe_answers(evidence, check) if evidence.region.outside else ""
-    return f"{evidence.region.outside} {told}".strip()
+def name_trespass(failure: Failure) -> str:
+    """Name a forbidden change, which may be why an answer is wrong as well."""
+    rule = failure.evidence.suspect("alias") or TRESPASS.format(name="It")
+    return f"{failure.trespass}. {rule}" if failure.trespass else ""
 
 
-def name_rounding(evidence: Evidence, check: CheckResult) -> str:
+def name_rounding(failure: Failure) -> str:
     """Name rounding, where each number is right to some digits and not to all."""
+    check = failure.check
     right, ours = (list(map(float, NUMBER.findall(each))) for each in (check.expected, check.got))
     right = right[: len(ours)]  # what follows may be the question's
     if right == ours or len(right) < len(ours) or check.state != "not yet":
         return ""
-    if evidence.diagnosis.findings:  # a known mistake comes near as well
+    if failure.evidence.diagnosis.findings:  # a known mistake comes near as well
         return ""
     pairs = zip(right, ours, strict=True)
     near = all(math.isclose(a, b, rel_tol=NEARLY, abs_tol=NOTHING) for a, b in pairs)
     return ROUNDED if near else ""
 
 
-def point_to_line(evidence: Evidence, check: CheckResult) -> str:
-    """Name the line in which one change mends all of the TODO, with what its answers are like."""
-    if check.id not in evidence.mends:
+def point_out_of_region(failure: Failure) -> str:
+    """Name code of the TODO outside its region, with what the answers show."""
+    words = failure.evidence.suspect("outside")
+    return f"{words} {describe_answers(failure)}".strip() if words else ""
+
+
+def point_to_line(failure: Failure) -> str:
+    """Name the line in which one change mends all of the TODO, with what the answers show."""
+    if failure.mend is None:
         return ""
-    said = describe_answers(evidence, check)
-    first = said.partition(". ")[0].removesuffix(".")
-    words = evidence.mends[check.id].in_words
+    first = describe_answers(failure).partition(". ")[0].removesuffix(".")
+    words = failure.mend.in_words
     return f"{words} {first}." if 0 < len(first) <= LONGEST else words
 
 
-def name_rebound(evidence: Evidence, check: CheckResult) -> str:
-    """Name an argument that gets another value, where nothing else is known."""
-    return evidence.region.rebound
+def describe_answers(failure: Failure) -> str:
+    """Return the check's own words, or how its answers differ from the right ones.
 
-
-def name_earlier_todos(evidence: Evidence, check: CheckResult) -> str:
-    """Name the TODOs in which the program fails before it comes to this one."""
-    ids = evidence.earlier.get(check.id, ())
-    return FINISH.format(ids=listed([*ids]), it="it" if len(ids) == 1 else "them") if ids else ""
-
-
-def describe_answers(evidence: Evidence, check: CheckResult) -> str:
-    """Say what the check says itself, or how its answers differ from the right ones.
-
-    That something is kept is no mistake alone. An answer that hangs on it looks like any other.
+    A value that is kept from call to call is named as well: alone, it is no mistake.
     """
-    said = check.meaning or evidence.diagnosis.describe(evidence.answers.get(check.id, []))
-    names = evidence.kept.get(check.id, [])[:MOST_NAMES]
-    shown = ", ".join(name.rpartition(".")[2] for name in names)
-    return f"{said} {KEPT.format(names=shown)}".strip() if names else said
+    words = failure.check.meaning or failure.evidence.diagnosis.describe(failure.answers)
+    names = [name.rpartition(".")[2] for name in failure.kept[:MOST_NAMES]]
+    return f"{words} {KEPT.format(names=', '.join(names))}".strip() if names else words
 
 
-def repeat_remark(evidence: Evidence, check: CheckResult) -> str:
-    """Say why there is no code; a program that is missing has none."""
-    program = check.ran.removeprefix("import ")
-    if evidence.remark or check.id in evidence.where or program == check.ran:
-        return evidence.remark
+def name_rebound(failure: Failure) -> str:
+    """Name an argument that gets another value, where nothing else is known."""
+    return failure.evidence.suspect("rebound")
+
+
+def repeat_remark(failure: Failure) -> str:
+    """Explain why there is no code; a missing program has none."""
+    ran, remark = failure.check.ran, failure.evidence.remark
+    program = ran.removeprefix("import ")
+    if remark or failure.start is not None or program == ran:
+        return remark
     return (RESTORE if f"{program}.py" in load_given() else MISSING).format(program=program)
 
 
-def point_outside(evidence: Evidence, check: CheckResult) -> str:
+def point_outside(failure: Failure) -> str:
     """Say of the program as a whole that the reason is in no TODO."""
-    return "" if evidence.todo.function else OUTSIDE
+    return "" if failure.evidence.todo.function else OUTSIDE
 
 
-Explainer = Callable[[Evidence, CheckResult], str]
+Explainer = Callable[[Failure], str]
 EXPLAINERS: tuple[Explainer, ...] = (
     blame_given_code,
-    name_what_was_left,
+    name_leftover,
     name_loop,
     name_printed_error,
     explain_names,

@@ -51,8 +51,7 @@ def program_key(
     where they are called alike.
     """
     program, tree = submission.program, submission.folder
-    modules = dict.fromkeys(check.module or todo.module for check in todo.checks)
-    started = [*modules, *(f"{module}.__main__" for module in modules)]
+    started = [*todo.modules, *(f"{module}.__main__" for module in todo.modules)]
     loaded = {program.paths[part] for module in started for part in program.loaded(module)}
     texts = {path: program.texts[path] for path in loaded}
     for piece in right:

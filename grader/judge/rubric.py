@@ -33,6 +33,20 @@ class Todo(Struct, frozen=True, forbid_unknown_fields=True):
     hidden_points: int = 0  # in a student's copy: what the checks are worth that it lacks
 
     @property
+    def path(self) -> str:
+        """Return the function's name inside its module, as World.step; empty for the whole."""
+        return self.function.partition(":")[2]
+
+    @property
+    def modules(self) -> list[str]:
+        """Return the programs that its checks import."""
+        return list(dict.fromkeys(check.module or self.module for check in self.checks))
+
+    @property
+    def function_name(self) -> str:
+        return self.path.rpartition(".")[2]
+
+    @property
     def bonus(self) -> bool:
         """Return whether its points are never needed for full marks."""
         return is_bonus(self.id)

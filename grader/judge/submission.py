@@ -1,16 +1,18 @@
 """Take in a submission: a bounded, read-only copy, and what its source says about its TODOs."""
 
 import errno
+import logging
 import math
 import os
 import shutil
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import islice
 from pathlib import Path, PurePath, PurePosixPath
+from typing import TypeVar
 
 import msgspec
 
@@ -22,7 +24,6 @@ from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.source.definitions import MAX_READ, Function, Program, source_of
 from grader.source.flaws import Flaw, find_bad_bytes, find_flaw
 from grader.source.given import MISPLACED, first_difference
-from grader.source.mending import OUTSIDE, HandedOut, Mender
 from grader.source.regions import (
     MAX_SOURCE,
     Region,
@@ -32,6 +33,7 @@ from grader.source.regions import (
     read_source,
     shape_of,
 )
+from grader.source.repair import OUTSIDE, HandedOut, Repairer
 
 MAX_FILES = 500
 MAX_BYTES = 20 * 1024 * 1024
@@ -46,10 +48,28 @@ COMPILED = (".pyc", ".pyo", ".so", ".pyd", ".dll", ".dylib")  # code that nobody
 IGNORED = {"venv", "__pycache__", "__MACOSX", "node_modules", "build"}  # and all that is hidden
 
 
+T = TypeVar("T")
+log = logging.getLogger(__name__)
+
+
 class CannotGrade(Stop):
     """Nothing here that could be graded; the message says why and what to do."""
 
     cannot = "grade"
+
+
+def attempt(make: Callable[[], T], otherwise: T) -> T:
+    """Return what `make` finds in a submission's code, or `otherwise` if it fails.
+
+    Only for words and what leads to them: no points depend on it.
+    """
+    try:
+        return make()
+    except CannotGrade:
+        raise
+    except Exception as error:
+        log.warning("no words were found for a failed check: %s", type(error).__name__)
+        return otherwise
 
 
 @dataclass
@@ -211,7 +231,7 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
         for path in python_files(submission.folder)
     }
     submission.uses_numpy = any("numpy" in text for text in texts.values())
-    program = submission.program = mend_programs(submission, texts)
+    program = submission.program = repair_programs(submission, texts)
     for todo in rubric.todos:
         if not todo.function:
             continue
@@ -242,12 +262,12 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
     submission.unread = [in_words(path, submission.folder) for path in paths]
 
 
-def mend_programs(submission: Submission, texts: dict[Path, str]) -> Program:
+def repair_programs(submission: Submission, texts: dict[Path, str]) -> Program:
     """Replace what Python refuses in the files that the programs load.
 
     Changes `texts` and the copy, and notes whose code was replaced.
     """
-    mender, mended_once = Mender(handed_out()), set[Path]()
+    repairer, repaired_once = Repairer(handed_out()), set[Path]()
     modules = dict.fromkeys(todo.module for todo in load_rubric().todos)
     started = [*modules, *(f"{module}.__main__" for module in modules)]
     while True:
@@ -256,27 +276,27 @@ def mend_programs(submission: Submission, texts: dict[Path, str]) -> Program:
         refused = {
             path: flaw
             for name in loaded
-            if (path := program.paths[name]) not in {*mended_once, *program.unread}
+            if (path := program.paths[name]) not in {*repaired_once, *program.unread}
             and (flaw := flaw_of(submission.folder / path, program.modules[name].refused))
         }
         for path, flaw in refused.items():
-            mend_file(submission, mender, path, texts, flaw)
+            repair_file(submission, repairer, path, texts, flaw)
         if not refused:
             return program
-        mended_once |= refused.keys()
+        repaired_once |= refused.keys()
 
 
-def mend_file(
-    submission: Submission, mender: Mender, path: Path, texts: dict[Path, str], flaw: Flaw
+def repair_file(
+    submission: Submission, repairer: Repairer, path: Path, texts: dict[Path, str], flaw: Flaw
 ) -> None:
     module, flaw = module_of(path), flaw.in_file(path.as_posix())
-    mended = mender.mend(flaw, texts[path])
-    if mended is None:
+    repaired = repairer.repair(flaw, texts[path])
+    if repaired is None:
         submission.outside.setdefault(module, flaw)
         return
-    texts[path] = mended.text
-    (submission.folder / path).write_bytes(encoded(mended.text))
-    for todo, each in mended.flaws.items():
+    texts[path] = repaired.text
+    (submission.folder / path).write_bytes(encoded(repaired.text))
+    for todo, each in repaired.flaws.items():
         if todo == OUTSIDE:
             submission.outside.setdefault(module, each)
         else:

@@ -13,7 +13,7 @@ from grader.judge.grade import KIT
 ALL_EXAMPLES = """
 import sys
 from grader.judge.drawing import given, kept_examples
-from grader.judge.loop import load_checks
+from grader.judge.jobs import load_checks
 from grader.judge.rubric import load_rubric
 from hypothesis import strategies as st
 

@@ -18,7 +18,7 @@ from whole_bank import bank
 from grader.bank.members import Entry, Member
 from grader.bank.mutants import regions_of
 from grader.bank.verify import shared_worker
-from grader.judge import loop
+from grader.judge import running
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
@@ -133,7 +133,7 @@ def test_who_was_graded_before_changes_nothing(tmp_path: Path, chosen: tuple[str
     members = [each for each in bank() if each.name in chosen and each.form == "package"]
     assert len(members) == len(chosen)
     results: list[list[bytes]] = [[], []]
-    loop.passed_before.clear()
+    running.passed_before.clear()
     for again in results:
         for member in members:
             only = Options(shipped_reference(), only=member.todos)
@@ -143,7 +143,7 @@ def test_who_was_graded_before_changes_nothing(tmp_path: Path, chosen: tuple[str
             again.append(as_json(graded(folder, only)))
         touched = frozenset().union(*(member.todos for member in members))
         assert graded(KIT / "solution", Options(shipped_reference(), only=touched)).complete
-        assert loop.passed_before
+        assert running.passed_before
     assert results[0] == results[1]
 
 

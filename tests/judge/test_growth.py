@@ -34,8 +34,8 @@ from grader.protocol import NOT_A_MESSAGE, Answered
 from grader.source.definitions import Program
 from grader.source.flaws import find_bad_bytes, find_flaw
 from grader.source.given import changes
-from grader.source.leftovers import find_dead_end, find_leftover, find_loop, find_rebound
 from grader.source.regions import regions_in, shape_of
+from grader.source.suspects import RegionCode, find_dead_end, find_leftover, find_suspects
 from grader.text import clean, escape_inside, format_csv
 
 TIMES = 4  # as much input
@@ -183,10 +183,10 @@ def read_source(text: str) -> None:
     shape_of(text)
     with suppress(ValueError):
         regions_in(text)
-    find_leftover(text, "8a", STUB)
-    find_dead_end(text, "8a", "step")
-    find_loop(text, "8a")
-    find_rebound(text, "8a", "step")
+    code = RegionCode(text, "8a", "step")
+    find_leftover(code, STUB)
+    find_dead_end(code)
+    find_suspects(code)
     changes({"integrators.py": text}, load_given())
     program = Program({Path("integrators.py"): text})
     program.definition("integrators", "step")

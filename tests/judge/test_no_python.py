@@ -12,8 +12,8 @@ from grader.judge.grade import KIT, Options, grade, load_stubs, shipped_referenc
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, take_in
 from grader.source.flaws import find_bad_bytes, find_flaw
-from grader.source.mending import MAX_MENDING, HandedOut, Mender
 from grader.source.regions import number_lines, read_source, regions_in
+from grader.source.repair import MAX_REPAIR, HandedOut, Repairer
 
 SOLVER, CONTACTS = "mini_engine/solver.py", "mini_engine/contacts.py"
 SPRINGS, POISON = "mini_engine/bonus/springs.py", b"    # caf\xe9\n"
@@ -204,9 +204,9 @@ def test_syntax_of_a_newer_python_is_said_to_be_so(line: str, version: str):
 
 def test_a_file_made_to_be_read_for_long_is_given_up():
     text = "".join(f"def f{n}(:\n    x\n" for n in range(6000))
-    mender = Mender(HandedOut({}, {}, {}))
-    assert mender.mend(find_flaw(text).in_file("mini_engine.py"), text) is None
-    assert mender.read < MAX_MENDING + len(text)
+    repairer = Repairer(HandedOut({}, {}, {}))
+    assert repairer.repair(find_flaw(text).in_file("mini_engine.py"), text) is None
+    assert repairer.read < MAX_REPAIR + len(text)
 
 
 # ---------------------------------------------------------------- the marks

@@ -7,7 +7,7 @@ import pytest
 from conftest import KIT
 
 from grader.bank.verify import shared_worker
-from grader.judge import loop
+from grader.judge import jobs
 from grader.judge.grade import Options, grading, shipped_reference
 from grader.judge.rubric import Check, Rubric, Todo
 from grader.judge.submission import CannotGrade
@@ -38,7 +38,7 @@ def graded(
     """The state of the check; the sentence where it is refused."""
     checks = ModuleType("checks")
     exec(HEAD + body, vars(checks))
-    patched.setattr(loop, "load_checks", lambda todo: checks)
+    patched.setattr(jobs, "load_checks", lambda todo: checks)
     id, module = "8c" if "rk4" in function else "2", function.partition(":")[0]
     todo = Todo(id, "Mine", module, function, "mine", [Check("mine", 1, "unit")])
     options = Options(shipped_reference(), trusted=True)

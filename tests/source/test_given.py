@@ -276,7 +276,7 @@ def test_many_changes_and_many_failures_are_asked_again_so_often_and_no_more():
     blame = Blame(five, lambda undone: undone, again)
     blame.look_into(failed)
     assert blame.asked == MOST_ASKED and blame.found.keys() == failed.keys()
-    assert blame.seen.keys() == failed.keys()
+    assert blame.answers.keys() == failed.keys()
     assert all(each.mended and each.changes == tuple(five) for each in blame.found.values())
 
 

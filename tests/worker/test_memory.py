@@ -10,7 +10,7 @@ from conftest import HandIn
 from grader.bank.verify import shared_worker
 from grader.judge.failures import REMEMBERS
 from grader.judge.grade import Options, grade, shipped_reference
-from grader.judge.meaning import Evidence, explain
+from grader.judge.meaning import Evidence, Failure, explain
 from grader.judge.result import CheckResult
 from grader.judge.rubric import load_rubric
 from grader.source.definitions import Program
@@ -131,7 +131,6 @@ def test_only_what_the_code_of_a_todo_runs_is_named():
     used = Program({Path("engine.py"): PROGRAM}).names_used("engine", "World.grow")
     assert used >= {"memo", "helper", "table", "widen", "grow"}
     assert not used & {"other", "stranger"}
-    evidence = Evidence(load_rubric().todos[0], kept={"id": ["engine.memo"]})
     failed = CheckResult("id", "title", "unit", "not yet", 0, 1, meaning="So.")
-    (told,) = explain(evidence, [failed], {"id"})
+    told = explain(Failure(failed, Evidence(load_rubric().todos[0]), kept=["engine.memo"]))
     assert told.meaning.startswith("So. ") and "in memo:" in told.meaning

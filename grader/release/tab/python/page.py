@@ -240,7 +240,7 @@ def warm():
     import grader.report.screen
     import grader.worker.tab  # noqa: F401
     from grader.judge.course import FULL
-    from grader.judge.loop import load_checks
+    from grader.judge.jobs import load_checks
 
     for todo in FULL.rubric.todos:
         load_checks(todo)

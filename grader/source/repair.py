@@ -18,7 +18,7 @@ from grader.source.flaws import MAX_LINE, UNDECODED, Flaw, find_flaw
 from grader.source.given import given_pieces, pieces, with_regions
 from grader.source.regions import parsed, read_regions, regions_in, replaced
 
-MAX_MENDING = 4 * 1024 * 1024  # characters that are parsed to mend one submission
+MAX_REPAIR = 4 * 1024 * 1024  # characters that are parsed to repair one submission
 MAX_FUNCTIONS = 200  # of a file that are looked at
 NEAREST = 8  # parts of a file that are replaced in pairs
 REFUSED = "\0"  # no file of Python may have one
@@ -61,7 +61,7 @@ class Patch:
 
 
 @dataclass(frozen=True)
-class Mended:
+class Repaired:
     """A file's text that Python accepts, and what was wrong with it, by the ids of TODOs."""
 
     text: str
@@ -69,60 +69,62 @@ class Mended:
 
 
 @dataclass
-class Mender:
-    """Mends the files of one submission; it parses no more than MAX_MENDING characters for that."""
+class Repairer:
+    """Repairs the files of one submission, and parses at most MAX_REPAIR characters for that."""
 
     given: HandedOut
     read: int = field(default=0, init=False)
 
-    def mend(self, flaw: Flaw, text: str) -> Mended | None:
+    def repair(self, flaw: Flaw, text: str) -> Repaired | None:
         """Return the file with as little replaced as possible; None where nothing helps."""
         file = flaw.file
         patches = [*self._patches(file, text), *line_patches(text, flaw)]
         original = self.given.files.get(file)
         if flaw.undecoded:
             text = text.replace(UNDECODED, REFUSED)
-            mended = self._by_patches(text, flaw, [each for each in patches if each.todo], None)
-            if mended is None and self._flaw(plain := text.replace(REFUSED, "?")) is None:
-                mended = Mended(plain, {OUTSIDE: flaw})
+            repaired = self._by_patches(text, flaw, [each for each in patches if each.todo], None)
+            if repaired is None and self._flaw(plain := text.replace(REFUSED, "?")) is None:
+                repaired = Repaired(plain, {OUTSIDE: flaw})
         else:
-            mended = self._by_patches(text, flaw, patches, original)
-        if mended is None and original is not None:
-            mended = self._by_given_file(text, flaw, original)
-        if mended is None:
+            repaired = self._by_patches(text, flaw, patches, original)
+        if repaired is None and original is not None:
+            repaired = self._by_given_file(text, flaw, original)
+        if repaired is None:
             return None
-        return Mended(mended.text, {todo: f.in_file(file) for todo, f in mended.flaws.items()})
+        return Repaired(
+            repaired.text, {todo: f.in_file(file) for todo, f in repaired.flaws.items()}
+        )
 
-    def _by_given_file(self, text: str, flaw: Flaw, original: str) -> Mended | None:
+    def _by_given_file(self, text: str, flaw: Flaw, original: str) -> Repaired | None:
         """Keep only the regions; a TODO that has none any more is handed out anew."""
         regions = {region.id: region.lines for region in read_regions(text)[0]}
         base = replaced(original, regions)
         lost = {region.id: flaw for region in regions_in(original) if region.id not in regions}
         again = self._flaw(base)
         if again is None:
-            return Mended(base, {OUTSIDE: flaw} | lost)
+            return Repaired(base, {OUTSIDE: flaw} | lost)
         patches = [each for each in self._region_patches(base) if each.todo in regions]
-        mended = self._by_patches(base, again, patches, None)
-        if mended is None:
+        repaired = self._by_patches(base, again, patches, None)
+        if repaired is None:
             return None
-        moved = {todo: flaw_in(text, todo) or each for todo, each in mended.flaws.items()}
-        return Mended(mended.text, {OUTSIDE: flaw} | lost | moved)
+        moved = {todo: flaw_in(text, todo) or each for todo, each in repaired.flaws.items()}
+        return Repaired(repaired.text, {OUTSIDE: flaw} | lost | moved)
 
     def _by_patches(
         self, text: str, flaw: Flaw, patches: list[Patch], original: str | None
-    ) -> Mended | None:
+    ) -> Repaired | None:
         for chosen in choices(text, flaw, patches):
-            if self.read > MAX_MENDING:
+            if self.read > MAX_REPAIR:
                 break
-            mended = patched(text, chosen)
-            if self._flaw(mended) is not None or lacks_given(mended, chosen, original):
+            repaired = patched(text, chosen)
+            if self._flaw(repaired) is not None or lacks_given(repaired, chosen, original):
                 continue
             flaws = {}
             for each in chosen:
                 others = [other for other in chosen if other is not each]
                 left = self._flaw(patched(text, others)) if others else flaw
                 flaws[each.todo] = within(each, text, left or flaw)
-            return Mended(mended, flaws)
+            return Repaired(repaired, flaws)
         return None
 
     def _flaw(self, text: str) -> Flaw | None:
