@@ -1,12 +1,11 @@
 """Limit the time that a submission may use in all of its checks, so that it delays nobody.
 
-One question is bounded, and so is a child. Thousands of questions would not be: a program may rest
-before each answer, or run in circles in every check. So seconds are added up, by TODO and in all.
-The budget left for each check shrinks as a submission spends it, down to none.
+Each question and each child is bounded, but there are thousands of questions: a program may sleep
+before each answer, or loop in every check. So seconds are added up, by TODO and in all. The budget
+left for each check shrinks as a submission spends it, down to none.
 
-Seconds are those of a processor that worked for the submission, and those in which it could have
-worked and rested. How long it waits for a processor that others use counts for neither. Added up is
-also what it answers: the judge has to read that, and keeps some of it.
+Processor time and sleep are counted apart. Waiting for a processor that others use counts for
+neither. The size of the answers is added up as well, since the judge reads and keeps them.
 """
 
 from collections import defaultdict
@@ -19,32 +18,32 @@ from grader.judge.connection import Connection
 TODO_CPU, SUBMISSION_CPU = 10.0, 40.0  # s; then each check has little
 TODO_REST, SUBMISSION_REST = 8.0, 16.0  # s
 LITTLE_CPU, LITTLE_REST = 1, 0.25  # s; most checks need a tenth of this
-END_CPU, END_REST = 90.0, 32.0  # s; then no check is run any more
-WORDS_CPU, WORDS_REST = 20.0, 4.0  # s, for what decides about words alone
-ONE_REST = 2.0  # s, of one process for these
+END_CPU, END_REST = 90.0, 32.0  # s; then no more checks run
+WORDS_CPU, WORDS_REST = 20.0, 4.0  # s, for runs that decide about words alone
+ONE_REST = 2.0  # s, of sleep of one process in these runs
 END_HEARD = 64 * 1024 * 1024  # bytes of answers; real ones send 3 to 5 MB
 
 
 @dataclass
 class Budget:
-    """The seconds that are used up, by the ids of TODOs."""
+    """The seconds that a submission has used, by the ids of TODOs."""
 
     cpu: dict[str, float] = field(default_factory=lambda: defaultdict(float))
     rest: dict[str, float] = field(default_factory=lambda: defaultdict(float))
     heard: int = 0  # bytes of answers
-    words_cpu: float = 0.0  # s, after the marks: what is asked so that more can be told
+    words_cpu: float = 0.0  # s, of runs that decide about words alone
     words_rest: float = 0.0
 
     def copy(self) -> "Budget":
-        """Return the same once more, to be used up by one check that runs beside others."""
+        """Return a copy for one check that runs beside others."""
         return replace(self, cpu=self.cpu.copy(), rest=self.rest.copy())
 
     def allowance(self, todo: str) -> tuple[int, float, bool, str]:
-        """Return all that decides how much a check may use."""
+        """Return the limits that a check would have now."""
         return self.cpu_for(todo, LITTLE_CPU + 1), self.rest_for(todo), self.has_more, self.cut
 
     def add(self, todo: str, before: "Budget", after: "Budget") -> None:
-        """Count what a check has used up of its own copy."""
+        """Add the seconds that a check has used of its own copy."""
         self.cpu[todo] += after.cpu[todo] - before.cpu[todo]
         self.rest[todo] += after.rest[todo] - before.rest[todo]
         self.heard += after.heard - before.heard
@@ -57,7 +56,7 @@ class Budget:
         return min(usual, LITTLE_CPU) if much else usual
 
     def rest_for(self, todo: str) -> float:
-        """Return the seconds for which a process of a check may rest."""
+        """Return the seconds for which a process of a check may sleep."""
         much = self.rest[todo] >= TODO_REST or sum(self.rest.values()) >= SUBMISSION_REST
         return LITTLE_REST if much else REST_SECONDS
 
@@ -72,13 +71,13 @@ class Budget:
 
     @property
     def has_more(self) -> bool:
-        """Return whether time is left for questions that decide about words and pictures alone."""
+        """Return whether time is left for runs that decide about words and pictures alone."""
         left = END_CPU - sum(self.cpu.values())
         return self.words_cpu < min(WORDS_CPU, left) and self.words_rest < WORDS_REST
 
     @property
     def cut(self) -> str:
-        """Return why no check is run any more, or nothing."""
+        """Return why no more checks run; empty while they do."""
         if sum(self.cpu.values()) >= END_CPU:
             return f"not run: the checks before it used up {END_CPU:g} s of processor time"
         if sum(self.rest.values()) >= END_REST:
@@ -88,7 +87,7 @@ class Budget:
         return ""
 
     def why_little(self, todo: str) -> str:
-        """Return what is said of a check that had less than usual, or nothing."""
+        """Return why a check had less time than usual; empty if it had not."""
         if self.cpu[todo] >= TODO_CPU or self.rest[todo] >= TODO_REST:
             return "; it had less than usual, because the checks of this TODO before it used much"
         if sum(self.cpu.values()) >= SUBMISSION_CPU or sum(self.rest.values()) >= SUBMISSION_REST:
@@ -97,9 +96,7 @@ class Budget:
 
 
 def for_words(open_child: Callable[[int], Child]) -> Callable[[int], Child]:
-    """Return the same way to open children, which may rest for a shorter time: no marks hang on
-    these.
-    """
+    """Return a function that opens children with less time to sleep: no points depend on them."""
 
     def opened(cpu_seconds: int) -> Child:
         child = open_child(cpu_seconds)

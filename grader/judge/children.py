@@ -1,4 +1,4 @@
-"""Starting, asking and ending the worker's children, from the judge's side of the wall."""
+"""Start, ask and end the worker's children, from the judge's side of the wall."""
 
 import math
 import os
@@ -7,7 +7,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import Protocol
@@ -51,12 +51,12 @@ def count_cores() -> int:
 START_SECONDS = 60.0  # to start a child on the slowest machine
 WALL_FACTOR, WALL_EXTRA = 4, 20.0  # the last resort, s: CPU budget x factor + extra
 AHEAD = min(4, count_cores())  # processes that load while others work, without fork
-STOPPED_SECONDS = 2  # a warm process that is stopped for so long was stopped by a child
-REST_SECONDS = 8.0  # for so long a child may rest in all; longer, and it waits for nothing
-# What a child may send in all: answers are kept by checks, and take up to thirty times their length
-# in memory. The most that real ones send is 1 MB.
+STOPPED_SECONDS = 2  # after which a stopped warm process counts as stopped by a child
+REST_SECONDS = 8.0  # the longest that a child may sleep in all
+# Checks keep answers, which take up to thirty times their length in memory. Real children send at
+# most 1 MB in all.
 MAX_HEARD = 8 * 1024 * 1024  # bytes
-LOOK_SECONDS = 1.0  # so long answers take, one or many, before somebody looks at whether it rests
+LOOK_SECONDS = 1.0  # of waiting for answers, between two looks at whether the child sleeps
 
 ready_decoder = msgspec.msgpack.Decoder(Ready)
 answer_decoder = msgspec.msgpack.Decoder(Answered)
@@ -74,7 +74,7 @@ OUT_OF_TIME = (-24, -9)  # exit statuses: SIGXCPU, and SIGKILL a second later
 
 
 class ChildEnded(Exception):
-    """The child gave no answer; the message says what became of it.
+    """A child gave no answer; the message says why.
 
     `late`: its time was over; then the message holds nothing that the child could choose.
     """
@@ -93,26 +93,25 @@ class Child:
         self.cpu_seconds = cpu_seconds
         self.rest_seconds = REST_SECONDS
         self.cpu = 0.0  # s, of processor time that it used; known when it has ended
-        self.rested = 0.0  # s, in which it owed an answer and did nothing
-        self.waited = self.looked = 0.0  # s, for its answers: in all, and when somebody last looked
-        self.began = seconds_in_queue(os.getpid())  # s, that we had queued when it began
-        self.asked = 0
+        self.rested = 0.0  # s, in which it owed an answer and slept
+        self.waited = self.looked = 0.0  # s, spent on its answers: in all, and at the last look
+        self.began = seconds_in_queue(os.getpid())  # s, that the judge had queued when it began
+        self.asked = 0  # requests
         self.heard = 0  # bytes of its answers
         self.first: list[Setup] = []  # to be done before the next request
         self.seen: dict[int, Value] = {}  # states that came with the last answer, by object
-        self.over = ""  # why it answers no more
-        self.late = False  # whether it was ended because its time was over
+        self.over = ""  # why it does not answer any more
+        self.late = False  # it was ended because its time was over
         try:
             self.ready = ready_decoder.decode(channel.receive(START_SECONDS))
         except (ChannelClosed, ChannelTimeout, *NOT_A_MESSAGE) as error:
             raise ChildEnded(f"the worker could not start a child: {error}") from error
 
     def ask(self, request: Request | Record) -> Answered:
-        """Return the one answer to this request, or ChildEnded: anything else ends the child for
-        good.
+        """Return the answer to a request; raises ChildEnded, for anything else ends the child.
 
-        A message costs more than what is done for most requests. So what is set up waits for the
-        next request and goes with it, and a state that came with the last answer is not asked for.
+        A message costs more than most requests. So objects are set up with the next request, and a
+        state that came with the last answer is not asked for again.
         """
         if self.over:
             raise ChildEnded(self.over, self.late)
@@ -158,9 +157,9 @@ class Child:
         raise ChildEnded(self.over, self.late)
 
     def _exchange(self) -> bytes:
-        """Send what was posted and receive the answer; neither waits for a child that rests.
+        """Send what was posted and receive the answer; neither waits for a child that sleeps.
 
-        It may leave a question unread, so that no more of it can be sent, or answer by halves.
+        A child may leave a question unread, so that it cannot be sent, or send half an answer.
         """
         deadline = self.waited + self.wall_seconds
         self._wait_for(self.channel.flush, deadline)
@@ -168,7 +167,7 @@ class Child:
         return self.channel.receive()
 
     def _wait_for(self, happens: Callable[[float], bool], deadline: float) -> None:
-        """Until it does; a child that rests is not waited for as long as one that works."""
+        """Wait until something happens; a child that sleeps has less time than one that works."""
         while self.waited < deadline:
             began = time.monotonic()
             happened = happens(min(LOOK_SECONDS, self.rest_seconds))
@@ -182,11 +181,11 @@ class Child:
         raise ChannelTimeout
 
     def _look(self) -> None:
-        """Add up how long it has rested: the time for its answers without work and queueing."""
+        """Add up how long it has slept: the time for its answers without work and queueing."""
         busy = busy_seconds(self.worker.pid_of(self))
         if busy is None:  # it has ended
             return
-        # Where we wait for a processor ourselves, an answer waits for us.
+        # While the judge waits for a processor, an answer waits for the judge.
         ours = seconds_in_queue(os.getpid()) - self.began
         self.rested, self.looked = max(self.rested, self.waited - busy - ours), self.waited
 
@@ -200,7 +199,7 @@ class Child:
             self._give_up("the child was ended", gone=False)
 
     def finish(self) -> None:
-        """Wait for a child that is asked nothing, as long as its time lasts."""
+        """Wait for a child that gets no request, as long as its time lasts."""
         with suppress(ChannelClosed, ChannelTimeout, *NOT_A_MESSAGE):
             self.channel.receive(self.wall_seconds)
         self.end()
@@ -211,71 +210,48 @@ IDLE = {psutil.STATUS_SLEEPING, *STOPPED}
 
 
 def busy_seconds(pid: int) -> float | None:
-    """Return how long a process has worked or waited for a processor, s; None where it is gone.
+    """Return how long a process has worked or waited for a processor, s; None if it is gone.
 
-    Where nobody tells of the queue, a process that is not asleep counts as one that has worked ever
-    since.
+    Where the system does not measure waiting, a process that is not asleep counts as always busy.
     """
     try:
         process = psutil.Process(pid)
         times = process.cpu_times()
         queue = seconds_in_queue(pid)
-        if not TELLS_OF_QUEUES and process.status() not in IDLE:
+        if not MEASURES_QUEUES and process.status() not in IDLE:
             return math.inf
     except (psutil.Error, OSError):
         return None
     return times.user + times.system + queue
 
 
-TELLS_OF_QUEUES = Path("/proc/self/schedstat").exists()
-
-
-def worked_seconds(pid: int) -> float:
-    """Return how long all threads of a process have worked, s; 0 where the system does not say.
-
-    Linux tells it in nanoseconds of the threads that are there, and in hundredths of a second of
-    those that have ended, too. Raises OSError where the process is gone.
-    """
-    if not TELLS_OF_QUEUES:
-        return 0.0
-    try:
-        times = psutil.Process(pid).cpu_times()
-    except psutil.Error as error:
-        raise OSError(str(error)) from error
-    return max(times.user + times.system, sum(schedule_of(pid, 0)))
+MEASURES_QUEUES = Path("/proc/self/schedstat").exists()
 
 
 def seconds_in_queue(pid: int) -> float:
-    """Return how long a process has waited for a processor, s; as Linux tells it.
+    """Return how long a process has waited for a processor, s; 0 on systems other than Linux.
 
-    Of all its threads the one that waited longest counts: a hundred that wait in the same second
-    keep nobody waiting for a hundred. See proc(5), schedstat; 0 elsewhere. Raises OSError where the
-    process is gone.
+    Of its threads, the one that waited longest counts: a hundred that wait in the same second wait
+    for one. Raises OSError if the process is gone.
     """
-    return max(schedule_of(pid, 1), default=0.0)
+    return max(list_waits(pid), default=0.0)
 
 
-def schedule_of(pid: int, what: int) -> list[float]:
-    """Return the seconds that each thread worked (0) or waited (1), where Linux tells.
-
-    A thread may end while it is read. Raises OSError where the process is gone.
-    """
-    if not TELLS_OF_QUEUES:
-        return []
-    told = []
-    for thread in os.listdir(f"/proc/{pid}/task"):
-        with suppress(FileNotFoundError, ProcessLookupError):
-            told.append(Path(f"/proc/{pid}/task/{thread}/schedstat").read_text("ascii"))
-    return [int(each.split()[what]) / 1e9 for each in told]
+def list_waits(pid: int) -> Iterator[float]:
+    """Yield how long each thread has waited, s; see proc(5), schedstat."""
+    for thread in os.listdir(f"/proc/{pid}/task") if MEASURES_QUEUES else ():
+        with suppress(FileNotFoundError, ProcessLookupError):  # it has just ended
+            schedule = Path(f"/proc/{pid}/task/{thread}/schedstat").read_text("ascii")
+            yield int(schedule.split()[1]) / 1e9
 
 
 class Worker(Protocol):
     """A source of children."""
 
-    layers: list[str]  # what shuts all its children in, beyond what each says of itself
+    layers: list[str]  # of isolation around all children, beside those that each child names
 
     def helpers(self, count: int) -> Sequence["Worker"]:
-        """Return other workers, so many at the most, that open children at the same time."""
+        """Return at most `count` other workers, which open children at the same time."""
 
     def open(self, setup: ChildSetup) -> Child: ...
 
@@ -288,7 +264,7 @@ class Worker(Protocol):
 
 
 def command(module: str, *args: str) -> list[str]:
-    """Python in isolated mode: no folder of a submission, no variable of a student is looked at."""
+    """Return Python in isolated mode: it reads no folder of a submission and no variable."""
     return [sys.executable, "-I", "-c", program(module, *args)]
 
 
@@ -300,10 +276,10 @@ def program(module: str, *args: str) -> str:
 def start_clean(
     module: str, theirs: socket.socket, without: Sequence[str], out: int | None = None
 ) -> "subprocess.Popen[bytes]":
-    """Start Python anew with one end of a channel, and nothing of ours in its arguments.
+    """Start Python with one end of a channel, and nothing of the judge in its arguments.
 
-    A child finds the arguments and variables of its process in memory. So what is to be run comes
-    by standard input. `out`: for what it prints, as of Popen.
+    A child finds the arguments and variables of its process in memory. So the program comes by
+    standard input. `out`: where it prints, as in Popen.
     """
     process = subprocess.Popen(
         [sys.executable, "-I", "-"],
@@ -315,13 +291,13 @@ def start_clean(
         env=clean_environment(),
     )
     assert process.stdin is not None
-    with suppress(OSError), process.stdin as boot:  # it is gone already: to be missed later
+    with suppress(OSError), process.stdin as boot:  # if it is gone, opening a child will fail
         boot.write(program(module, str(theirs.fileno()), *without).encode())
     return process
 
 
 def explain(cpu_seconds: int, code: int | None) -> str:
-    """Return why a child is gone, from what its worker says of it."""
+    """Return why a child is gone, by its exit status; None where its worker is gone as well."""
     if code is None:
         return "it took the worker down with it"
     if code in OUT_OF_TIME:
@@ -336,8 +312,8 @@ def explain(cpu_seconds: int, code: int | None) -> str:
 class WarmWorker:
     """A process with everything loaded that forks a child per check.
 
-    It is waited for when the first child is wanted: until then it loads and we do something else.
-    Layers of isolation in `without` are left out, to see what the others hold.
+    It loads while the judge does other work, until the first child is opened. Layers of isolation
+    in `without` are left out, to test the others.
     """
 
     def __init__(self, without: Collection[str] = ()) -> None:
@@ -351,10 +327,10 @@ class WarmWorker:
             self.process = start_clean("grader.worker.warm", theirs, self.without)
         self.control = Channel(ours)
         self.loading = True
-        self.layers: list[str] = []  # what shuts all children in, once one was opened
+        self.layers: list[str] = []  # around all children, once one was opened
 
     def helpers(self, count: int) -> Sequence["WarmWorker"]:
-        """Return as many more, which are kept for the next grade and closed with this one."""
+        """Return as many others, which stay for the next grade and are closed with this one."""
         while len(self.beside) < count:
             self.beside.append(WarmWorker(self.without))
         return self.beside[:count]
@@ -388,7 +364,7 @@ class WarmWorker:
         return child
 
     def pid_of(self, child: Child) -> int:
-        """Return its number here: in a namespace of its own it has another one."""
+        """Return a child's process number here: in a namespace of its own it has another one."""
         for process in psutil.Process(self.process.pid).children(recursive=True):
             with suppress(OSError):
                 status = Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
@@ -409,7 +385,7 @@ class WarmWorker:
         return ended.status
 
     def _hear(self) -> bytes:
-        """Return what the warm process says; one that a child has stopped is not waited for."""
+        """Return a message of the warm process; do not wait for one that a child has stopped."""
         stopped = 0
         for _ in range(int(START_SECONDS)):
             if self.control.wait(1.0):
@@ -430,7 +406,7 @@ class WarmWorker:
             return False
 
     def _kill(self) -> None:
-        """End it with all its children, whatever state they are in."""
+        """End the process with all its children, whatever state they are in."""
         self.control.close()
         with suppress(psutil.NoSuchProcess):
             for process in psutil.Process(self.process.pid).children(recursive=True):
@@ -442,7 +418,7 @@ class WarmWorker:
     def close(self) -> None:
         for each in self.beside:
             each.close()
-        self.control.close()  # it ends what is left of its children, and then itself
+        self.control.close()  # it then ends its children and itself
         try:
             self.process.wait(5)
         except subprocess.TimeoutExpired:
@@ -450,9 +426,9 @@ class WarmWorker:
 
 
 class SpawnWorker:
-    """Starts a new process for every child: for platforms without fork.
+    """Starts a new process for every child, on platforms without fork.
 
-    Some are started ahead: to load takes them longer than most checks take.
+    Some start ahead, since loading takes longer than most checks.
     """
 
     def __init__(self, without: Collection[str] = ()) -> None:
@@ -463,7 +439,7 @@ class SpawnWorker:
         self._start_ahead()
 
     def helpers(self, count: int) -> Sequence["SpawnWorker"]:
-        """Return none: it starts processes ahead as it is."""
+        """Return none: processes start ahead as it is."""
         return ()
 
     def _start_ahead(self) -> None:
@@ -531,7 +507,7 @@ class SpawnWorker:
 
 
 def reaped_seconds() -> float:
-    """Processor time of all processes that we have started and seen end; 0 where nobody counts."""
+    """Return the processor time of all our processes that have ended; 0 where it is unknown."""
     try:
         import resource
     except ImportError:
@@ -545,14 +521,14 @@ def clean_environment() -> dict[str, str]:
 
     Python may need the path of libraries to start; the warm process wipes it out of its memory.
     """
-    kept = ("PATH", "SYSTEMROOT") if sys.platform == "win32" else ("LD_LIBRARY_PATH",)
-    return {name: os.environ[name] for name in kept if name in os.environ} | ENVIRONMENT
+    needed = ("PATH", "SYSTEMROOT") if sys.platform == "win32" else ("LD_LIBRARY_PATH",)
+    return {name: os.environ[name] for name in needed if name in os.environ} | ENVIRONMENT
 
 
 def start_worker(spawn: bool = False, without: Collection[str] = ()) -> Worker:
-    """Return the fastest kind this platform has; `spawn` forces the portable one.
+    """Return the fastest worker of this platform, or the portable one with `spawn`.
 
-    Its children go without the layers of isolation that `without` names.
+    Its children lack the layers of isolation that `without` names.
     """
     kind = SpawnWorker if spawn or not hasattr(os, "fork") else WarmWorker
     return kind(without)

@@ -1,4 +1,4 @@
-"""Connect a check to its child: open it, ask, and say what is left when it is gone."""
+"""Connect a check to its child: open it, ask, and fail the check when it is gone."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -26,33 +26,33 @@ Send = Callable[[Child, Request], Answered]
 
 
 def ask_child(child: Child, request: Request) -> Answered:
-    """Return the usual `send` of a connection: nothing is recorded."""
+    """Ask without recording, the usual `send` of a connection."""
     return child.ask(request)
 
 
 @dataclass
 class Connection:
-    """Asks a child that it opens when first needed, and that has imported the submission then.
+    """Asks a child, which it opens and lets import the submission when first needed.
 
     All requests and answers pass through `send`; a replay puts a recorder there. `ran` describes
     the experiment that a request belongs to, and becomes the line *We ran* of a failure.
     """
 
-    module: str  # what is imported
+    module: str  # to import
     open_child: Callable[[], Child]
-    pieces: list[Piece]  # of the reference, to stand in for functions of the submission
+    pieces: list[Piece]  # of the reference, which replace functions of the submission
     send: Send = ask_child
     output: str = ""
     child: Child | None = None
     cpu: float = 0.0  # s, of processor time that its children used
-    rested: float = 0.0  # s, in which they could have worked
+    rested: float = 0.0  # s, for which they slept
     heard: int = 0  # bytes of their answers
-    over: NotYet | Broke | None = None  # why nothing more can be asked
-    watched: bool = False  # whether the child notes what the submission keeps from call to call
+    over: NotYet | Broke | None = None  # why no more requests are possible
+    watched: bool = False  # the child notes which names keep a value from call to call
     deal: int = 0  # added to the seeds that the submission gives its random generators
 
     def ask(self, request: Request, ran: str) -> Answer:
-        """Return the answer; raises NotYet or Broke where the submission gave none."""
+        """Return the answer; raises NotYet or Broke if the submission gave none."""
         child = self.child or self.begin(ran)
         return self._ask(child, request, ran)
 
@@ -71,9 +71,7 @@ class Connection:
         return self.child
 
     def remembered(self) -> list[str]:
-        """Return the names in the submission that hold something else than before the first
-        request.
-        """
+        """Return the names in the submission whose values have changed since the first request."""
         if self.child is None or self.over is not None or not self.watched:
             return []
         try:
@@ -84,7 +82,7 @@ class Connection:
         return [name for name in names if name.replace(".", "").isidentifier()]
 
     def restart(self) -> None:
-        """End a child that still answers, so that the next request opens another one."""
+        """End a child that still answers; the next request opens another one."""
         if self.over is None:
             self.end()
 
@@ -113,6 +111,6 @@ class Connection:
                 return reply
 
     def _stop(self, ran: str, why: ChildEnded) -> NoReturn:
-        """End the check: the child is gone, whatever else would have been asked."""
+        """End the check, since its child is gone."""
         self.over = Broke(ran, str(why), late=why.late)
         raise self.over

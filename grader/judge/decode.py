@@ -1,4 +1,4 @@
-"""Decoding answers: what a check gets is of the right type and finite, or the check fails."""
+"""Decode answers: a check gets values of the right type, and finite ones, or it fails."""
 
 import math
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from grader.protocol import (
 )
 
 Pair = tuple[float, float]
-SHOWN = 4  # items of a list or tuple that are told one by one
+SHOWN = 4  # items of a list or tuple that are listed one by one
 
 
 @dataclass(frozen=True)
@@ -28,23 +28,23 @@ class Thing:
 
 
 class Decoder:
-    """Turns answers into numbers and objects, and fails the check where they are none.
+    """Turns answers into numbers and objects, or fails the check.
 
-    `what` names an answer to the student.
+    `what` is a name of the answer, for the student.
     """
 
     def __init__(self) -> None:
-        self.running = ""  # the experiment, as the line *We ran* has it
-        self.failure: NotYet | Broke | None = None  # the first, or the one the check ended with
-        self.names: dict[int, str] = {}  # what things are called to the student
-        self.surveys = False  # whether the check goes on where it would fail, to ask all it has
+        self.running = ""  # the experiment, for the line *We ran*
+        self.failure: NotYet | Broke | None = None  # the first, or the one that ended the check
+        self.names: dict[int, str] = {}  # of things, for the student
+        self.surveys = False  # the check continues after a failure, to ask all it can
 
     def ran(self, text: str) -> None:
         """Name the experiment, for the line *We ran*."""
         self.running = text
 
     def want(self, holds: bool, expected: str, got: str, meaning: str = "") -> None:
-        """Fail the check unless `holds`, with what was expected and what came out."""
+        """Fail the check unless `holds`, with the expected value and the one it got."""
         if holds:
             return
         if self.surveys:
@@ -57,13 +57,13 @@ class Decoder:
         raise self.remember(NotYet(self.running, expected, got, meaning))
 
     def refuse(self, wanted: str, what: str, value: Value) -> NoReturn:
-        """Fail the check because of what kind of thing came."""
+        """Fail the check because the answer is of the wrong kind."""
         got = self.describe(value)
         expected = wanted if what == "the answer" else f"{wanted} as {what}"
         self.fail(expected, got, f"{what[:1].upper()}{what[1:]} must be {wanted}; it is {got}.")
 
     def remember(self, failure: NotYet | Broke) -> NotYet | Broke:
-        """Keep the first failure: hypothesis may run a check again and see others."""
+        """Remember the first failure: hypothesis may run a check again and find others."""
         self.failure = self.failure or failure
         return failure
 
@@ -131,7 +131,7 @@ class Decoder:
         return value
 
     def describe(self, value: Value) -> str:
-        """Return what came instead, in words for the line *Got*."""
+        """Return an answer of the wrong kind in words, for the line *Got*."""
         match value:
             case None:
                 return "None (is there a return missing?)"
@@ -149,14 +149,14 @@ class Decoder:
 
 
 def which_is_none(items: list[Value]) -> str:
-    """`, of which the second is None`, where one is."""
+    """Return `, of which the second is None`; empty if none is."""
     names = ("first", "second", "third", "fourth")
     none = [name for name, each in zip(names, items, strict=False) if each is None]
     return f", of which the {none[0]} is None" if none else ""
 
 
 def in_brief(value: Value) -> str:
-    """Return one of several things."""
+    """Return an item of a list or tuple in words."""
     match value:
         case None:
             return "None"

@@ -1,8 +1,8 @@
 """Draw the examples of properties: by explicit seeds, the same on every machine.
 
-Only the public interface of hypothesis is used. The text of a check has no part in what is drawn.
-Neither has what else is loaded: hypothesis mixes in integers that it finds in modules, but none
-below 100, so strategies are made of smaller ones (see `between`).
+Only the public interface of hypothesis is used. The examples do not depend on the text of a check,
+nor on other modules: hypothesis mixes in integers that it finds in modules, but none below 100, so
+strategies are made of smaller ones (see `between`).
 """
 
 import hashlib
@@ -23,8 +23,7 @@ BASE = 100  # hypothesis takes no integer from a loaded module that is smaller
 Example = Callable[..., None]  # a property with all that was drawn for it; takes a lab
 Property = Callable[..., None]
 
-# What hypothesis keeps of the modules it reads: 0.4 s of reading in each process, if it kept none.
-CACHE = Path(__file__).parents[2] / "build" / "hypothesis"
+CACHE = Path(__file__).parents[2] / "build" / "hypothesis"  # saves 0.4 s in each process
 set_hypothesis_home_dir(CACHE)
 
 
@@ -33,7 +32,7 @@ def given(
 ) -> Callable[[Property], Property]:
     """Make a check a property: hypothesis' own `given`, under the judge's settings.
 
-    The first example is the simplest there is. With one more, or none, nothing is worth shrinking.
+    The first example is the simplest. With two examples or fewer, shrinking is not worth its time.
     """
     phases = [Phase.explicit, Phase.generate, Phase.shrink]
     settings = hypothesis.settings(
@@ -60,10 +59,7 @@ def between(low: int, high: int) -> st.SearchStrategy[int]:
 
 @contextmanager
 def kept_examples(function: Any, seed: int | None) -> Iterator[list[Example]]:
-    """Collect the examples of a property as it draws them; any other check has none.
-
-    It draws by its name and by the instructor's seed.
-    """
+    """Collect the examples that a property draws by its name and seed; other checks draw none."""
     examples: list[Example] = []
     if not hasattr(function, "hypothesis"):
         yield examples

@@ -1,7 +1,7 @@
-"""Hash the grader: as long as the hash stays, nothing is graded again.
+"""Hash the grader: results stay valid as long as the hash does.
 
-A file of the grader counts if it can decide about points: the checks, the judge that weighs their
-answers, the worker that runs the submission, and what these share. Reports and commands do not.
+A file counts if it can decide about points: the checks, the judge, the worker and what they share.
+Reports and commands do not count.
 """
 
 import hashlib
@@ -21,7 +21,7 @@ LIBRARIES = ("hypothesis", "msgspec", "pygame-ce", "pymunk", "pytest")
 
 @cache
 def fingerprint() -> str:
-    """Return the hash of the grader and of the libraries that decide about points."""
+    """Return the hash of the grader and its libraries, as far as they decide about points."""
     top = Path(__file__).parents[1]
     digest = hashlib.sha256()
     for path in deciding_files(top):
@@ -32,7 +32,7 @@ def fingerprint() -> str:
 
 
 def deciding_files(top: Path) -> Iterator[Path]:
-    """Yield the files of the grader in `top` that count, in a fixed order."""
+    """Yield the files of the grader that count, in a fixed order."""
     for path in sorted(top.rglob("*")):
         if path.suffix in READ and path.relative_to(top).parts[0] in DECIDING:
             yield path

@@ -1,7 +1,6 @@
-"""A worker that starts no processes: its children answer inside this one.
+"""Run children inside the judge's own process, in a browser tab, which has no others.
 
-For one's own work, where a browser tab has no processes. It confines nothing, so `grade` refuses it
-for other people's work.
+This confines nothing, so it is for one's own work; `grade` refuses it for other people's.
 """
 
 import os
@@ -13,7 +12,7 @@ from grader.protocol import ChildSetup, InnerChannel
 
 
 class InlineWorker:
-    """Opens children by `connect`: one answers at a time, and the judge waits meanwhile."""
+    """Opens children by `connect`; while one answers, the judge waits."""
 
     def __init__(self, connect: Callable[[ChildSetup], InnerChannel]) -> None:
         self.connect = connect

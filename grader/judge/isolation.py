@@ -1,4 +1,4 @@
-"""Say what the layers around a submission hold back, by their names."""
+"""Decide whether the layers of isolation around a submission are enough, by their names."""
 
 import importlib
 import pkgutil
@@ -8,24 +8,23 @@ from typing import Literal
 
 Isolation = Literal["auto", "strict", "none"]
 
-# What is confined, and the layers of which one is enough.
-LAYERS = {
+LAYERS = {  # by what they confine; one of them is enough
     "files": {"own-root", "landlock-files"},
     "network": {"system-calls", "network-namespace", "landlock-tcp"},
     "other processes": {"system-calls", "pid-namespace", "landlock-scope", "own-user"},
 }
-STRICT = ("files", "network")  # what --isolation=strict insists on
+STRICT = ("files", "network")  # required by --isolation=strict
 
-# What keeps a submission from writing files outside of its own. A user of its own reads what every
-# account may, so that is not enough for `strict`.
+# These keep a submission from writing files that are not its own. A user of its own can read what
+# every account can, so that is not enough for `strict`.
 KEEPS_FILES = LAYERS["files"] | {"own-user"}
 ONE_PROCESS = "one-process"  # no layer: submission and grader share a process
 
 
 def refusal(isolation: Isolation, layers: list[str], trusted: bool) -> str:
-    """Return why nothing is to be graded behind these layers; empty where it may be.
+    """Return why these layers are not enough to grade; empty if they are.
 
-    `trusted`: the submission is one's own work, which may as well be run without a grader.
+    `trusted`: the submission is one's own work, which one may run without a grader as well.
     """
     if ONE_PROCESS in layers and not trusted:
         return (
@@ -49,14 +48,14 @@ def refusal(isolation: Isolation, layers: list[str], trusted: bool) -> str:
 
 
 def unconfined(layers: list[str]) -> list[str]:
-    """Return what a submission can still reach."""
+    """Return the things that a submission can still reach."""
     return [what for what, any_of in LAYERS.items() if not any_of & set(layers)]
 
 
 def load_everything() -> None:
-    """Import all of the judge now, before a submission runs that could rewrite what comes later.
+    """Import all of the grader before a submission runs, which could rewrite its files.
 
-    What needs a package that is not installed, such as Dask, is not needed here.
+    Modules whose packages are not installed, such as Dask, are skipped.
     """
     for found in pkgutil.walk_packages([str(Path(__file__).parents[1])], "grader."):
         if not found.name.startswith("grader.worker") and not found.name.endswith("__main__"):

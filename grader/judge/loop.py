@@ -137,8 +137,8 @@ class CheckLoop:
     def _run_ahead(self, jobs: list[Job]) -> "Iterator[dict[Key, Future[EarlyOutcome]]]":
         """Let helpers run checks, the last one first, while the loop begins with the first.
 
-        Each has a copy of the budget. Where the loop's budget turns out to be another one, the check
-        runs again: marks do not depend on how many run at a time.
+        Each has a copy of the budget. If the loop's budget turns out to differ, the check runs
+        again: marks do not depend on how many run at a time.
         """
         jobs = [job for job in jobs if self.helpers and self._find_blocked(job) is None]
         if len(jobs) < 2:
