@@ -1,7 +1,6 @@
-"""Read what a course takes of the kit: which TODOs, for how many points, until when.
+"""Read `course.toml`: the TODOs of a course, their points, and the date they are due.
 
-`course.toml` at the top of the kit says it, and is read here alone. What is wrong in it is said in
-one sentence, before anything is graded.
+A mistake in it is reported in one sentence, before anything is graded.
 """
 
 import re
@@ -21,11 +20,11 @@ from grader.judge.result import is_bonus
 from grader.judge.rubric import CHECKS, Check, Rubric, Todo, load_rubric
 
 PLACE = CHECKS.parents[1] / "course.toml"  # in a checkout of the kit
-COURSE_FILE = "COURSE_FILE"  # in the environment: make hands it on to every command
+COURSE_FILE = "COURSE_FILE"  # the variable by which make passes a course to every command
 HANDED_OUT = CHECKS / "course.toml"  # in a student's copy, whose rubric has its TODOs alone
 EXAMPLE = "2027-05-04T23:59:00+02:00"
-END_OF_DAY = time(23, 59, 59)  # when something is due that is due on a day
-ANYWHERE = timezone(timedelta(hours=-12), "anywhere on Earth")  # where a day ends last of all
+END_OF_DAY = time(23, 59, 59)  # the due time of a date without a time
+ANYWHERE = timezone(timedelta(hours=-12), "anywhere on Earth")  # where a day ends last
 
 
 Read = TypeVar("Read", bound=Struct)
@@ -40,18 +39,18 @@ class WrongCourse(Stop):
 
 
 class Late(Struct, frozen=True, forbid_unknown_fields=True):
-    """The cost of lateness, begun days counted as whole: in a course, and in decisions."""
+    """The cost of lateness, in a course and in decisions; a begun day counts as a whole day."""
 
     per_day: Count | Share = 0  # points, or a share of those earned, as "10%"
-    at_most: Count | Share | None = None  # what lateness takes, in the same way
+    at_most: Count | Share | None = None  # the maximum loss, in the same way
     grace: Count = 0  # minutes after the due date that cost nothing
-    free_days: Count = 0  # late days that each student has
-    cap: Count | Share | None = None  # the most that late work can have; a share of full marks
+    free_days: Count = 0  # late days without a loss, for each student
+    cap: Count | Share | None = None  # the maximum of late work; a share of full marks
     closed_after: Count | None = None  # days, after which there are no points
     due: datetime | None = None  # in decisions alone: a course has a line of its own for it
 
     def loss(self, days: int, points: int) -> int:
-        """Return the points that `days` late days take off; a begun point of a share is kept."""
+        """Return the points that `days` late days cost; a share is rounded down."""
         if isinstance(self.per_day, str):
             loss = points * min(days * read_share(self.per_day), 100) // 100
         else:
@@ -61,13 +60,13 @@ class Late(Struct, frozen=True, forbid_unknown_fields=True):
         return loss if self.at_most is None else min(loss, self.at_most)
 
     def in_points(self, most: int) -> "Late":
-        """Return the same with the cap in points, where full marks are `most`."""
+        """Return these rules with the cap in points, if full marks are `most`."""
         if not isinstance(self.cap, str):
             return self
         return structs.replace(self, cap=most * read_share(self.cap) // 100)
 
     def find_faults(self, most: int) -> Iterator[str]:
-        """Yield what a course with `most` points cannot mean."""
+        """Yield the values that are too high for a course with `most` points, in words."""
         for name in ("per_day", "at_most", "cap"):
             value = getattr(self, name)
             if isinstance(value, int) and value > most:
@@ -76,12 +75,12 @@ class Late(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def read_share(share: str) -> int:
-    """Return the percents of `10%`."""
+    """Return 10 for `10%`."""
     return int(share.removesuffix("%"))
 
 
 class Asked(Struct, frozen=True, forbid_unknown_fields=True):
-    """The number of questions of each kind on a sheet about the student's own program."""
+    """The numbers of questions on a sheet about the student's own program."""
 
     number: Annotated[int, Meta(ge=0, le=10)] = 3
     film: Annotated[int, Meta(ge=0, le=10)] = 1
@@ -103,16 +102,16 @@ WORTH: dict[Kind, int] = {"number": 2, "film": 4, "why": 3}
 
 
 class Course(Struct, frozen=True, forbid_unknown_fields=True):
-    """One course; without any words of its own it takes all that there is.
+    """One course; an empty course file means all TODOs and the usual points.
 
     `todos`: the ids of its TODOs; None for all of them.
-    `points`: what a TODO is worth where that is not what the rubric says.
-    `out_of`: what gradebooks scale the points to; None for what the gradebook's own settings say.
+    `points`: the points of TODOs, if they differ from the rubric's.
+    `out_of`: the points of full marks in gradebooks; None for the gradebook's own settings.
     `bonus`: whether the points of bonus tasks are shown apart, left out, added until full marks are
     reached, or added up to this many.
-    `due`, `late`: until when work is handed in, and what it costs to be late.
-    `visible`: when students are shown why a hidden check failed; None for at once.
-    `questions`: what is on the sheets about their own programs, whose points stand apart.
+    `due`, `late`: the due date, and the cost of lateness.
+    `visible`: the date from which students see why a hidden check failed; None for at once.
+    `questions`: the sheets about students' own programs, whose points stand apart.
     """
 
     title: Annotated[str, Meta(pattern=r"\S")] = "Physics engine"
@@ -136,29 +135,29 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def given(self) -> list[Todo]:
-        """Return the TODOs with a region that it leaves out: their code is handed out done."""
+        """Return the TODOs that the course leaves out: students get their code done."""
         asked = {todo.id for todo in self.rubric.todos}
         return [todo for todo in load_rubric().todos if todo.function and todo.id not in asked]
 
     @property
     def modules(self) -> list[str]:
-        """Return the programs with a TODO, in the order of the rubric: what is to be handed in."""
+        """Return the programs with a TODO, which are to be handed in, in the rubric's order."""
         return list(dict.fromkeys(todo.module for todo in self.rubric.todos if todo.function))
 
     @property
     def as_rated(self) -> "Course":
-        """Return the same with the rubric's points, of which each check has at least one."""
+        """Return this course with the rubric's points, of which each check has at least one."""
         return structs.replace(self, points={})
 
     def added(self, bonus: int, points: int) -> int:
-        """Return how many points of a bonus count with the others, which are `points`."""
+        """Return how many points of a bonus count besides `points`."""
         if self.bonus == "fill up":
             return min(bonus, max(self.rubric.max_points - points, 0))
         return 0 if isinstance(self.bonus, str) else min(bonus, self.bonus)
 
     @property
     def most(self) -> int:
-        """Return the most points that a mark can have, with as much of the bonus as counts."""
+        """Return the maximum of a mark, with the part of the bonus that counts."""
         bonus = sum(todo.max_points for todo in self.rubric.todos if todo.bonus)
         return self.rubric.max_points + self.added(bonus, self.rubric.max_points)
 
@@ -173,8 +172,8 @@ FULL = Course()
 def chosen(todos: tuple[str, ...] | None, points: tuple[tuple[str, int], ...]) -> Rubric:
     """Return the rubric with these TODOs alone, in its own order, and with these points.
 
-    The whole program is asked by those of its checks that run a program with a TODO; one that needs
-    none of the TODOs counts only once another one passes.
+    Of the whole program, the checks remain that run a program with a TODO. One that needs none of
+    the TODOs counts only once another check passes.
     """
     every = load_rubric().todos
     asked = [todo for todo in every if todos is None or todo.id in todos]
@@ -182,14 +181,14 @@ def chosen(todos: tuple[str, ...] | None, points: tuple[tuple[str, int], ...]) -
     programs = {todo.module for todo in asked if todo.function and not todo.bonus}
     names = frozenset(todo.id for todo in asked)
     kept = [
-        todo if todo.function else structs.replace(todo, checks=asking(todo, programs, names))
+        todo if todo.function else structs.replace(todo, checks=keep_checks(todo, programs, names))
         for todo in asked
     ]
     return Rubric([with_points(todo, worth[todo.id]) for todo in kept])
 
 
-def asking(whole: Todo, programs: set[str], todos: frozenset[str]) -> list[Check]:
-    """Return the checks of the whole program that a course with these programs and TODOs has."""
+def keep_checks(whole: Todo, programs: set[str], todos: frozenset[str]) -> list[Check]:
+    """Return the checks of the whole program in a course with these programs and TODOs."""
     return [
         structs.replace(
             check,
@@ -202,7 +201,7 @@ def asking(whole: Todo, programs: set[str], todos: frozenset[str]) -> list[Check
 
 
 def with_points(todo: Todo, points: int) -> Todo:
-    """Return the TODO with these points in all, spread over its checks in their proportion."""
+    """Return a TODO with these points, spread over its checks in the rubric's proportions."""
     shares = spread(points, [check.points for check in todo.checks])
     pairs = zip(todo.checks, shares, strict=True)
     return structs.replace(todo, checks=[structs.replace(c, points=p) for c, p in pairs])
@@ -211,7 +210,7 @@ def with_points(todo: Todo, points: int) -> Todo:
 def spread(points: int, weights: Sequence[int]) -> list[int]:
     """Return whole numbers that add up to `points`, by the largest remainder.
 
-    None of them is 0, unless there are fewer points than weights.
+    None is 0 unless there are fewer points than weights.
     """
     total = sum(weights)
     shares = [points * weight // total for weight in weights]
@@ -228,9 +227,9 @@ def spread(points: int, weights: Sequence[int]) -> list[int]:
 
 
 def read_course(path: Path | None = None) -> Course:
-    """Read the course in this file, or else the kit's own; may raise WrongCourse.
+    """Read the course in a file, by default the kit's own; raises WrongCourse.
 
-    Where there is no kit around the grader, as with students, there is nothing but what they have.
+    In a student's copy, it is the course that was handed out.
     """
     if path is None:
         path = next((each for each in (PLACE, HANDED_OUT) if each.exists()), None)
@@ -254,9 +253,9 @@ def read_course(path: Path | None = None) -> Course:
 
 
 def instant(when: date, at: time) -> datetime:
-    """Return a date of a course: without a time it is `at`, and without a zone anywhere on Earth.
+    """Return a date of a course with the time `at`, and in the last time zone, unless it has them.
 
-    So it does not depend on the machine's zone, and nobody is late whose own clock is before it.
+    So it does not depend on the machine's zone, and nobody is late by their own clock.
     """
     exact = when if isinstance(when, datetime) else datetime.combine(when, at)
     return exact if exact.tzinfo else exact.replace(tzinfo=ANYWHERE)
@@ -266,8 +265,7 @@ def refuse(complaint: str) -> Never:
     raise WrongCourse(complaint)
 
 
-# What each value must be, by its place in the file; * is any key of a table.
-MUST = {
+MUST = {  # the rule for each value, by its place in the file; * is any key of a table
     "title": "is no title: write some words in quotes",
     "points": "must be a table: write [points] on a line and 4 = 12 below it",
     "points.*": "must be a whole number from 1 to 1000",
@@ -327,7 +325,7 @@ def fits(points: dict[str, Any], kind: type[Struct]) -> bool:
 
 
 def faults_before(document: dict[str, Any]) -> Iterator[str]:
-    """Yield what is wrong with keys and TODOs, which no type can tell, the first to mend first."""
+    """Yield faults of keys and TODOs, which types do not find, in the order to correct them."""
     points, late = document.get("points"), document.get("late")
     for table, name in ((points, "points"), (late, "late")):
         known = Course.__struct_fields__ if name == "points" else ("due",)
@@ -354,7 +352,7 @@ def wrong_todos(todos: Any) -> Iterator[str]:
 
 
 def faults_between(course: Course) -> Iterator[str]:
-    """Yield what is wrong with values that are right by themselves."""
+    """Yield faults of values that do not fit each other."""
     todos = [todo.id for todo in load_rubric().todos]
     if course.todos is not None:
         asked = [todo for todo in load_rubric().todos if todo.id in course.todos]

@@ -1,7 +1,7 @@
 """Ask a submission: build bodies, call functions, step worlds, play programs.
 
-A check speaks to the submission only through a `Lab`. Every answer comes back as plain numbers,
-strictly typed and finite, or the check fails with a sentence that says what was wrong.
+A check reaches the submission only through a `Lab`. Every answer is made of plain numbers, strictly
+typed and finite, or the check fails with a sentence that says what was wrong.
 """
 
 import math
@@ -44,16 +44,16 @@ from grader.protocol import (
 
 STEP = 1 / 120  # s
 ROUNDED = 1e-6  # ms
-Opening = tuple[int, Event | None]  # frames to wait, and what ends the title
-Frame = Mapping[Thing, str]  # the fields that may change, by the thing that has them
+Opening = tuple[int, Event | None]  # frames to wait, and the event that ends the title
+Frame = Mapping[Thing, str]  # the fields that may change, by their owner
 NOTHING: Frame = {}
-OURS = 1_000_000  # numbers of objects from here on are given by us, lower ones by the child
+OURS = 1_000_000  # the judge numbers objects from here on, the child below
 MAX_OBSERVATIONS = 400  # a shrinking counterexample makes many; the first ones are enough
 
 
 @dataclass(frozen=True)
 class Observation:
-    """One question put to the submission and its answer, for telling known mistakes apart."""
+    """One question put to the submission and its answer, to recognise known mistakes."""
 
     about: str
     inputs: tuple[Any, ...]
@@ -65,7 +65,7 @@ class Lab(Decoder):
 
     def __init__(
         self,
-        module: str,  # what the check imports
+        module: str,  # that the check imports
         open_child: Callable[[], Child],
         pieces: list[Piece],
         send: Send = ask_child,
@@ -73,20 +73,20 @@ class Lab(Decoder):
     ) -> None:
         super().__init__()
         self.drawn = None if secret is None else random.Random(secret)
-        self.factor = self.about(1.0)  # for all of one kind in a check, such as masses
+        self.factor = self.about(1.0)  # for all numbers of one kind in a check, such as masses
         self.module = module
         self.connection = Connection(module, open_child, pieces, send)
         self.observations: list[Observation] = []
-        # The first time that something was changed which a call may not change. It fails a check
-        # that would else pass: what an answer should have been is said first.
+        # The first forbidden change. It fails a check that would pass otherwise: a wrong answer
+        # comes first.
         self.overstepped: NotYet | None = None
-        self.trespass = ""  # the words of that, where an answer is wrong as well
-        self.unforeseen = False  # whether the check itself raised an error
-        self.numbers = count(OURS)  # for what is made at our word
-        self.remembers: list[str] = []  # the names in which something was kept; see Remembered
-        self.played = False  # whether the child has run a program
-        self.notes: list[str] = []  # sentences for the report, where the check passes
-        self.opening: Opening | None = None  # of a program that begins with something else
+        self.trespass = ""  # the words about it, if an answer is wrong as well
+        self.unforeseen = False  # the check itself raised an error
+        self.numbers = count(OURS)  # for objects that the judge makes
+        self.remembers: list[str] = []  # names that kept a value; see Remembered
+        self.played = False  # the child has run a program
+        self.notes: list[str] = []  # sentences for the report of a check that passes
+        self.opening: Opening | None = None  # of a program that begins with a title
 
     @property
     def ended(self) -> bool:
@@ -95,29 +95,28 @@ class Lab(Decoder):
 
     @property
     def late(self) -> bool:
-        """Return whether it had to be ended because its time was over."""
+        """Return whether the process was ended because its time was over."""
         return isinstance(self.failure, Broke) and self.failure.late
 
     @contextmanager
     def opened(self) -> Iterator["Lab"]:
-        """End the child afterwards, whatever happened."""
+        """End the child afterwards."""
         try:
             yield self
         finally:
             self.connection.end()
 
     def saw(self, about: str, inputs: tuple[Any, ...], answer: Any) -> None:
-        """Remember an answer, so that a known mistake can be told by its numbers."""
+        """Remember an answer, to recognise known mistakes by their numbers."""
         if len(self.observations) < MAX_OBSERVATIONS:
             self.observations.append(Observation(about, inputs, answer))
 
     def about(self, number: float, within: float | None = None) -> float:
-        """Return the number; under an instructor's secret seed another one near it, and never the
-        same.
+        """Return the number or, under an instructor's secret seed, another one near it.
 
-        It is off by eighths of `within`, which is a quarter of the number where nothing else is
-        said: so sums and products of round numbers stay exact. What is asked with the numbers that
-        it gives cannot be answered by heart. Not for properties: those draw by themselves.
+        So nobody can learn the answers by heart. The number changes by eighths of `within`, by
+        default a quarter of it: sums and products of round numbers stay exact. Properties do not
+        need this, since they draw their numbers.
         """
         if self.drawn is None:
             return number
@@ -125,7 +124,7 @@ class Lab(Decoder):
         return number + self.drawn.choice([-1, 1]) * self.drawn.randint(1, 8) / 8 * most
 
     def whole(self, number: int, within: int) -> int:
-        """Return the same for a whole number, which is off by 1 to `within`."""
+        """Return a whole number or, under a secret seed, one that differs by 1 to `within`."""
         if self.drawn is None:
             return number
         return number + self.drawn.choice([-1, 1]) * self.drawn.randint(1, within)
@@ -133,7 +132,7 @@ class Lab(Decoder):
     # ------------------------------------------------------------ asking
 
     def probe(self) -> None:
-        """Import the submission and nothing more."""
+        """Import the submission."""
         self.connection.begin(self.running)
 
     def call(
@@ -147,10 +146,10 @@ class Lab(Decoder):
     ) -> Value:
         """Call `name` of the TODO's module, or `module:name`.
 
-        `changes` says all that the call may change: the fields of each thing, as in {a: "vel"}, and
-        NOTHING for a function that only answers. Without it nobody looks. A function that is asked
-        `twice` must give the same answer to the same question. See `overstepped`. The state of what
-        it may change comes with the answer, and of what the check `sees` besides.
+        `changes` names the fields that the call may change, as in {a: "vel"}; NOTHING is for a
+        function that only answers. Without `changes` nothing is compared. A function called `twice`
+        must give the same answer. See `overstepped`. The state of the things that it may change
+        comes with the answer, and that of the things in `sees`.
         """
         target = name if ":" in name else f"{self.module}:{name}"
         named = {key: plain(value) for key, value in kwargs.items()}
@@ -167,14 +166,14 @@ class Lab(Decoder):
         changes: Frame | None = None,
         sees: Iterable[Thing] = (),
     ) -> Value:
-        """Call a method of an object that lives in the child; the rest as in `call`."""
+        """Call a method of an object in the child; the arguments are those of `call`."""
         target, values = f"#{thing.ref}.{method}", [plain(each) for each in args]
         framed, states = changes is not None, refs(changes or (), sees)
         request = Call(target, values, framed=framed, states=states)
         return self._framed(method, request, changes).value
 
     def _framed(self, name: str, request: Call | Integrate, changes: Frame | None) -> Returned:
-        """Ask and return the answer; remember a forbidden change until the check ends."""
+        """Return the answer, and remember a forbidden change until the check ends."""
         returned = self._returned(request)
         if changes is not None and self.overstepped is None:
             beyond = [
@@ -193,7 +192,7 @@ class Lab(Decoder):
         return returned
 
     def _trespass(self, name: str, changes: Frame, beyond: list[Change]) -> NotYet | None:
-        """Return what a function changed that is none of its business, or None."""
+        """Return the failure of a function that made forbidden changes, or None."""
         if not beyond:
             return None
         allowed = ", ".join(
@@ -215,9 +214,9 @@ class Lab(Decoder):
         return f"the {in_words(change.name)} of {self.names.get(change.ref, 'another object')}"
 
     def advance(self, world: Thing, accumulator: float, seconds: float) -> "Advance":
-        """Call the program's `advance` for a frame of so many seconds; no step is run.
+        """Call the program's `advance` for a frame of some seconds, in which no step runs.
 
-        It may change nothing but what the steps do, and none of them does anything here.
+        So it may change nothing.
         """
         target, args = f"{self.module}:advance", [plain(world), accumulator, seconds]
         request = Call(target, args, framed=True, stepping=True)
@@ -229,9 +228,7 @@ class Lab(Decoder):
         return Advance(rest, returned.steps, returned.dts, said)
 
     def work(self, thing: Thing, method: str, *args: Any) -> int:
-        """Return how many lines of the submission run in a method of an object, however it is
-        written.
-        """
+        """Return how many lines of the submission run in a call of a method."""
         arguments = [plain(each) for each in args]
         return self._returned(Call(f"#{thing.ref}.{method}", arguments, work=True)).lines
 
@@ -272,7 +269,7 @@ class Lab(Decoder):
         return made
 
     def _new(self, name: str) -> Thing:
-        """Something that the child makes by the time it is asked for more."""
+        """Return an object that the child makes before its next answer."""
         thing = Thing(next(self.numbers))
         self.names[thing.ref] = name
         return thing
@@ -290,7 +287,7 @@ class Lab(Decoder):
         joints: Sequence[Thing] = (),
         bonus: bool = False,
     ) -> Thing:
-        """Return a World with these bodies; without gravity and damping unless asked for.
+        """Return a World with these bodies, by default without gravity and damping.
 
         `bonus`: the world of the bonus tasks. Older submissions have one World for everything.
         """
@@ -342,8 +339,7 @@ class Lab(Decoder):
         steps: int = 1,
         twice: bool = False,
     ) -> list[Pair]:
-        """Return the states (x, v) after each step of an integrator under `force`, a polynomial in
-        x.
+        """Return the states (x, v) after each step of an integrator under a polynomial force of x.
 
         `twice`: the same question must get the same answer, and nothing else may change.
         """
@@ -356,13 +352,11 @@ class Lab(Decoder):
         return states
 
     def places(self, method: str, start: Pair, dt: float, force: Sequence[float]) -> list[float]:
-        """Return the places at which one step of an integrator asks for the acceleration."""
+        """Return the positions at which one step of an integrator asks for the acceleration."""
         target = f"{self.module}:{method}"
         request = Integrate(target, *start, dt, list(force), places=True)
-        return [
-            self.number(each, "what accel is asked about")
-            for each in self.items(self._value(request), "the places")
-        ]
+        places = self.items(self._value(request), "the places")
+        return [self.number(each, "what accel is asked about") for each in places]
 
     def play(
         self,
@@ -378,8 +372,7 @@ class Lab(Decoder):
     ) -> Played:
         """Run the program as `python -m` starts it, one entry of `frames` (ms) per frame.
 
-        A second run has a process of its own: a program may count on being started once. One that
-        shows a title or loads something begins where that ends.
+        A second run gets a process of its own. A run begins after a title or a loading picture.
         """
         request = Play(
             module or self.module,
@@ -400,7 +393,7 @@ class Lab(Decoder):
         return next(self._openings(request, reply), reply)
 
     def _openings(self, request: Play, reply: Played) -> Iterator[Played]:
-        """Try to open a program that is late: by waiting, and as a person would try to."""
+        """Try to open a program that starts late, by waiting, keys and clicks."""
         known = first_step(reply) is not None
         for event in (None, *TRIES):
             again = event is not None or not known
@@ -413,7 +406,7 @@ class Lab(Decoder):
                 yield played
 
     def _opened(self, request: Play, opening: Opening) -> Played:
-        """Run the program, and leave out the frames before its first one."""
+        """Run the program, and drop the frames of its opening."""
         return without_lead(self._played(with_lead(request, *opening)), opening[0])
 
     def _played(self, request: Play) -> Played:
@@ -440,7 +433,7 @@ class Lab(Decoder):
         self.start_anew()
 
     def start_anew(self) -> None:
-        """Ask a new process from now on: in this one a program has run."""
+        """Use a new process from now on, in which no program has run."""
         self.connection.restart()
         self.played = False
 
@@ -465,7 +458,7 @@ class Lab(Decoder):
 
 LEAD = 20  # frames, for a program that shows a title or loads something
 IDLE = 100.0  # ms
-TRIES = (  # what a person tries where a program shows a title
+TRIES = (  # events by which a person ends a title
     Event(2, "key", key="return"),
     Event(2, "click", (450, 300)),
     Event(2, "key", key="space"),
@@ -478,7 +471,7 @@ def first_step(played: Played) -> int | None:
 
 
 def starts_at_once(played: Played) -> bool:
-    """Return whether the first step runs before a person would see that nothing moves."""
+    """Return whether the first step runs before a person would notice that nothing moves."""
     first = first_step(played)
     return first is not None and (first == 0 or played.clock[first - 1] <= IDLE)
 
@@ -495,7 +488,7 @@ def with_lead(request: Play, lead: int, event: Event | None) -> Play:
 
 
 def without_lead(played: Played, lead: int) -> Played:
-    """Return what a program did after its first `lead` frames, as if it had begun then."""
+    """Return a run without its first `lead` frames."""
     if len(played.steps) <= lead:
         return played
     return msgspec.structs.replace(
@@ -513,7 +506,7 @@ class Advance(NamedTuple):
     rest: float  # s, the accumulator that it returned
     steps: int  # that ran
     sizes: list[float]  # s, the different step sizes
-    said: float  # how many steps it says
+    said: float  # the number of steps that it returned
 
 
 class Run:
@@ -547,7 +540,7 @@ class Moment:
 
 
 def same(first: Value, second: Value) -> bool:
-    """Return whether two answers are equal but for identity: each call makes a new contact."""
+    """Return whether two answers are equal, apart from the identity of new objects."""
     if isinstance(first, ContactValue) and isinstance(second, ContactValue):
         return msgspec.structs.replace(first, ref=second.ref) == second
     if isinstance(first, Ref) and isinstance(second, Ref):
@@ -563,12 +556,12 @@ def refs(*groups: Iterable[Thing]) -> list[int]:
 
 
 def in_words(fields: str) -> str:
-    """Return the names of fields as the lesson says them."""
+    """Return the names of fields in the lesson's words."""
     return ", ".join(FIELDS.get(each, each) for each in fields.split())
 
 
 def plain(value: Any) -> Argument:
-    """Return an argument in the form that crosses the pipe."""
+    """Return an argument as the protocol sends it."""
     if isinstance(value, Thing):
         return Ref(value.ref)
     if isinstance(value, tuple):

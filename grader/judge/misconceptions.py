@@ -1,7 +1,7 @@
-"""Name the mistake: hold a model of each known one against every answer of the submission.
+"""Name a known mistake, by comparing its model with every answer of the submission.
 
-A mistake is named only if its model gives *every* observed answer it speaks about, and the right
-model does not. Nothing is guessed from how the code looks.
+A mistake is named only if its model gives *every* answer to its kind of question, and the right
+model does not. The text of the code plays no part.
 """
 
 import importlib
@@ -29,42 +29,39 @@ class Mistake:
     todo: str
     id: str
     meaning: str  # the sentence a student reads
-    about: str
+    about: str  # the kind of question
     model: Model
-    apart: bool = True  # whether it may be made in one part of an answer alone
+    apart: bool = True  # it may be in one part of an answer alone
 
 
 known_mistakes: list[Mistake] = []
+# By kind of question:
 right_models: dict[str, Model] = {}
-trait_models: dict[
-    str, Model
-] = {}  # what a question is like, in words, by what may tell it from others
+trait_models: dict[str, Model] = {}  # traits that may tell one question from another, in words
 part_names: dict[str, Parts] = {}
-separate_questions: set[str] = (
-    set()
-)  # observations of which a mistake may be made in one part alone
+separate_questions: set[str] = set()  # a mistake may be in one part of an answer alone
 
 
 def truth(
     about: str,
     model: Model,
-    like: Model | None = None,
-    of: Parts | None = None,
+    traits: Model | None = None,
+    parts: Parts | None = None,
     apart: bool = False,
 ) -> None:
-    """Register the right model of the observations called `about`.
+    """Register the right model of a kind of question.
 
-    `like` says what a question is like: a dict of clauses such as {"place": "the centre is inside
-    the box"}, in the order in which a mistake is looked for. By what begins with _ none is looked
-    for: it tells nothing but where answers are wrong. `of` names the parts of an answer, by
-    the positions of their numbers in it; no positions are all of them. Where each part has code of
-    its own, they are `apart`, and a mistake may be made in one of them alone.
+    `traits` describes a question by a dict of clauses, such as {"place": "the centre is inside the
+    box"}. A mistake is looked for in questions with the same trait, in this order. A trait that
+    begins with _ only helps to say where answers are wrong. `parts` names the parts of an answer by
+    the positions of their numbers; no positions are all of them. Where each part has code of its
+    own, they are `apart`, and a mistake may be in one of them alone.
     """
     right_models[about] = model
-    if like is not None:
-        trait_models[about] = like
-    if of is not None:
-        part_names[about] = of
+    if traits is not None:
+        trait_models[about] = traits
+    if parts is not None:
+        part_names[about] = parts
     if apart:
         separate_questions.add(about)
 
@@ -72,12 +69,10 @@ def truth(
 def mistake(
     todos: str, about: str, name: str, meaning: str, *models: Model, apart: bool = True
 ) -> None:
-    """Register a mistake: what each model gives for the observations called `about`.
+    """Register a mistake by models of its answers, of which one must explain those of a submission.
 
-    One model that explains the answers is enough. Of several TODOs the ids are separated by spaces.
-    Where two mistakes explain the same answers, the one registered first is named. One that is not
-    `apart` is in all of an answer, whatever `truth` says of its parts. A file that says
-    the first two arguments often makes a partial of this function.
+    Several TODOs are separated by spaces. If two mistakes explain the same answers, the first one
+    is named. One that is not `apart` is in all of an answer, whatever `truth` says of its parts.
     """
     for model in models:
         for todo in todos.split():
@@ -85,15 +80,15 @@ def mistake(
 
 
 def always(answer: Any) -> Model:
-    """Return the model that gives the same answer whatever is asked."""
+    """Return the model that gives the same answer to every question."""
     return lambda *inputs: answer
 
 
 @cache
 def load_known(todo: str) -> None:
-    """Import a TODO's models, which are in `mistakes.py` beside its checks.
+    """Import a TODO's models from `mistakes.py` beside its checks.
 
-    A student's copy has what all models answer, as far as it was recorded.
+    A student's copy has recorded answers instead of models.
     """
     table = load_recorded()
     if table is not None:
@@ -110,12 +105,12 @@ def register_recorded(table: Recorded, todo: str) -> None:
             model = answer_from(each.answers)
             mistake(todo, each.about, each.id, each.meaning, model, apart=each.apart)
     for about, answers in table.right.items():
-        like = answer_from(table.traits[about]) if about in table.traits else None
-        truth(about, answer_from(answers), like, table.parts.get(about), about in table.separate)
+        traits = answer_from(table.traits[about]) if about in table.traits else None
+        truth(about, answer_from(answers), traits, table.parts.get(about), about in table.separate)
 
 
 def answer_from(answers: Answers) -> Model:
-    """Return the model that gives these answers, and is undecided where there is none."""
+    """Return the model that gives these answers, and is undecided about other questions."""
 
     def model(*inputs: Any) -> Any:
         try:
@@ -134,12 +129,12 @@ def name_mistake(todo: str, observations: Sequence[Observation]) -> Mistake | No
     load_known(todo)
     if says_nothing(observations):
         return None
-    mine = [each for each in known_mistakes if each.todo == todo]
-    found = [each for each in mine if explains(each, observations)]
+    of_todo = [each for each in known_mistakes if each.todo == todo]
+    found = [each for each in of_todo if explains(each, observations)]
     fits = {(each.id, each.about) for each in found}
-    asked = {each.about for each in observations}
-    speaks = {(each.id, each.about) for each in mine if each.about in asked}
-    denied = {id for id, about in speaks - fits}  # other answers would show it, and do not
+    kinds = {each.about for each in observations}
+    expected = {(each.id, each.about) for each in of_todo if each.about in kinds}
+    denied = {id for id, _ in expected - fits}  # other answers would show it, and do not
     found = [each for each in found if each.id not in denied]
     if load_recorded() is not None and len(simplest({each.id for each in found})) > 1:
         return None
@@ -147,49 +142,40 @@ def name_mistake(todo: str, observations: Sequence[Observation]) -> Mistake | No
 
 
 def says_nothing(observations: Sequence[Observation]) -> bool:
-    """Return whether all answers are missing where some of several parts are due.
-
-    Many a mistake leaves none, and so does code that never comes to its answer.
-    """
-    asked = [each for each in observations if each.about in part_names]
-    return bool(asked) and all(each.answer is None for each in asked)
+    """Return whether all answers with several parts are missing, as many mistakes leave them."""
+    answers = [each.answer for each in observations if each.about in part_names]
+    return bool(answers) and all(each is None for each in answers)
 
 
 def simplest(ids: Collection[str]) -> list[str]:
-    """Drop the ids of two mistakes, `one+other`, one of which is there alone."""
+    """Drop the ids of two mistakes, `one+other`, if one of them is in the list by itself."""
     return [each for each in ids if "+" not in each or not set(each.split("+")) & set(ids)]
 
 
 def predict(model: Model, inputs: tuple[Any, ...]) -> Any:
-    """Return what a model gives; raise Undecided too where it divides by 0 or overflows."""
+    """Return a model's answer; raises Undecided also where it divides by 0 or overflows."""
     try:
         return model(*inputs)
     except ArithmeticError:
         raise Undecided from None
 
 
-def explains(each: Mistake, observations: Iterable[Observation]) -> bool:
-    told_apart = False
-    for seen in observations:
-        if seen.about != each.about:
+def explains(mistake: Mistake, observations: Iterable[Observation]) -> bool:
+    """Return whether a mistake gives all these answers, and the right model does not."""
+    is_wrong = False
+    for each in observations:
+        if each.about != mistake.about:
             continue
-        try:
-            predicted = predict(each.model, seen.inputs)
-        except Undecided:
-            continue
-        if not are_close(predicted, seen.answer):
-            return False
-        try:
-            told_apart = told_apart or not are_close(
-                predict(right_models[each.about], seen.inputs), seen.answer
-            )
-        except Undecided:
-            continue
-    return told_apart
+        with suppress(Undecided):
+            if not are_close(predict(mistake.model, each.inputs), each.answer):
+                return False
+            right = right_models[mistake.about]
+            is_wrong = is_wrong or not are_close(predict(right, each.inputs), each.answer)
+    return is_wrong
 
 
 def are_close(first: Any, second: Any, tolerance: float = 1e-6) -> bool:
-    """Return whether two answers are equal up to rounding, whatever the shape."""
+    """Return whether two answers of any shape are equal up to rounding."""
     if isinstance(first, int | float) and isinstance(second, int | float):
         with suppress(OverflowError):  # a whole number larger than any float
             return math.isclose(first, second, rel_tol=tolerance, abs_tol=tolerance)

@@ -1,7 +1,7 @@
-"""Names and arguments: what a submission calls otherwise than it was handed out, and what it means.
+"""Find names and arguments that a submission has changed, by its text alone.
 
-Told from the text alone. A function that was renamed, or whose arguments are in another order, is
-said to be the cause only where it is the TODO's own, or where the failure names it.
+A renamed function, or one whose arguments are in another order, counts as the cause of a failure
+only if it is the TODO's own, or if the failure names it.
 """
 
 import ast
@@ -23,18 +23,18 @@ from grader.source.definitions import MAX_READ, statements
 from grader.source.regions import python_files, read_source
 
 MOST = 1000  # functions of a program; the lesson's have sixty
-LONGEST = 80  # letters of a name that may be another's new one
-ALIKE = 0.6  # of two names, from which on one may be the other's new one
+LONGEST = 80  # letters of a name that may be a new one for another
+SIMILAR = 0.6  # of two names, from which on one may replace the other
 
 
 @dataclass(frozen=True)
 class Signature:
-    """A function as it is defined: its name, with the class before it, and its arguments."""
+    """A function's name, with the class before it, and its arguments."""
 
     path: str
     names: tuple[str, ...]
-    least: int  # how many it must be given
-    open: bool  # whether it takes any number
+    least: int  # arguments without a default
+    open: bool  # it takes any number of arguments
 
     @property
     def name(self) -> str:
@@ -70,7 +70,7 @@ def signature(node: ast.FunctionDef, owner: str) -> Signature:
 
 @cache
 def handed_out(module: str) -> dict[str, Signature]:
-    """Return the functions of a program as students get it, as far as the checks know them."""
+    """Return the functions of a program as it was handed out."""
     texts = [text for name, text in load_given().items() if name.split("/")[0] == module]
     found = {each.path: each for text in texts for each in signatures(text)}
     stubs = msgspec.json.decode((CHECKS / "stubs.json").read_bytes(), type=dict[str, str])
@@ -85,15 +85,15 @@ def handed_out(module: str) -> dict[str, Signature]:
 
 
 class Names:
-    """The names of a submission beside those that were handed out."""
+    """The names of a submission, compared with those that were handed out."""
 
     def __init__(self, submission: Submission) -> None:
         self.submission = submission
         self.found: dict[str, dict[str, Signature]] = {}
-        self.told: dict[str, dict[str, str]] = {}
+        self.changes: dict[str, dict[str, str]] = {}
 
     def hint(self, todo: Todo, module: str, check: CheckResult) -> str:
-        """Say what name or argument a failed check is due to, or what its error means."""
+        """Name the changed name or argument that fails a check, or explain its error."""
         own = todo.function.partition(":")[2]
         for path, words in self.changed(module).items():
             name = path.rpartition(".")[2]
@@ -102,28 +102,28 @@ class Names:
         return explain_error(check.got, self.read, todo.id)
 
     def read(self, file: str) -> str:
-        """Return the text of a file of the submission; empty where there is none.
+        """Return the text of a file of the submission; empty if there is none.
 
-        The name is out of the words of an error, which may say anything.
+        The name comes from the words of an error, which may say anything.
         """
         held = self.submission.holds(file)
         return read_source(self.submission.folder / file) if held else ""
 
     def changed(self, module: str) -> Mapping[str, str]:
-        """Return what has become of each name that was handed out; found out once."""
-        if module not in self.told:
-            self.told[module] = self._changed(module)
-        return self.told[module]
+        """Return the sentence about each changed function, by its path."""
+        if module not in self.changes:
+            self.changes[module] = self._changed(module)
+        return self.changes[module]
 
     def _changed(self, module: str) -> dict[str, str]:
         theirs, ours = handed_out(module), self.of(module)
-        told = {}
-        for path, meant in theirs.items() if ours else ():
-            found = ours.get(path)
-            words = otherwise(meant, found) if found else renamed(meant, module, theirs, ours)
-            if words:
-                told[path] = words
-        return told
+        words = {
+            path: compare_arguments(meant, ours[path])
+            if path in ours
+            else find_new_name(meant, module, theirs, ours)
+            for path, meant in theirs.items()
+        }
+        return {path: each for path, each in words.items() if each and ours}
 
     def of(self, module: str) -> dict[str, Signature]:
         """Return the functions of a program of the submission."""
@@ -138,7 +138,7 @@ class Names:
 
 
 def bounded(paths: Iterable[Path]) -> Iterator[str]:
-    """Yield the texts of files, up to as much as is read of a submission elsewhere."""
+    """Yield the texts of files until their sizes add up to MAX_READ."""
     read = 0
     for path in paths:
         read += path.stat().st_size
@@ -147,28 +147,28 @@ def bounded(paths: Iterable[Path]) -> Iterator[str]:
         yield read_source(path)
 
 
-def renamed(
+def find_new_name(
     meant: Signature, module: str, theirs: Mapping[str, Signature], ours: Mapping[str, Signature]
 ) -> str:
-    """Say `World has no apply_damping; it has apply_damp: renamed?`, where a name is similar."""
+    """Return `World has no apply_damping; it has apply_damp: renamed?` if a name is similar."""
     new = [
         each
         for path, each in ours.items()
         if path not in theirs and each.owner == meant.owner and len(each.name) <= LONGEST
     ]
-    near = max(new, key=lambda each: likeness(each.name, meant.name), default=None)
-    if near is None or likeness(near.name, meant.name) < ALIKE:
+    near = max(new, key=lambda each: measure_likeness(each.name, meant.name), default=None)
+    if near is None or measure_likeness(near.name, meant.name) < SIMILAR:
         return ""
     place = meant.owner or module
     return f"{place} has no {meant.name}; it has {near.name}: renamed?"
 
 
-def likeness(first: str, second: str) -> float:
+def measure_likeness(first: str, second: str) -> float:
     return SequenceMatcher(None, first, second).ratio()
 
 
-def otherwise(meant: Signature, found: Signature) -> str:
-    """Say where a function takes other arguments than it is called with."""
+def compare_arguments(meant: Signature, found: Signature) -> str:
+    """Return a sentence about a function that takes other arguments than it is called with."""
     if found.open or found.names == meant.names:
         return ""
     if sorted(found.names) == sorted(meant.names):

@@ -1,29 +1,29 @@
-"""Numbers in what students read: as many digits as tell something, and none that only frighten."""
+"""Shorten the numbers in what students read: rounding noise becomes 0, long ones lose digits."""
 
 import re
 
-NOISE = 1e-12  # what rounding leaves around 0; no check asks for less
+NOISE = 1e-12  # of rounding; no check asks for smaller numbers
 MAX_WHOLE = 12  # digits before the point
-MAX_DIGITS = 9  # in all, where fewer than that tell *Expected* from *Got*
+MAX_DIGITS = 9  # in all, if they are enough to tell *Expected* from *Got*
 NUMBER = re.compile(r"(?<![\w.])-?\d+(?P<rest>\.\d+)?(?P<power>e[-+]?\d+)?(?![\w]|\.\d)")
 
 
 def readable(expected: str, got: str) -> tuple[str, str]:
-    """*Expected* and *Got* with tidy numbers; what differed before differs afterwards, too."""
+    """Return *Expected* and *Got* with short numbers; if they differ, they still do."""
     for digits in (MAX_DIGITS, 17):
-        told = tidied(expected, digits), tidied(got, digits)
-        if told[0] != told[1] or expected == got:
-            return told
+        short = tidied(expected, digits), tidied(got, digits)
+        if short[0] != short[1] or expected == got:
+            return short
     return expected, got
 
 
 def tidied(text: str, digits: int = MAX_DIGITS) -> str:
-    """Return a text in which no number is longer than it must be, and 0 is 0."""
+    """Return a text with its numbers shortened."""
     return NUMBER.sub(lambda found: tidy(found, digits), text)
 
 
 def tidy(found: re.Match[str], digits: int) -> str:
-    """Return one number as text; a short one is unchanged."""
+    """Return one number as a short text."""
     text = found[0]
     whole = len(re.match(r"-?(\d+)", text)[1])  # type: ignore[index]
     if whole > 300:
@@ -41,5 +41,5 @@ def tidy(found: re.Match[str], digits: int) -> str:
 
 
 def without_minus_zero(text: str) -> str:
-    """Return the number without a sign where it is 0 in the digits shown: -0.000 reads as 0.000."""
+    """Return a text with 0.000 instead of -0.000."""
     return re.sub(r"-(?=0(\.0+)?(?![\d.e]))", "", text)

@@ -1,9 +1,9 @@
 """Hold a submission, and the judge that reads it, within one outer limit.
 
-A child has limits from its start. What the judge computes from a submission's bytes and names runs
-in a process as well, and another one of ours measures that from outside, with all that it started:
-its processor time, its memory and the time on the clock. A submission that reaches a limit needs
-manual review; the rest of its class goes on.
+A child has limits from its start. The judge's own work on a submission runs in a process too, and
+another process measures it from outside, with all that it started: processor time, memory and the
+time on the clock. A submission that reaches a limit needs manual review; the rest of its class goes
+on.
 """
 
 import os
@@ -44,11 +44,11 @@ MOST_MEMORY = 1024  # MB, of all processes of a submission; twice as much of add
 MOST_SECONDS = 1800.0  # s on the clock: the last resort, where nothing else ends it
 LOOK_SECONDS = 0.5
 TOGETHER = 50  # pieces of work in one process, where none of them is in trouble
-SECONDS_TO_END = 5.0  # s that a process has to put away what it holds
-WATCHES_FORKS = sys.platform.startswith("linux")  # elsewhere what is read is read without limits
+SECONDS_TO_END = 5.0  # s that a process has to clean up
+WATCHES_FORKS = sys.platform.startswith("linux")  # elsewhere files are read without limits
 TICKS = os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 100
 PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
-TELLS_CHILDREN = Path(f"/proc/self/task/{os.getpid()}/children").exists()
+LISTS_CHILDREN = Path(f"/proc/self/task/{os.getpid()}/children").exists()
 LENGTH = struct.Struct(">Q")
 
 Reply = TypeVar("Reply")
@@ -68,7 +68,7 @@ class Allowance:
 READING = Allowance("reading it", READING_CPU)
 WHOLE = Allowance("grading it", READING_CPU + GRADING_CPU)
 GRADING = Allowance("grading it", GRADING_CPU)
-HELD: list[Allowance] = []  # the limits within which this process is
+HELD: list[Allowance] = []  # the limits around this process
 
 
 class Exceeded(Stop):
@@ -82,7 +82,7 @@ class Lost(Exception):
 
 
 class Failed(Exception):
-    """Tell that what was called raised an exception; the message has its type and its words."""
+    """The function raised an exception; the message has its type and its words."""
 
 
 class Answer(Struct, tag=True):
@@ -105,7 +105,7 @@ reply_decoder = msgspec.msgpack.Decoder(Answer | Refusal)
 
 
 class Watch:
-    """Measures a process and all that it started, from now on, against an allowance."""
+    """Measures a process and all that it started, and compares them with an allowance."""
 
     def __init__(self, pid: int, allowance: Allowance) -> None:
         self.pid, self.allowance = pid, allowance
@@ -113,7 +113,7 @@ class Watch:
         self.before = sum(cpu for cpu, _ in measure_family(pid).values())
 
     def look(self) -> str:
-        """Return why it must end; empty while it may go on."""
+        """Return the limit that the process has reached, in words; empty while there is none."""
         allowance, family = self.allowance, measure_family(self.pid)
         if sum(cpu for cpu, _ in family.values()) - self.before > allowance.cpu:
             return say_limit(allowance, f"{allowance.cpu:g} s of processor time")
@@ -132,9 +132,9 @@ def say_limit(allowance: Allowance, limit: str) -> str:
 def measure_family(pid: int) -> Family:
     """Return the processor seconds and the bytes of a process and of all that it started.
 
-    Those that have ended count with the process that waited for them. Pages of files do not count.
+    Ended processes count with the one that waited for them. Pages of files do not count.
     """
-    if TELLS_CHILDREN:
+    if LISTS_CHILDREN:
         return dict(read_family(pid))
     found: Family = {}
     with suppress(psutil.Error):
@@ -146,7 +146,7 @@ def measure_family(pid: int) -> Family:
 
 
 def read_family(pid: int) -> Iterator[tuple[int, tuple[float, int]]]:
-    """Yield the same of each process, as Linux tells it; see proc(5)."""
+    """Yield the seconds and the bytes of each process on Linux; see proc(5)."""
     waiting = [pid]
     while waiting:
         process = Path(f"/proc/{waiting.pop()}")
@@ -161,9 +161,9 @@ def read_family(pid: int) -> Iterator[tuple[int, tuple[float, int]]]:
 
 
 def add_shares(family: Family) -> int:
-    """Return the bytes of these processes where a page that some of them share counts once.
+    """Return the bytes of these processes, in which a page that some of them share counts once.
 
-    To tell takes the kernel longer. Where it does not, each page counts as often as it is used.
+    This takes the kernel longer. Where it is not possible, each page counts as often as it is used.
     """
     total = 0
     for pid, (_, memory) in family.items():
@@ -185,7 +185,7 @@ def end_family(pid: int) -> None:
 
 
 def limit_addresses(allowance: Allowance) -> None:
-    """Let the kernel refuse what would be allocated between two looks."""
+    """Let the kernel refuse allocations far above the limit, between two looks."""
     if resource is not None and sys.platform.startswith("linux"):
         most = 2 * allowance.memory * MEGABYTE
         with suppress(ValueError, OSError):
@@ -201,10 +201,10 @@ def call_within(
     work: Callable[[], Reply],
     errors: tuple[type[Exception], ...] = (),
 ) -> Reply:
-    """Do `work` in a process forked for it, and return its value, which is of this kind.
+    """Run `work` in a fork, and return its value, which is of this kind.
 
     Raises Exceeded at a limit, one of `errors` if `work` does, and Failed for any other exception.
-    Where nobody can watch a fork, or somebody watches already, `work` is done here.
+    If forks cannot be watched, or this process is watched already, `work` runs here.
     """
     if not WATCHES_FORKS or HELD:
         return work()
@@ -235,9 +235,9 @@ def call_within(
 def call_each_within(
     allowance: Allowance, kind: Any, works: Sequence[Callable[[], Reply]]
 ) -> "Iterator[Reply | Exceeded | Failed]":
-    """Do pieces of work that may be done again; yield each value, or why there is none.
+    """Run pieces of work that may run twice; yield each value, or why there is none.
 
-    Some are done in one process. Where that comes to nothing, each has a process of its own.
+    Several run in one process. If that fails, each gets a process of its own.
     """
     for first in range(0, len(works), TOGETHER):
         some = works[first : first + TOGETHER]
@@ -254,7 +254,7 @@ def do_all(works: Sequence[Callable[[], Reply]]) -> list[Reply]:
 def call_alone(
     allowance: Allowance, kind: Any, work: Callable[[], Reply]
 ) -> "Reply | Exceeded | Failed":
-    """Do one piece of work; return its value, or why there is none."""
+    """Run one piece of work; return its value, or why there is none."""
     try:
         return call_within(allowance, kind, work)
     except (Exceeded, Failed) as error:
@@ -264,7 +264,7 @@ def call_alone(
 
 
 def hear(descriptor: int, watch: Watch) -> bytes:
-    """Return all that a process writes until it ends; raises Exceeded at a limit."""
+    """Read all that a process writes until it ends; raises Exceeded at a limit."""
     heard = bytearray()
     while True:
         if not select.select([descriptor], [], [], LOOK_SECONDS)[0]:
@@ -277,13 +277,13 @@ def hear(descriptor: int, watch: Watch) -> bytes:
 
 
 def flush() -> None:
-    """Write what was printed before a fork, or it would be written twice."""
+    """Write printed text before a fork, or it would be written twice."""
     for stream in (sys.stdout, sys.stderr):
         stream.flush()
 
 
 def answer(work: Callable[[], object]) -> bytes:
-    """Return the message of what was computed, or of the exception that was raised instead."""
+    """Return the message with the value of `work`, or with its exception."""
     reply: Answer | Refusal
     try:
         reply = Answer(msgspec.msgpack.encode(work()))
@@ -297,7 +297,7 @@ def answer(work: Callable[[], object]) -> bytes:
 def read_reply(
     message: bytes, allowance: Allowance, kind: Any, errors: tuple[type[Exception], ...] = ()
 ) -> Any:
-    """Return the value in a message, or raise what it tells."""
+    """Return the value in a message, or raise its exception."""
     if not message:
         raise Lost
     reply = reply_decoder.decode(message)
@@ -313,10 +313,9 @@ def read_reply(
 
 
 class WatchedProcess:
-    """A process of ours for calls that leave something to use again, such as a warm process.
+    """A process for many calls, whose results such as a warm process can be used again.
 
-    It is started anew after a call that reached a limit. Its temporary files are in a folder that
-    ends with this object.
+    It starts anew after a call that reached a limit. Its temporary files are removed with it.
     """
 
     def __init__(self) -> None:
@@ -346,7 +345,7 @@ class WatchedProcess:
         function: Callable[..., Reply],
         *args: object,
     ) -> Reply:
-        """Call an importable function there; raises as `call_within`, and Lost."""
+        """Call an importable function in the process; raises as `call_within`, and Lost."""
         if self.closed:
             raise Failed("stopped before the end")
         self.process = self.process or self.start()
@@ -354,7 +353,7 @@ class WatchedProcess:
         watch = Watch(process.pid, allowance)
         threading.Thread(target=end_at_limit, args=(watch, done, reasons), daemon=True).start()
         try:
-            with suppress(OSError):  # it is gone, and gives no reply
+            with suppress(OSError):  # it is gone, and will not reply
                 self.send(process, (allowance, function, args))
             assert process.stdout is not None
             reply = read_message(process.stdout)
@@ -367,12 +366,12 @@ class WatchedProcess:
         return returned
 
     def close(self) -> None:
-        """End it for good: a call that is under way ends, too."""
+        """End the process for good, and a call that is running."""
         self.closed = True
         self.end()
 
     def end(self) -> None:
-        """End the process with all that it started, and remove what it wrote."""
+        """End the process with all that it started, and remove its files."""
         process, self.process = self.process, None
         if process is not None:
             end_family(process.pid)
@@ -384,7 +383,7 @@ class WatchedProcess:
 
 
 def end_at_limit(watch: Watch, done: threading.Event, reasons: list[str]) -> None:
-    """Look at a process until a call is done; at a limit note the reason, and end it."""
+    """Watch a process until a call is done; at a limit, note the reason and end it."""
     while not done.wait(LOOK_SECONDS):
         if why := watch.look():
             reasons.append(why)
@@ -398,7 +397,7 @@ def write_message(pipe: IO[bytes], message: bytes) -> None:
 
 
 def read_message(pipe: IO[bytes]) -> bytes:
-    """Return the next message; empty where the other side has ended."""
+    """Return the next message; empty if the other side has ended."""
     head = pipe.read(LENGTH.size)
     length = LENGTH.unpack(head)[0] if len(head) == LENGTH.size else 0
     message = pipe.read(length)
@@ -406,10 +405,10 @@ def read_message(pipe: IO[bytes]) -> bytes:
 
 
 def serve(place: str) -> None:
-    """Do what the other side asks, until it closes or ends."""
+    """Answer the calls of the other side, until it closes or ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     tempfile.tempdir = place
-    out = open(os.dup(1), "wb")  # noqa: SIM115  # what is printed must be in no message
+    out = open(os.dup(1), "wb")  # noqa: SIM115  # printed text must not get into messages
     os.dup2(2, 1)
     calls: queue.SimpleQueue[bytes] = queue.SimpleQueue()
     threading.Thread(target=take_calls, args=(calls,), daemon=True).start()
@@ -421,7 +420,7 @@ def serve(place: str) -> None:
 
 
 def take_calls(calls: "queue.SimpleQueue[bytes]") -> NoReturn:
-    """Take calls as they come; when the other side has ended, end at once."""
+    """Queue calls as they come; when the other side has ended, end at once."""
     while message := read_message(sys.stdin.buffer):
         calls.put(message)
     os._exit(1)
@@ -431,10 +430,10 @@ def take_calls(calls: "queue.SimpleQueue[bytes]") -> NoReturn:
 
 
 def go_on_within(allowance: Allowance) -> None:
-    """Go on in a child process, which this one watches; where that is possible.
+    """Continue in a child process, which this one watches, if forks can be watched.
 
-    This process returns no more: it ends as the child does, and hands on signals that end it.
-    Raises Exceeded here, when the child was ended at a limit.
+    This process ends as the child does, and forwards signals. Raises Exceeded in it when the child
+    reached a limit.
     """
     if not WATCHES_FORKS:
         return
@@ -444,8 +443,8 @@ def go_on_within(allowance: Allowance) -> None:
     if not pid:
         os.close(ours)
         os.close(over)
-        os.setpgid(0, 0)  # Ctrl-C comes from the one that watches, and once
-        signal.signal(signal.SIGTTOU, signal.SIG_IGN)  # it may write to the terminal all the same
+        os.setpgid(0, 0)  # Ctrl-C then comes from the watching process, once
+        signal.signal(signal.SIGTTOU, signal.SIG_IGN)  # writing to the terminal stays allowed
         limit_addresses(allowance)
         HELD.append(allowance)
         threading.Thread(target=follow, args=(watched,), daemon=True).start()
@@ -462,7 +461,7 @@ def wait_for(pid: int, over: int, watch: Watch) -> int:
     """Return the exit status of a child when `over` is at its end; raises Exceeded at a limit."""
     while not select.select([over], [], [], LOOK_SECONDS)[0]:
         if why := watch.look():
-            os.kill(pid, signal.SIGTERM)  # it may still put away what it holds
+            os.kill(pid, signal.SIGTERM)  # it may still clean up
             select.select([over], [], [], SECONDS_TO_END)
             end_family(pid)
             os.waitpid(pid, 0)
@@ -472,7 +471,7 @@ def wait_for(pid: int, over: int, watch: Watch) -> int:
 
 
 def follow(watched: int) -> NoReturn:
-    """End with the process that watches."""
+    """End this process when the watching process ends."""
     os.read(watched, 1)
     os._exit(1)
 

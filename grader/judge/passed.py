@@ -1,8 +1,8 @@
-"""Remember which programs have passed all checks of a TODO, so that none runs twice.
+"""Remember the programs that have passed all checks of a TODO, so that none runs twice.
 
-With the reference in the other TODOs' places, many submissions are one program: whoever has only
-TODO 4 wrong runs the solution everywhere else. This is for one's own work and for the bank alone.
-Somebody else's program could read its own files, and so tell two of these apart.
+With the reference in the other TODOs' places, many submissions become the same program: one that
+has only TODO 4 wrong runs the solution everywhere else. This is for one's own work and for the bank
+alone: another program could read its own files, and behave differently.
 """
 
 import ast
@@ -25,7 +25,7 @@ REPLACED = "<the reference's>"
 
 
 class PassedPrograms:
-    """The programs that have passed, as empty files in a folder: each is named by its key."""
+    """The programs that have passed, as empty files in a folder, named by the program's key."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -44,11 +44,11 @@ PASSED = PassedPrograms(Path(__file__).parents[2] / "build" / "passed")
 def program_key(
     todo: Todo, submission: Submission, right: Sequence[Piece], seed: int | None
 ) -> str:
-    """Hash the program that the checks of a TODO run, with the checks and what they run on.
+    """Hash the program that the checks of a TODO run, with the checks, the grader and Python.
 
-    Of the submission's files count those that the imports load, and all that are no Python.
+    Of the submission's files, those that the imports load count, and all that are not Python.
     `right`: the reference's versions of other TODOs, which count instead of the submission's own
-    where they are called alike.
+    if they have the same parameters.
     """
     program, tree = submission.program, submission.folder
     started = [*todo.modules, *(f"{module}.__main__" for module in todo.modules)]
@@ -73,7 +73,7 @@ def program_key(
 
 
 def without_body(text: str, function: Function) -> str:
-    """Return a file's text without the body of a function; its `def` stays, with what is above."""
+    """Return a file's text without the body of a function."""
     lines = text.splitlines()
     node = next(iter(statements(source_of(text, function))), None)
     if not isinstance(node, ast.FunctionDef) or node.body[0].lineno == 1:
@@ -84,5 +84,5 @@ def without_body(text: str, function: Function) -> str:
 
 @cache
 def surroundings() -> str:
-    """Return what decides about an answer besides program, check and seed."""
+    """Name the grader, the Python and the machine, which decide about an answer as well."""
     return f"{fingerprint()} {sys.version} {platform.platform()}"

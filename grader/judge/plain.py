@@ -1,8 +1,8 @@
-"""Open the files of a submission so that nobody can put a link in their place meanwhile.
+"""Open the files of a submission safely, though somebody may put a link in their place.
 
-A name that was looked at may be another thing when it is opened. So each folder on the way is
-opened inside of the one before, links are refused, and what is open tells what it is. Windows has
-no such calls: there a name is looked at once more, right before it is opened.
+A name may lead to something else between a look and the opening. So each folder on the way is
+opened inside the one before, links are refused, and the type is read from the open file. Windows
+has no such calls: there a name is checked right before it is opened.
 """
 
 import errno
@@ -19,7 +19,7 @@ BY_FOLDERS = os.open in os.supports_dir_fd and hasattr(os, "O_NOFOLLOW")
 
 
 def open_plain(folder: Path, inside: PurePath | str) -> io.BufferedReader:
-    """Open a file by its path inside a folder; raises OSError for a link or what is no file.
+    """Open a file by its path inside a folder; raises OSError for a link, pipe or folder.
 
     The folder itself is trusted, and may be a link.
     """
@@ -37,7 +37,7 @@ def open_plain(folder: Path, inside: PurePath | str) -> io.BufferedReader:
 
 
 def open_by_folders(folder: Path, parts: tuple[str, ...]) -> int:
-    """Return a descriptor of what lies below a folder; no part of the way is a link."""
+    """Return a descriptor of a file below a folder; raises OSError for a link on the way."""
     here = os.open(folder, FOLDER)
     try:
         for part in parts[:-1]:

@@ -13,7 +13,7 @@ def stop_grading(number: int, _: object) -> NoReturn:
 
 
 def begin_process() -> None:
-    """Prepare a process of the pool: it ignores Ctrl-C, and ends with its parent."""
+    """Make a process of the pool ignore Ctrl-C and end with its parent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, stop_grading)
     parent = multiprocessing.parent_process()

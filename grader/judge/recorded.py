@@ -1,8 +1,8 @@
 """Look up recorded answers, which a student's copy of the checks has instead of closed forms.
 
-Some right answers are worked out by code that is as good as the code of a TODO, and so are the
-known mistakes. A release asks both what the checks can ask, and writes the answers to
-`recorded.json` beside the copy of the checks. The kit itself has no such file.
+The code of some right answers would give away a TODO, and so would the code of known mistakes. A
+release calls both with all that the checks can ask, and writes the answers to `recorded.json`
+beside the copy of the checks. The kit itself has no such file.
 """
 
 import json
@@ -15,14 +15,14 @@ from msgspec import Struct
 
 from grader.judge.rubric import CHECKS
 
-Answers = dict[str, Any]  # by the `key` of what was asked
+Answers = dict[str, Any]  # by the `key` of their inputs
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-oracles: dict[str, tuple[Sequence[float], ...]] = {}  # name -> all that may be asked, or nothing
+oracles: dict[str, tuple[Sequence[float], ...]] = {}  # name -> the values of each argument
 
 
 class RecordedMistake(Struct, frozen=True):
-    """A known mistake, and what it answers; what is missing it leaves undecided."""
+    """A known mistake and its answers; without an answer it is undecided."""
 
     todo: str
     id: str
@@ -34,18 +34,18 @@ class RecordedMistake(Struct, frozen=True):
 
 class Recorded(Struct, frozen=True):
     oracles: dict[str, Answers] = {}
-    right: dict[str, Answers] = {}  # the right answers to observations, by what they are about
-    traits: dict[str, Answers] = {}  # what these are like
-    parts: dict[str, dict[str, list[int]]] = {}  # of an answer
-    separate: list[str] = []  # what has a mistake in one part alone
+    right: dict[str, Answers] = {}  # the right answers, by kind of question
+    traits: dict[str, Answers] = {}  # of the questions
+    parts: dict[str, dict[str, list[int]]] = {}  # of the answers
+    separate: list[str] = []  # kinds of questions in which a mistake may be in one part alone
     mistakes: list[RecordedMistake] = []
 
 
 def oracle(*values: Sequence[float]) -> Callable[[Function], Function]:
-    """Mark a function that students get the answers of and not the code.
+    """Mark a function of which students get the answers and not the code.
 
-    Without `values` its answers are those that the checks ask of it on the solution. A check that
-    asks at random is hidden from students, unless `values` say what each argument may be.
+    Without `values`, the recorded answers are those that checks of the solution ask for. A check
+    that asks at random is hidden from students, unless `values` lists those of each argument.
     """
 
     def mark(function: Function) -> Function:
@@ -56,9 +56,9 @@ def oracle(*values: Sequence[float]) -> Callable[[Function], Function]:
 
 
 def key(inputs: Any) -> str:
-    """Return the same text for the same numbers, be they int or float, in a tuple or in a list.
+    """Return the same text for equal numbers, int or float, in a tuple or in a list.
 
-    Numbers are the same to twelve digits: sine and cosine differ in the last one on other machines.
+    Twelve digits count, since sine and cosine differ in the last one on other machines.
     """
     return json.dumps(plain(inputs))
 
@@ -73,13 +73,13 @@ def plain(value: Any) -> Any:
 
 @cache
 def load_recorded() -> Recorded | None:
-    """Return the table of this copy of the checks; None in the kit."""
+    """Return the recorded answers of this copy of the checks; None in the kit."""
     path = CHECKS / "recorded.json"
     return msgspec.convert(json.loads(path.read_bytes()), Recorded) if path.exists() else None
 
 
 def answer(name: str, *inputs: Any) -> Any:
-    """Return what the oracle of this name says; a student's copy calls it in the oracle's place."""
+    """Return the recorded answer of an oracle; a student's copy calls this instead of it."""
     table = load_recorded()
     answers = table.oracles.get(name, {}) if table else {}
     if key(inputs) not in answers:

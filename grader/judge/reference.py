@@ -1,4 +1,4 @@
-"""Cut out the reference's functions, to stand in for a submission's unfinished ones."""
+"""Cut out the reference's functions, which replace a submission's unfinished ones."""
 
 import ast
 import builtins
@@ -23,7 +23,7 @@ Source = tuple[Path, str]  # a file, named from the tree's folder, and its text
 
 
 class Reference:
-    """A complete tree, read as text; without one, no TODO can be isolated."""
+    """A complete tree, read as text; empty without one, so that no TODO is isolated."""
 
     def __init__(self, folder: Path | None, rubric: Rubric) -> None:
         self.todos = rubric.todos
@@ -46,7 +46,7 @@ class Reference:
             self.pieces[todo.id], self.shapes[todo.id] = found[todo.function]
 
     def is_that_of(self, submission: Submission, todo: Todo) -> bool:
-        """Return whether a submission has the reference's code for a TODO, or all of them."""
+        """Return whether a submission has the reference's code for a TODO; for the whole, all."""
         asked = [todo.id] if todo.function else [each.id for each in self.todos if each.function]
         mine = [submission.functions.get(id) for id in asked]
         return bool(self.shapes) and mine == [self.shapes.get(id) for id in asked]
@@ -60,48 +60,46 @@ class Reference:
         failed: frozenset[str] = frozenset(),
         differing: bool = True,
     ) -> list[Piece]:
-        """Return the right versions of the other TODOs in `module` that a check of a TODO needs.
+        """Return the right versions of other TODOs in `module` that the checks of a TODO get.
 
-        A TODO has right versions of all others. The whole has them of those that have `failed`, of
-        its bonus tasks, and of what `rubric` leaves out: that was handed out done, so a stub in its
-        place is none of the student's. A bonus task that was not begun does nothing, and stays.
-        `differing`: without those that the submission has in the same words.
+        A TODO gets those of all others. The whole gets those of TODOs that have `failed`, of bonus
+        tasks, and of TODOs that `rubric` leaves out: students got these done. A bonus task that was
+        not begun does nothing, and stays.
+        `differing`: only those that the submission does not have in the same words.
         """
         asked = {each.id for each in rubric.todos}
-        own = todo.function.partition(":")[2]
 
-        def stands_in(other: Todo) -> bool:
+        def is_wanted(other: Todo) -> bool:
             begun = submission.begun[other.id]
             if other.bonus or todo.function:
                 return begun or not other.bonus
             return other.id in failed if begun else other.id not in asked
 
         return [
-            without(own, msgspec.structs.replace(self.pieces[other.id], asked=todo.function))
+            without(todo.path, msgspec.structs.replace(self.pieces[other.id], asked=todo.function))
             for other in self.todos
             if other.id != todo.id
             and other.module == module
             and other.id in self.pieces
-            and stands_in(other)
+            and is_wanted(other)
             and not (differing and self.shapes[other.id] == submission.functions.get(other.id))
         ]
 
 
 def without(function: str, piece: Piece) -> Piece:
-    """Return a piece that does not bring along this function, which the check is about.
+    """Return a piece without this function, which the check is about.
 
-    What a piece calls goes with it, for submissions without it; and whatever is sent to a child may
-    be read there.
+    A piece brings along the functions that it calls, and a child can read all that is sent to it.
     """
-    left = {name: source for name, source in piece.given.items() if name != function}
-    return msgspec.structs.replace(piece, given=left)
+    others = {name: source for name, source in piece.given.items() if name != function}
+    return msgspec.structs.replace(piece, given=others)
 
 
-@lru_cache(maxsize=4)  # the same reference serves a whole class
+@lru_cache(maxsize=4)  # the reference is the same for a whole class
 def functions_of(
     sources: tuple[Source, ...], targets: tuple[str, ...]
 ) -> dict[str, tuple[Piece, str]]:
-    """Return the functions that these files have, by module:function, each with its shape."""
+    """Return functions of these files, by module:function, each with its shape."""
     program = Program(dict(sources))
     libraries = cache(lambda module: plain_imports(program.tree(module)))
     found = {}
@@ -120,7 +118,7 @@ def cut_out(
     module: str,
     function: Function,
 ) -> Piece:
-    """Return a function with the imports and the functions that it needs elsewhere."""
+    """Return a function with the imports and functions that it needs in another program."""
     source = program.source(module, function)
     imports = dict.fromkeys(libraries(module))
     given: dict[str, str] = {}
@@ -150,7 +148,7 @@ def names_read(code: CodeType) -> set[str]:
 
 
 def plain_imports(body: list[ast.stmt]) -> list[str]:
-    """Return the imports of libraries; the program's own names are found in the submission."""
+    """Return the imports of libraries; the submission has the program's own names."""
     return [
         ast.unparse(node)
         for node in body

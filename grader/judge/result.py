@@ -1,4 +1,4 @@
-"""Define the result of a grade, from which every report and export is made."""
+"""Define the result of a grade, the source of every report and export."""
 
 from typing import Literal
 
@@ -12,9 +12,9 @@ State = Literal["passed", "not yet", "not started", "waiting", "error"]
 Kind = Literal["unit", "property", "scene"]
 
 MAX_JSON = 1_000_000  # bytes of a result; a hundred checks take 30 KB
-TEXT_LENGTHS = (2000, 500, 50)  # characters of each text; the first of these that makes it fit
+TEXT_LENGTHS = (2000, 500, 50)  # characters of each text; the first that makes a result fit
 TEXTS = ("ran", "expected", "got", "meaning")
-MAX_FILE = 255  # characters of a file's name that are told
+MAX_FILE = 255  # characters of a file's name
 
 FAILED: tuple[State, ...] = ("not yet", "error")  # it ran, and did not pass
 
@@ -22,11 +22,11 @@ FAILED: tuple[State, ...] = ("not yet", "error")  # it ran, and did not pass
 class Where(Struct, frozen=True, omit_defaults=True):
     file: str
     line: int
-    given: bool = False  # a line of what was handed out, which was changed
+    given: bool = False  # a changed line of given code
 
 
 class CheckResult(Struct, frozen=True):
-    """One check: what ran, what should have come out, and what did."""
+    """The result of one check: the experiment, the expected answer and the one it got."""
 
     id: str
     title: str
@@ -40,19 +40,15 @@ class CheckResult(Struct, frozen=True):
     meaning: str = ""
     where: Where | None = None
     replay: str | None = None
-    printed: str | UnsetType = UNSET  # by the submission; told in one's own check alone
+    printed: str | UnsetType = UNSET  # by the submission; only in checks of one's own work
 
     @property
     def failed(self) -> bool:
-        """Return whether there is something to say about it."""
         return self.state in FAILED
 
 
 def in_bounds(check: CheckResult, most: int = TEXT_LENGTHS[0]) -> CheckResult:
-    """Return a check with its texts cut to their greatest length: some quote a submission.
-
-    None of them is one that a screen or a terminal obeys, but for the ends of lines.
-    """
+    """Return a check with short texts and no control characters: some quote a submission."""
     names = [*TEXTS, "printed"] if check.printed else TEXTS
     texts = {name: harmless(cut(getattr(check, name), most)) for name in names}
     where = check.where if check.where and len(check.where.file) <= MAX_FILE else None
@@ -60,7 +56,7 @@ def in_bounds(check: CheckResult, most: int = TEXT_LENGTHS[0]) -> CheckResult:
 
 
 def is_bonus(todo: str) -> bool:
-    """Return whether a TODO's points are counted apart, by its id: B1, B2 and so on."""
+    """Return whether a TODO is a bonus task, by its id: B1, B2 and so on."""
     return todo.startswith("B")
 
 
@@ -75,24 +71,21 @@ class TodoResult(Struct, frozen=True):
 
     @property
     def bonus(self) -> bool:
-        """Return whether its points are counted apart from those of the result."""
+        """Return whether its points are not part of the result's."""
         return is_bonus(self.id)
 
     @property
     def failed(self) -> list[CheckResult]:
-        """Return the checks that there is something to say about."""
         return [check for check in self.checks if check.failed]
 
     @property
     def remark(self) -> str:
-        """Return why it counts as not started although there is code for it; empty if there is
-        none.
-        """
+        """Return why it counts as not started although there is code for it, or nothing."""
         return self.checks[0].meaning if self.checks and self.state == "not started" else ""
 
     @property
     def notes(self) -> list[str]:
-        """Return what is to be said although its checks passed, such as an experiment."""
+        """Return the sentences about checks that passed, such as an experiment."""
         passed = [check for check in self.checks if check.state == "passed" and check.meaning]
         return list(dict.fromkeys(check.meaning for check in passed))
 
@@ -109,7 +102,7 @@ class Result(Struct, frozen=True):
     todos: list[TodoResult]
 
     def with_todos(self, todos: list[TodoResult]) -> "Result":
-        """Return the result with these TODOs for its own, and the points that they add up to."""
+        """Return the result with these TODOs and the sum of their points."""
         counted = [todo for todo in todos if not todo.bonus]
         return structs.replace(
             self,
@@ -120,7 +113,7 @@ class Result(Struct, frozen=True):
         )
 
     def in_bounds(self) -> "Result":
-        """Return the result with texts so short that its JSON has at most MAX_JSON bytes."""
+        """Return the result with texts short enough for a JSON of at most MAX_JSON bytes."""
         for most in TEXT_LENGTHS:
             todos = [
                 structs.replace(todo, checks=[in_bounds(each, most) for each in todo.checks])
@@ -138,15 +131,13 @@ class Result(Struct, frozen=True):
 
     @property
     def shown(self) -> list[TodoResult]:
-        """Return what people are shown: bonus tasks only once begun, or where nothing else was
-        asked.
-        """
+        """Return the TODOs for reports: bonus tasks once begun, or if there is nothing else."""
         begun = [todo for todo in self.todos if todo.bonus and todo.state != "not started"]
         return [*self.counted, *begun] if self.counted else self.todos
 
     @property
     def complete(self) -> bool:
-        """Return whether it has full marks or, where only bonus tasks were asked, all of theirs."""
+        """Return whether it has full marks; of bonus tasks only if there is nothing else."""
         asked = self.counted or self.todos
         earned = all(todo.points == todo.max_points for todo in asked)
         return earned and self.points == self.max_points

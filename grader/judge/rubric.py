@@ -1,4 +1,4 @@
-"""Read the rubric: which TODOs there are, which checks each has, and what they are worth."""
+"""Read the rubric: the TODOs, their checks, and their points."""
 
 from functools import cache
 from pathlib import Path
@@ -15,22 +15,22 @@ class Check(Struct, frozen=True, forbid_unknown_fields=True):
     id: str  # the name of a function in the TODO's file of checks
     points: int
     kind: Kind
-    module: str = ""  # what it imports, where that is not the TODO's module
-    guard: bool = False  # also a stub may pass it: counts once another check of the TODO passes
-    needs: list[str] = []  # TODOs this check cannot do without
-    runs: list[str] = []  # TODOs that its scene runs too, and whose mistakes are not its own
+    module: str = ""  # that it imports, if not the TODO's module
+    guard: bool = False  # a stub may pass it too: it counts once another check of the TODO passes
+    needs: list[str] = []  # TODOs that must pass first
+    runs: list[str] = []  # TODOs that its scene runs too, whose mistakes it is not about
     cpu_seconds: int = 5  # budget of one child; the reference needs about a twentieth
-    hidden: bool = False  # not in the students' copy: it cannot do without the right code
+    hidden: bool = False  # not in the students' copy: it needs the right code
 
 
 class Todo(Struct, frozen=True, forbid_unknown_fields=True):
     id: str
     title: str
-    module: str  # what a check of this TODO imports
-    function: str  # the function the TODO lives in, as module:name; empty for the whole
+    module: str  # that its checks import
+    function: str  # that contains the TODO, as module:name; empty for the whole
     folder: str  # below checks/, with its checks and known mistakes
     checks: list[Check]
-    hidden_points: int = 0  # in a student's copy: what the checks are worth that it lacks
+    hidden_points: int = 0  # in a student's copy: the points of the checks that it lacks
 
     @property
     def path(self) -> str:
@@ -48,7 +48,7 @@ class Todo(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def bonus(self) -> bool:
-        """Return whether its points are never needed for full marks."""
+        """Return whether full marks need none of its points."""
         return is_bonus(self.id)
 
     @property
@@ -70,7 +70,7 @@ class Rubric(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def hidden_points(self) -> int:
-        """Return the points that a student's copy cannot give."""
+        """Return the points of the checks that a student's copy lacks."""
         return sum(todo.hidden_points for todo in self.counted)
 
 

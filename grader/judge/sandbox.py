@@ -1,4 +1,4 @@
-"""Open children of one tree: what they may reach, and which layers of isolation hold them."""
+"""Open children of one tree, and decide what they may reach."""
 
 import os
 import shutil
@@ -23,23 +23,23 @@ class Sandbox:
     """Opens children that import one tree, a submission or the reference, and reach no other."""
 
     tree: Path  # a read-only copy
-    work: Path  # a folder of ours, for what they write
+    work: Path  # the judge's folder, for the files that children write
     worker: Worker
     isolation: Isolation
-    hidden: list[str]  # folders that must be out of reach
+    hidden: list[str]  # folders that children cannot reach
     loads: list[str] = field(default_factory=list)  # libraries that are slow to load, by name
     trusted: bool = False  # one's own work
     layers: list[str] = field(default_factory=list)  # of isolation around the last child
-    bans: list[str] = field(default_factory=list)  # modules that it may not import, by name
+    bans: list[str] = field(default_factory=list)  # modules that children may not import, by name
     shown: list[str] = field(default_factory=list)  # folders that children need not copy
-    unseen: str = ""  # a scratch folder that no child has ever seen
-    used: list[tuple[Child, str]] = field(default_factory=list)  # children, and what they wrote to
+    unseen: str = ""  # a scratch folder that no child has seen
+    used: list[tuple[Child, str]] = field(default_factory=list)  # children, and their folders
 
     def open_child(self, cpu_seconds: int) -> Child:
-        """Return a child with this budget, of processor seconds.
+        """Return a child with this budget, in processor seconds.
 
-        Raises CannotGrade where none can be started: until then the submission has not run a line,
-        so this says nothing about it.
+        Raises CannotGrade if none can start: no line of the submission has run then, so it is not
+        to blame.
         """
         self._clear()
         try:
@@ -50,24 +50,24 @@ class Sandbox:
         except (ChildEnded, OSError) as error:
             raise CannotGrade(f"{error}. Is the disk full, or the memory?") from error
         self.layers = self._layers_around(child)
-        # In a mount namespace it lies under a file system of the child's own: the next may have it.
+        # In a mount namespace the child sees a file system of its own: the next may use the folder.
         self.unseen = setup.scratch if "mount-namespace" in self.layers else ""
         if not self.unseen:
             self.used.append((child, setup.scratch))
         return child
 
     def _clear(self) -> None:
-        """Remove what children that have ended wrote on the disk: each may write gigabytes."""
+        """Remove the files of children that have ended: each may write gigabytes."""
         for child, scratch in self.used:
             if child.over:
                 remove(Path(scratch))
         self.used = [each for each in self.used if not each[0].over]
 
     def changed(self, texts: Mapping[str, str]) -> "Sandbox":
-        """Return the sandbox of a copy of the tree, with other text in the files named.
+        """Return the sandbox of a copy of the tree, in which some files have another text.
 
-        Both share what is compiled. A changed file is younger by more than Python's second, so
-        that nothing old is taken for it.
+        Both share compiled files. A changed file is younger by more than a second, the unit in
+        which Python compares them.
         """
         tree = Path(tempfile.mkdtemp(dir=self.work)) / "tree"
         shutil.copytree(self.tree, tree)
@@ -77,7 +77,7 @@ class Sandbox:
         return copy
 
     def write(self, name: str, text: str) -> None:
-        """Give a file of this copy other text, for all children that are opened from now on."""
+        """Give a file of this copy another text, for all children that are opened from now on."""
         path = self.tree / name
         later = path.stat().st_mtime + LATER
         path.chmod(0o644)
@@ -86,19 +86,19 @@ class Sandbox:
         path.chmod(0o444)
 
     def beside(self, count: int) -> list["Sandbox"]:
-        """Return others of the same tree, so many at the most, that work at the same time."""
+        """Return at most `count` other sandboxes of the same tree, to work at the same time."""
         workers = self.worker.helpers(count) if count > 0 else ()
         return [replace(self, worker=each, used=[], unseen="") for each in workers]
 
     @property
     def bytecode(self) -> Path:
-        """Compiled files, for all children: to compile takes longer than most checks."""
+        """Return the folder of compiled files: compiling takes longer than most checks."""
         return self.work / "bytecode"
 
     def _compile(self) -> None:
-        """Fill the folder by a child that never runs the submission: those that do only read it.
+        """Compile the files in a child that never runs the submission; other children only read.
 
-        So say the modes as well: where no layer shuts files off, no child may change a mode.
+        The modes forbid writing too, for machines without a layer that confines files.
         """
         self.bytecode.mkdir()
         self.worker.open(self._setup(COMPILING_SECONDS, compiles=True)).finish()
@@ -120,9 +120,7 @@ class Sandbox:
         )
 
     def _layers_around(self, child: Child) -> list[str]:
-        """Return the layers around this child; raises CannotGrade, before it runs, if they are too
-        few.
-        """
+        """Return the layers around a new child; raises CannotGrade if they are not enough."""
         if ONE_PROCESS in self.worker.layers:
             layers = self.worker.layers
         elif self.isolation == "none":

@@ -1,4 +1,4 @@
-"""Take in a submission: a bounded, read-only copy, and what its source says about its TODOs."""
+"""Take in a submission: make a bounded, read-only copy, and find its TODOs."""
 
 import errno
 import logging
@@ -17,7 +17,6 @@ from typing import TypeVar
 import msgspec
 
 from grader.errors import Stop
-from grader.judge.file_names import accept_printed_names
 from grader.judge.plain import copy_plain, open_plain, size_of
 from grader.judge.result import Where
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
@@ -37,15 +36,15 @@ from grader.source.repair import OUTSIDE, HandedOut, Repairer
 
 MAX_FILES = 500
 MAX_BYTES = 20 * 1024 * 1024
-MAX_SEEN = 20_000  # files and folders that are looked at
-MAX_COPIES = 20  # files beside the programs that are looked into
+MAX_SEEN = 20_000  # files and folders that are listed
+MAX_COPIES = 20  # files beside the programs that are read
 MAX_DEPTH = 40  # folders in each other
 ENDLESS = f"it has more than {MAX_SEEN} files and folders, or {MAX_DEPTH} folders in each other"
-FULL = {errno.ENOSPC, errno.EDQUOT}  # our disk; all else is about what was handed in
+FULL = {errno.ENOSPC, errno.EDQUOT}  # faults of our disk, and not of the submission
 COPY = "TODO {id} is written in {copy}, which no program runs: the code belongs in {file}."
 SUPPLIED = "{file} is missing. The handed-out one was taken in its place."
 COMPILED = (".pyc", ".pyo", ".so", ".pyd", ".dll", ".dylib")  # code that nobody can read
-IGNORED = {"venv", "__pycache__", "__MACOSX", "node_modules", "build"}  # and all that is hidden
+IGNORED = {"venv", "__pycache__", "__MACOSX", "node_modules", "build"}  # and hidden folders
 
 
 T = TypeVar("T")
@@ -53,7 +52,7 @@ log = logging.getLogger(__name__)
 
 
 class CannotGrade(Stop):
-    """Nothing here that could be graded; the message says why and what to do."""
+    """There is nothing to grade; the message says why and what to do."""
 
     cannot = "grade"
 
@@ -74,7 +73,7 @@ def attempt(make: Callable[[], T], otherwise: T) -> T:
 
 @dataclass
 class Submission:
-    """The copy of a submission and where its TODOs stand."""
+    """The copy of a submission and the places of its TODOs."""
 
     name: str
     folder: Path
@@ -82,17 +81,17 @@ class Submission:
     where: dict[str, Where] = field(default_factory=dict)
     functions: dict[str, str] = field(default_factory=dict)  # the shape of each TODO's function
     left_out: list[str] = field(default_factory=list)
-    unread: list[str] = field(default_factory=list)  # files too long to look into, in words
+    unread: list[str] = field(default_factory=list)  # files too long to read, in words
     uses_numpy: bool = False
     flaws: dict[str, Flaw] = field(default_factory=dict)  # by TODO: its code is no Python
-    outside: dict[str, Flaw] = field(default_factory=dict)  # by program: as much of other code
+    outside: dict[str, Flaw] = field(default_factory=dict)  # by program: other code is no Python
     starts: dict[str, Where] = field(default_factory=dict)  # where each program's main is
     program: Program = field(default_factory=lambda: Program({}))  # all of its Python files
     supplied: list[str] = field(default_factory=list)  # given files that it lacks
     remarks: dict[str, str] = field(default_factory=dict)  # by TODO: why no code counts for it
 
     def holds(self, file: str) -> bool:
-        """Return whether there is such a file in it: what a child says may name any."""
+        """Return whether it has a file of this name, which may come from a child."""
         inside = PurePosixPath(file)
         safe = not inside.is_absolute() and ".." not in inside.parts and file.isprintable()
         with suppress(OSError):  # such as a name that is too long for any file
@@ -101,7 +100,7 @@ class Submission:
 
 
 def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Submission:
-    """Copy what may be copied, make it read-only, and find the TODOs in it."""
+    """Copy a submission within bounds, make the copy read-only, and find the TODOs in it."""
     if not path.exists():
         raise CannotGrade(f"there is no submission at {path}: name a folder or a Python file")
     if path.is_file() and path.stat().st_size > MAX_BYTES:
@@ -112,7 +111,7 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
         shutil.copyfile(path, copy / path.name)
     else:
         copy_tree(path, submission)
-    accept_printed_names(copy)
+    use_printed_names(copy)
     submission.supplied = list(supply_given(copy))
     find_todos(submission, rubric, stubs)
     for each in [copy, *copy.rglob("*")]:
@@ -121,7 +120,7 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
 
 
 def copy_tree(path: Path, submission: Submission) -> None:
-    """Copy plain files, the lab's first: no links, nothing hidden, no more than the bounds."""
+    """Copy plain files within the bounds, the lab's first, without links and hidden files."""
     files = size = 0
     for inside in sorted((each.relative_to(path) for each in plain_files(path)), key=weight):
         target = submission.folder / inside
@@ -141,15 +140,23 @@ def copy_tree(path: Path, submission: Submission) -> None:
 
 
 def weight(inside: PurePath) -> tuple[bool, bool, int, PurePath]:
-    """Return the order in which files are taken: the lab's own before all others."""
+    """Return a sort key that puts the lab's own files before all others."""
     of_lab = inside.parts[0].removesuffix(".py") in {todo.module for todo in load_rubric().todos}
     return not of_lab, inside.suffix != ".py", len(inside.parts), inside
 
 
-def supply_given(folder: Path) -> Iterator[str]:
-    """Put in what students were given and this submission lacks, and yield the files' names.
+def use_printed_names(folder: Path) -> None:
+    """Copy NAME_starter.py, the name that the lesson prints, to NAME.py if there is no NAME."""
+    for name in {todo.module for todo in load_rubric().todos}:
+        printed, own = folder / f"{name}_starter.py", folder / f"{name}.py"
+        if printed.is_file() and not own.exists() and not (folder / name).exists():
+            shutil.copyfile(printed, own)
 
-    A package is completed where a part of it was handed in. A program that is missing stays so.
+
+def supply_given(folder: Path) -> Iterator[str]:
+    """Add given files that a submission lacks, and yield their names.
+
+    A package is completed if a part of it was handed in. A missing program stays missing.
     """
     programs = {f"{todo.module}.py" for todo in load_rubric().todos}
     for name, text in load_given().items():
@@ -159,8 +166,8 @@ def supply_given(folder: Path) -> Iterator[str]:
         own_package = (folder / package / "__init__.py").exists()
         hidden = (folder / f"{package}.py").exists() and not own_package
         target = folder / name
-        there = next(each for each in (target, *target.parents) if each.exists())
-        if not there.is_dir() or there == target:  # it has it, or something else in its place
+        found = next(each for each in (target, *target.parents) if each.exists())
+        if not found.is_dir() or found == target:  # the file, or something else in its place
             continue
         if "/" in name and (hidden or not (folder / package).is_dir()):
             continue
@@ -176,11 +183,9 @@ def load_given() -> dict[str, str]:
 
 
 def plain_files(path: Path) -> Iterator[Path]:
-    """Yield the files that may be part of a submission: no hidden ones, no environment.
+    """Yield the files of a submission, without hidden ones and virtual environments.
 
-    A Mac leaves a hidden `._contacts.py`, which is no Python, beside each file on a foreign disk.
-    Folder by folder from the top. Raises CannotGrade where there is no end of it, or a folder
-    cannot be read: what lies in it may be the work, and must not count as none.
+    Raises CannotGrade if there are too many, or a folder cannot be read: it may hold the work.
     """
     seen, waiting = 0, deque([(path, 0)])
     while waiting:
@@ -204,7 +209,7 @@ def plain_files(path: Path) -> Iterator[Path]:
 
 
 def unreadable(error: OSError, within: Path) -> str:
-    """Say why a file or a folder of a submission cannot be read, by its name in there."""
+    """Return why a file or folder cannot be read, with its name inside the submission."""
     why = error.strerror or type(error).__name__
     name = os.fspath(error.filename) if isinstance(error.filename, (str, os.PathLike)) else ""
     if not name or name == os.fspath(within):
@@ -214,18 +219,18 @@ def unreadable(error: OSError, within: Path) -> str:
 
 
 def may_be_read(name: str) -> bool:
-    """Return whether a name is neither hidden nor without text, nor that of compiled code."""
+    """Return whether a name is printable, and neither hidden nor that of compiled code."""
     return name.isprintable() and not name.startswith(".") and not name.endswith(COMPILED)
 
 
 def may_be_entered(folder: os.DirEntry[str]) -> bool:
-    """Return whether a folder is no virtual environment and its name may be read."""
-    ours = may_be_read(folder.name) and folder.name not in IGNORED
-    return ours and not os.path.lexists(os.path.join(folder.path, "pyvenv.cfg"))
+    """Return whether a folder may hold a student's files: it is no virtual environment."""
+    is_own = may_be_read(folder.name) and folder.name not in IGNORED
+    return is_own and not os.path.lexists(os.path.join(folder.path, "pyvenv.cfg"))
 
 
 def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) -> None:
-    """Find where each TODO stands, and whether anything but the stub stands there."""
+    """Find the place of each TODO, and whether it has other code than the stub."""
     texts = {
         path.relative_to(submission.folder): read_source(path)
         for path in python_files(submission.folder)
@@ -235,11 +240,10 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
     for todo in rubric.todos:
         if not todo.function:
             continue
-        module, _, path = todo.function.partition(":")
-        found = program.definition(module, path)
+        found = program.definition(todo.function.partition(":")[0], todo.path)
         if found is not None:
             inside = program.paths[found.module]
-            look_at(submission, todo, stubs, inside, texts[inside], found.function)
+            note_place(submission, todo, stubs, inside, texts[inside], found.function)
         submission.begun.setdefault(todo.id, not todo.bonus)  # older programs have no bonus tasks
     note_remarks(submission, rubric, stubs, texts)
     for module in dict.fromkeys(todo.module for todo in rubric.todos):
@@ -263,9 +267,9 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
 
 
 def repair_programs(submission: Submission, texts: dict[Path, str]) -> Program:
-    """Replace what Python refuses in the files that the programs load.
+    """Replace code that Python refuses in the files that the programs load.
 
-    Changes `texts` and the copy, and notes whose code was replaced.
+    Changes `texts` and the copy, and notes the TODOs whose code was replaced.
     """
     repairer, repaired_once = Repairer(handed_out()), set[Path]()
     modules = dict.fromkeys(todo.module for todo in load_rubric().todos)
@@ -304,7 +308,7 @@ def repair_file(
 
 
 def flaw_of(path: Path, refused: bool) -> Flaw | None:
-    """Return what Python refuses in a file, whose text may parse while its bytes are no text."""
+    """Return the first thing that Python refuses in a file; its bytes may be no text."""
     return find_bad_bytes(path.read_bytes()) or (find_flaw(read_source(path)) if refused else None)
 
 
@@ -323,7 +327,7 @@ def in_words(path: Path, folder: Path) -> str:
     )
 
 
-def look_at(
+def note_place(
     submission: Submission,
     todo: Todo,
     stubs: dict[str, str],
@@ -331,9 +335,9 @@ def look_at(
     text: str,
     function: Function | None,
 ) -> None:
-    """Note a TODO's region or, where no marker is, the function that says enough.
+    """Note the place of a TODO: its region or, without markers, its function.
 
-    A region counts inside the function alone: a copy of it further up is not what runs.
+    A region counts inside the function alone: a copy of it elsewhere does not run.
     """
     region = next((each for each in read_regions(text)[0] if each.id == todo.id), None)
     if function is not None:
@@ -355,10 +359,10 @@ def look_at(
 def note_misplaced(
     submission: Submission, todo: Todo, file: str, text: str, function: Function
 ) -> None:
-    """Note the first line that was written into a TODO's function but not into its region."""
-    mine, given = source_of(text, function).splitlines(), handed_out().stubs[f"def {todo.id}"]
-    number, theirs, _ = first_difference(mine, given.splitlines())
-    if theirs and shape_of("\n".join(mine)) != shape_of(given):
+    """Note the first line of a TODO's function that was written outside its region."""
+    own, given = source_of(text, function), handed_out().stubs[f"def {todo.id}"]
+    number, theirs, _ = first_difference(own.splitlines(), given.splitlines())
+    if theirs and shape_of(own) != shape_of(given):
         line = function.lineno + number
         submission.where[todo.id] = Where(file, line)
         submission.remarks[todo.id] = MISPLACED.format(
@@ -369,7 +373,7 @@ def note_misplaced(
 def note_remarks(
     submission: Submission, rubric: Rubric, stubs: dict[str, str], texts: dict[Path, str]
 ) -> None:
-    """Note what else may be why a TODO has no code: it is in a copy, or its file is missing."""
+    """Note other reasons why a TODO has no code: it is in a copy, or its file is missing."""
     lacking = [
         todo
         for todo in rubric.todos
@@ -391,7 +395,7 @@ def note_remarks(
 def find_copies(
     submission: Submission, ids: set[str], stubs: dict[str, str], texts: dict[Path, str]
 ) -> dict[str, Path]:
-    """Return by TODO a file that no program loads, in which more than its stub stands."""
+    """Return by TODO a file that no program loads, with other code than the stub."""
     program = submission.program
     modules = dict.fromkeys(todo.module for todo in load_rubric().todos)
     loaded = {program.paths[part] for module in modules for part in program.loaded(module)}
@@ -407,8 +411,8 @@ def find_copies(
 
 def first_code_line(region: Region) -> int:
     """Return the number of a region's first line of code, or of its first line."""
-    said = (number for number, line in enumerate(region.lines) if not is_comment(line))
-    return region.start + 2 + next(said, 0)
+    code = (number for number, line in enumerate(region.lines) if not is_comment(line))
+    return region.start + 2 + next(code, 0)
 
 
 def is_comment(line: str) -> bool:
@@ -416,5 +420,5 @@ def is_comment(line: str) -> bool:
 
 
 def module_of(inside: PurePath) -> str:
-    """Return the module or package that a file, named from the submission's folder, belongs to."""
+    """Return the module or package of a file, by its path inside the submission."""
     return inside.parts[0].removesuffix(".py")

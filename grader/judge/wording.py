@@ -1,8 +1,4 @@
-"""Word reports: reasons, points, and the commands to type, alike in every form of a report.
-
-What they have in common is here: the sentences of a check are in its TODO's folder, and those about
-a submission's files in `meaning.py`, `loop.py` and `submission.py`.
-"""
+"""Word the parts that every form of a report shares: reasons, points, and commands to type."""
 
 import os
 import sys
@@ -28,7 +24,7 @@ NAMES = 10  # columns up to the words of *Got* and the like
 
 
 def named_reasons(check: CheckResult, task: str = "") -> list[tuple[str, str]]:
-    """Return why a check failed, in named lines; `task` follows a place that is in it."""
+    """Return why a check failed, in named lines; `task` follows a place in the TODO's code."""
     place = place_of(check) + task * (not check.where.given) if check.where else ""
     words = (
         ("We ran", check.ran),
@@ -42,12 +38,12 @@ def named_reasons(check: CheckResult, task: str = "") -> list[tuple[str, str]]:
 
 
 def reasons(check: CheckResult, task: str = "") -> list[str]:
-    """Return the same, a line of text each."""
+    """Return why a check failed, as lines of text."""
     return [f"{name:<{NAMES}}{clean(words)}" for name, words in named_reasons(check, task)]
 
 
 def place_of(check: CheckResult) -> str:
-    """Return the student's file and line; empty where none is known."""
+    """Return the student's file and line; empty if none is known."""
     return f"{check.where.file}:{check.where.line}" if check.where else ""
 
 
@@ -57,7 +53,7 @@ def named(todo: TodoResult, title: str) -> str:
 
 
 def task_of(todo: TodoResult) -> str:
-    """Return what stands behind a place to look at; the whole program is no TODO."""
+    """Return the words after a place to look at; the whole program is no TODO."""
     return "" if todo.id == "whole" else f", TODO {todo.id}"
 
 
@@ -65,7 +61,7 @@ def task_of(todo: TodoResult) -> str:
 
 
 def total(result: Result) -> str:
-    """Return the points and the bonus; the bonus alone where nothing else was asked."""
+    """Return the points and the bonus; the bonus alone if there is nothing else."""
     if not result.counted:
         return f"{result.bonus} bonus"
     bonus = f"  and {result.bonus} bonus" if result.bonus else ""
@@ -78,7 +74,7 @@ def points_in_words(result: Result) -> str:
 
 
 def hidden_points_note(result: Result) -> str:
-    """Say what a student's copy has no checks for; return an empty text if it has them all."""
+    """Mention the points that a student's copy lacks checks for; empty if it lacks none."""
     here = {todo.id for todo in result.todos}
     points = sum(todo.hidden_points for todo in load_rubric().counted if todo.id in here)
     words = f"Your instructor runs more checks, for {plural(points, 'more point')}."
@@ -91,7 +87,7 @@ def hidden_points_note(result: Result) -> str:
 def command(
     name: str, todo: str = "", level: int = 1, all_of_it: bool = False, restore: str = ""
 ) -> str:
-    """Return one of the student's commands, as this person would type it here."""
+    """Return one of the student's commands, as they type it here."""
     if "MAKELEVEL" in os.environ:
         words = f"make {name}" + f" TODO={todo}" * bool(todo) + f" LEVEL={level}" * (level > 1)
         return words + " ALL=1" * all_of_it + f" RESTORE={restore}" * bool(restore)
@@ -103,7 +99,7 @@ def command(
 
 
 def python_command() -> str:
-    """Return what this person types for Python, as far as the command line tells."""
+    """Return the word that started Python on the command line."""
     python = sys.orig_argv[0]
     return "python" if os.path.isabs(python) else python
 
@@ -112,7 +108,7 @@ def python_command() -> str:
 
 
 def withhold_reasons(result: Result, course: Course, now: datetime | None = None) -> Result:
-    """Withhold why hidden checks failed, until the course's day."""
+    """Withhold the reasons of hidden checks until the course's day."""
     when = course.visible
     if when is None or (now or datetime.now(when.tzinfo)) >= when:
         return result

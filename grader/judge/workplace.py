@@ -1,6 +1,6 @@
-"""Folders for what a grade writes. They end with it, or after a crash with the next grade.
+"""Make folders for the files of a grade, and remove them: after a crash, with the next grade.
 
-A folder belongs to a process for as long as that holds a lock on it, which no crash outlives.
+A process owns a folder as long as it holds a lock on it, which ends with the process.
 """
 
 import os
@@ -15,16 +15,16 @@ from pathlib import Path
 
 try:
     import fcntl
-except ImportError:  # Windows: what a crash leaves there stays until somebody clears it
+except ImportError:  # Windows: the files of a crash stay until somebody removes them
     fcntl = None  # type: ignore[assignment]
 
 PREFIX = "physics-grader-"
-NEW_SECONDS = 5  # a folder as young as that may not be locked yet
+NEW_SECONDS = 5  # a younger folder may not be locked yet
 
 
 @contextmanager
 def work_folder() -> Iterator[Path]:
-    """Make a folder of our own, removed afterwards even where a submission made parts read-only."""
+    """Make a folder, and remove it afterwards even if a submission made parts read-only."""
     remove_leftovers(tempfile.gettempdir())
     work = Path(tempfile.mkdtemp(prefix=PREFIX)).resolve()
     lock = locked(work)
@@ -38,7 +38,7 @@ def work_folder() -> Iterator[Path]:
 
 @cache
 def remove_leftovers(place: str) -> None:
-    """Remove, once for each place, what a killed process of ours has left there."""
+    """Remove the folders of killed processes from a place; look once."""
     if fcntl is None:
         return
     for folder in Path(place).glob(f"{PREFIX}*"):
@@ -53,7 +53,7 @@ def remove_leftovers(place: str) -> None:
 
 
 def locked(folder: Path) -> int | None:
-    """Return a descriptor that holds the folder's lock; None where another process holds it."""
+    """Return a descriptor that holds the folder's lock; None if another process holds it."""
     if fcntl is None:
         return None
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)

@@ -123,7 +123,7 @@ def test_what_ended_counts_with_what_waited_for_it():
 
 def test_other_systems_are_measured_too(monkeypatch):
     told = outer.measure_family(os.getpid())
-    monkeypatch.setattr(outer, "TELLS_CHILDREN", False)
+    monkeypatch.setattr(outer, "LISTS_CHILDREN", False)
     assert outer.measure_family(os.getpid()).keys() >= {os.getpid()}
     assert told.keys() >= {os.getpid()}
 
