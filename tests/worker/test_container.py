@@ -54,7 +54,7 @@ def test_without_isolation_all_of_the_judge_is_loaded_before_a_submission_runs()
     program = (
         "import sys; from grader.judge.isolation import load_everything; load_everything(); "
         "before = set(sys.modules); import grader.report.html, grader.player.replay, "
-        "grader.judge.loop, grader.classroom.dashboard, grader.report.sinks.markdown; "
+        "grader.judge.reasons, grader.classroom.dashboard, grader.report.sinks.markdown; "
         "exit(any(name.startswith('grader') for name in set(sys.modules) - before))"
     )
     assert subprocess.run([sys.executable, "-c", program], cwd=KIT).returncode == 0
