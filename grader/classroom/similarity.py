@@ -1,18 +1,17 @@
-"""Find similar submissions, beyond what everybody was given: this shows, and accuses nobody.
+"""Find similar submissions, apart from code that all students were given.
 
 Each submission is cut into runs of `RUN` tokens without names and numbers, so that new names,
-comments and layout change nothing. Runs of the starter, of given files and of the solution are left
-out, and so are those that many of the class have. The similarity of two submissions is the share of
+comments and layout change nothing. Runs of the starter, of given files and of the solution do not
+count, nor do runs that many of the class have. The similarity of two submissions is the share of
 the smaller one's runs that the other has.
 
-Right answers to short tasks are similar by nature. `EXPECTED` is above what independent right
-answers of the bank share; a test holds it there.
+Right answers to short tasks are similar by nature. `EXPECTED` is above the shares of the bank's
+independent right answers, as a test shows.
 """
 
-import io
 import keyword
+import re
 import token
-import tokenize
 import zlib
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Mapping
@@ -40,26 +39,33 @@ TEMPLATES = Path(__file__).with_name("templates")
 
 RUN = 14  # tokens: about two lines
 EXPECTED = 0.5  # of the smaller one's runs
-FEWEST = 40  # runs of one's own, below which nothing is compared
-FEW, MANY = 8, 50  # or a quarter of the class: a run that more of them have does not count
+FEWEST = 40  # own runs of a submission that is compared
+FEW, MANY = 8, 50  # a run counts if at most a quarter of the class has it, within these bounds
 MOST = 100  # pairs
 MAX_TEXT = 500_000  # bytes of one submission
-CONTEXT = 2  # lines around what two share
+CONTEXT = 2  # lines around shared ones
 MOST_SHOWN = 2000  # lines of a submission beside those of another
 COMPARING = Allowance("comparing the class", cpu=300)
-LAYOUT = {token.COMMENT, token.NL, token.NEWLINE, token.INDENT, token.DEDENT, token.ENDMARKER}
+OPERATORS = sorted(token.EXACT_TOKEN_TYPES, key=len, reverse=True)
+TOKEN = re.compile(  # a text that does not end takes the rest of its line, or of the file
+    r"(?P<layout>#.*|\\?\s+)"
+    r"|(?P<text>\w{0,2}(?:\"{3}(?s:.*?)(?:\"{3}|\Z)|'{3}(?s:.*?)(?:'{3}|\Z)"
+    r"|\"(?:\\.|[^\"\\\n])*(?:\"|$)|'(?:\\.|[^'\\\n])*(?:'|$)))"
+    r"|(?P<number>\.?\d(?:[eE][+-]|[\w.])*)|(?P<name>\w+)"
+    rf"|{'|'.join(map(re.escape, OPERATORS))}",
+    re.M,
+)
 
-
-Token = tuple[str, int]  # a token as it is compared, and the line it stands in
+Token = tuple[str, int]  # a token as it is compared, and its line
 
 
 @dataclass(frozen=True)
 class Prints:
-    """The runs that a submission has of its own."""
+    """The own runs of a submission."""
 
     name: str
     runs: frozenset[int]
-    team: tuple[str, ...] = ()  # the same for those who handed in together
+    team: tuple[str, ...] = ()  # the same for students who handed in together
 
 
 class Pair(Struct, frozen=True):
@@ -73,49 +79,15 @@ class Pair(Struct, frozen=True):
         return self.first, self.second
 
 
-class Lines:
-    """The lines of a file, each read once, with a count of them."""
-
-    def __init__(self, source: str) -> None:
-        self.rest = io.StringIO(source)
-        self.read, self.ended = 0, False
-
-    def read_next(self) -> str:
-        self.read += 1
-        line = self.rest.readline()
-        self.ended = not line
-        return line
-
-
 def read_tokens(source: str) -> list[Token]:
-    """Return the tokens of a file; of a line that Python cannot read, only what it begins with."""
-    lines, found = Lines(source), list[Token]()
-    while not lines.ended:
-        found += read_until_error(lines)
+    """Return the tokens of a file, without what costs nothing to change."""
+    found, line = list[Token](), 1
+    for each in TOKEN.finditer(source):
+        kind = "" if keyword.iskeyword(each[0]) else each.lastgroup
+        if kind != "layout":
+            found.append((kind or each[0], line))
+        line += each[0].count("\n")
     return found
-
-
-def read_until_error(lines: Lines) -> Iterator[Token]:
-    """Yield tokens up to one that is none of Python's.
-
-    `tokenize` goes on one letter further, and looks at all the rest of the line with each letter.
-    """
-    before = lines.read
-    with suppress(tokenize.TokenError, SyntaxError, ValueError):
-        for each in tokenize.generate_tokens(lines.read_next):
-            if each.type == token.ERRORTOKEN:
-                return
-            if each.type not in LAYOUT:
-                yield generalize(each), before + each.start[0]
-
-
-def generalize(each: tokenize.TokenInfo) -> str:
-    """Return a token without what costs nothing to change."""
-    if each.type == token.NAME and not keyword.iskeyword(each.string):
-        return "name"
-    if each.type == token.STRING:
-        return "text"
-    return "number" if each.type == token.NUMBER else each.string
 
 
 def list_runs(tokens: list[Token]) -> Iterator[tuple[int, int, int]]:
@@ -127,7 +99,7 @@ def list_runs(tokens: list[Token]) -> Iterator[tuple[int, int, int]]:
 
 
 def read_texts(package: Package) -> dict[str, str]:
-    """Return the Python files by name, as many as somebody can have written."""
+    """Return the Python files by name, up to MAX_TEXT."""
     texts: dict[str, str] = {}
     room = MAX_TEXT
     for name, content in package.files:
@@ -139,7 +111,7 @@ def read_texts(package: Package) -> dict[str, str]:
 
 @cache
 def collect_given_runs() -> frozenset[int]:
-    """Return the runs that students were given, and those of the solution."""
+    """Return the runs of the starter and of the solution."""
     files = [path for tree in ("starter", "solution") for path in python_files(KIT / tree)]
     texts = (path.read_text(encoding="utf-8") for path in files)
     return frozenset().union(*map(hash_runs, texts))
@@ -151,8 +123,8 @@ def hash_runs(text: str) -> frozenset[int]:
 
 
 def make_prints(package: Package, team: tuple[str, ...] = ()) -> Prints:
-    """Return what is a submission's own: neither given nor the solution's wording."""
-    given = collect_given_runs()  # once, for all processes that are forked from here
+    """Return the runs of a submission that are in neither the starter nor the solution."""
+    given = collect_given_runs()  # once, for all processes forked from here
     texts = read_texts(package).values()
     runs = call_within(READING, frozenset[int], lambda: frozenset().union(*map(hash_runs, texts)))
     return Prints(package.name, runs - given, team)
@@ -161,7 +133,7 @@ def make_prints(package: Package, team: tuple[str, ...] = ()) -> Prints:
 def read_prints(
     stack: ExitStack, folder: Path, people: ClassList, label: str = ""
 ) -> tuple[dict[str, Found], list[Prints]]:
-    """Return all of a class that can be read, under its label, as long as `stack` is open."""
+    """Read a class under its label; its files stay as long as `stack` is open."""
     found, prints = {}, []
     for each in stack.enter_context(open_class(folder, people)).found:
         if each.handed_in_by:
@@ -178,8 +150,8 @@ def find_pairs(
 ) -> list[Pair]:
     """Return the pairs that share more than `least`, the most similar first.
 
-    Members of a group are no pair. Each pair has one of the names in `of`, if it is given. Raises
-    Exceeded where the class has too much in common to be compared within the limits.
+    Members of a group are no pair. If `of` is given, each pair has one of its names. Raises
+    Exceeded where a class has too much in common for the limits.
     """
     return call_within(COMPARING, list[Pair], partial(compare_all, list(prints), least, of))
 
@@ -222,14 +194,14 @@ Side = dict[str, list[Line]]  # one of two submissions: lines around what both s
 
 
 def show_pair(first: Found, second: Found) -> tuple[Side, Side]:
-    """Show what both have, as `compare` does; nothing where that takes too long."""
+    """Show what two submissions share; nothing where that takes too long."""
     with suppress(CannotTake, Exceeded, Failed, Lost):
         return compare(pack(first), pack(second))
     return {}, {}
 
 
 def compare(first: Package, second: Package) -> tuple[Side, Side]:
-    """Show what both have and nobody was given, where it stands in each."""
+    """Return the lines of each that hold their common runs."""
     common = make_prints(first).runs & make_prints(second).runs
     return call_within(
         READING,
@@ -239,7 +211,7 @@ def compare(first: Package, second: Package) -> tuple[Side, Side]:
 
 
 def mark_lines(package: Package, common: frozenset[int]) -> Side:
-    """Return the lines of a submission that hold common runs, with some around them."""
+    """Return the lines of a submission that hold common runs, with lines around them."""
     files, room = Side(), MOST_SHOWN
     for file, text in read_texts(package).items():
         marked = {
@@ -269,7 +241,7 @@ def locate_pairs(results: Path, suffix: str) -> Path:
 def write_pairs(
     results: Path, pairs: list[Pair], found: Mapping[str, Found], least: float = EXPECTED
 ) -> Path:
-    """Write the pairs as a page, a table and for the class page; `found` has them all by name."""
+    """Write the pairs as a page, a table and JSON; `found` has all submissions by name."""
     path = locate_pairs(results, "html")
     page = fill_template(
         TEMPLATES / "alike.html",
@@ -289,7 +261,7 @@ def write_pairs(
 
 
 def read_pairs(results: Path) -> list[Pair]:
-    """Return the pairs that were found last; empty where nobody looked."""
+    """Return the pairs that were found last; empty if there was no search."""
     try:
         content = locate_pairs(results, "json").read_bytes()
         return msgspec.json.decode(content, type=list[Pair])

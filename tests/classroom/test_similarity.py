@@ -1,9 +1,10 @@
-"""How alike submissions are: copies are shown however they are dressed, others are not."""
+"""Similar submissions: copies are shown however they are changed, others are not."""
 
+import io
 import re
 import subprocess
 import sys
-from itertools import combinations
+import tokenize
 from pathlib import Path
 
 import pytest
@@ -14,12 +15,12 @@ from rich.console import Console
 from samples import sample
 from whole_bank import bank
 
-from grader.classroom import grading
+from grader.classroom import grading, similarity
 from grader.classroom.grading import ClassOptions, run_class
 from grader.classroom.similarity import (
     EXPECTED,
-    MOST_SHOWN,
     Pair,
+    Prints,
     compare,
     find_pairs,
     make_prints,
@@ -99,45 +100,47 @@ def test_what_everybody_was_given_and_the_solutions_wording_tell_nothing(tmp_pat
     assert find_pairs([make_prints(each) for each in twins], 0.0) == []
 
 
-@pytest.mark.parametrize("end", ["$", "$ $", "'", "'\\'\\'", "?"])
-def test_of_a_line_that_is_no_python_only_the_beginning_counts(end: str):
-    """Python's reader of tokens looks at the whole rest of it again with each letter."""
-    few, many = (
-        count_calls(lambda n=n: read_tokens(f"x{' ' * n}{end}{' ' * n}$")) for n in (9, 99)
-    )
-    assert few == many
-    assert read_tokens(f"x = 1\ny = {end}\nz = 2\n") == [
-        *(("name", 1), ("=", 1), ("number", 1), ("name", 2), ("=", 2)),
-        *(("name", 3), ("=", 3), ("number", 3)),
-    ]
-
-
-def test_lines_that_are_no_python_are_each_read_once():
-    few, many = (count_calls(lambda n=n: read_tokens("x = $\n" * n)) for n in (100, 200))
+@pytest.mark.parametrize("end", ["$", "$ $", "?", "'", "'\\'\\'", '"""', '"""\\"'])
+def test_a_line_that_is_no_python_has_tokens_too_and_costs_no_more(end: str):
+    tokens = [*(("name", 1), ("=", 1), ("number", 1), ("name", 2), ("=", 2))]
+    tokens += [("text", 2)] * ("'" in end or '"' in end)
+    tokens += [*(("name", 3), ("=", 3), ("number", 3))] * ('"' not in end)
+    assert read_tokens(f"x = 1\ny = {end}\nz = 2\n") == tokens
+    few, many = (count_calls(lambda n=n: read_tokens(f"{end} x" * n)) for n in (100, 200))
     assert many < 3 * few
 
 
-def test_no_more_is_shown_of_two_than_a_person_reads():
-    text = "".join(f"x{n} = {'+'.join('x' * (n % 97 + 2))}\n" for n in range(4000)).encode()
+def test_tokens_are_those_of_python():
+    text = (KIT / "grader" / "text.py").read_text(encoding="utf-8")
+    layout = (tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
+    lines = [
+        each.start[0]
+        for each in tokenize.generate_tokens(io.StringIO(text).readline)
+        if each.type not in (*layout, tokenize.ENDMARKER)
+    ]
+    assert [line for _, line in read_tokens(text)] == lines
+
+
+def test_no_more_is_shown_of_two_than_a_person_reads(monkeypatch):
+    monkeypatch.setattr(similarity, "MOST_SHOWN", 50)
+    text = "".join(f"x{n} = {'+'.join('x' * (n % 97 + 2))}\n" for n in range(100)).encode()
     files = [(f"{letter}.py", text) for letter in "ab"]
     sides = compare(Package("ann", files), Package("ben", files))
-    assert all(sum(map(len, side.values())) == MOST_SHOWN for side in sides)
+    assert all(sum(map(len, side.values())) == 50 for side in sides)
 
 
-def test_who_handed_in_together_is_no_pair(right):
-    together = (Path("one folder"),)
+def test_pairs_are_of_two_students_of_the_class_who_share_what_few_have(right):
     package = right["whole-very-terse"]
-    both = [make_prints(Package(name, package.files), together) for name in ("ann", "ben")]
-    apart = [make_prints(Package(name, package.files)) for name in ("ann", "ben")]
-    assert not find_pairs(both) and find_pairs(apart) == [
-        Pair("ann", "ben", 1.0, find_pairs(apart)[0].runs)
-    ]
 
+    def prints(*names: str, team: tuple[str, ...] = ()) -> list[Prints]:
+        return [make_prints(Package(name, package.files), team) for name in names]
 
-def test_what_many_have_tells_nothing(right):
-    package = right["whole-very-terse"]
-    many = [make_prints(Package(f"s{n}", package.files)) for n in range(20)]
-    assert find_pairs(many) == []
+    (pair,) = find_pairs(prints("ann", "ben"))
+    assert pair == Pair("ann", "ben", 1.0, pair.runs)
+    assert not find_pairs(prints("ann", "ben", team=("one folder",)))
+    pairs = {each.names for each in find_pairs(prints("a", "b", "c"), of={"a"})}
+    assert pairs == {("a", "b"), ("a", "c")}
+    assert not find_pairs(prints(*(f"s{number}" for number in range(9))))
 
 
 @pytest.mark.soak
@@ -181,12 +184,3 @@ def test_pairs_are_on_the_class_page_side_by_side_and_in_a_table(tmp_path, right
     Package("old", right[WHOLE[0]].files).unpack(last)
     run_class(classroom, ClassOptions(Options(), earlier=[last]), Console(quiet=True))
     assert {each.names for each in read_pairs(results)} == {("ann", "ben"), ("2025/old", "zoe")}
-
-
-def test_no_pair_of_others_than_the_class(right):
-    package = right["whole-very-terse"]
-    names = ("a", "b", "c")
-    prints = [make_prints(Package(name, package.files)) for name in names]
-    assert {each.names for each in find_pairs(prints, of={"a"})} == set(
-        list(combinations(names, 2))[:2]
-    )

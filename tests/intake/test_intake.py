@@ -1,4 +1,4 @@
-"""Taking a class in: what LMSs export, what people hand in, and what must be refused."""
+"""The intake of a class: exports of learning systems, class lists, and zips of every kind."""
 
 import io
 import os
@@ -24,7 +24,6 @@ from grader.intake.packing import open_submission, pack, read_package
 from grader.intake.roster import ClassList
 from grader.intake.systems import read_roster
 from grader.judge import submission
-from grader.judge.grade import KIT
 from grader.judge.submission import MAX_BYTES, MAX_FILES, CannotGrade
 
 PROGRAM = {"mini_engine/__init__.py": "", "integrators.py": "x = 1\n"}
@@ -162,81 +161,49 @@ def test_gradescope_names_times_and_people_who_work_together(classroom):
         assert taken.troubles.keys() == {"dora@school.edu"}
 
 
-def test_a_list_that_is_not_gradescopes_is_said(classroom):
+def test_a_list_that_is_not_gradescopes_is_refused(classroom):
     for text in ("- 1\n", "submission_1: {}\n", "a: [\n", "submission_1: {':submitters': 7}\n"):
         write(classroom, {"submission_metadata.yml": text})
         with pytest.raises(Stop, match="not as Gradescope"), open_class(classroom):
             pass
 
 
-@pytest.mark.parametrize("wrapper", ["", "submissions/"])
-def test_a_download_of_a_class_is_taken_as_it_is(classroom, wrapper):
-    files = {
-        f"{wrapper}doejane_1_2_a.zip": zipped(PROGRAM),
-        f"{wrapper}roebo_LATE_3_4_b.zip": zipped(under("deep/deeper")),
-        "__MACOSX/._x": "dropping",
-    }
-    (classroom / "all.zip").write_bytes(zipped(files))
-    with open_class(classroom / "all.zip") as taken:
-        assert [each.name for each in taken.found] == ["doejane_1", "roebo_3"]
-        assert all(names_in(each) == sorted(PROGRAM) for each in taken.found)
+STUDENTS = [f"{name}_1_assignsubmission_file_" for name in ("Ann", "Ben")]
+ONE_EACH = {f"{student}/integrators.py": "x = 1" for student in STUDENTS}
+TWO = under("ann") | under("ben")
+DOWNLOADS = {
+    "Canvas": {"ann_1_2_a.zip": zipped(PROGRAM), "ben_LATE_3_4_b.zip": zipped(PROGRAM)},
+    "a folder around": {f"all/{name}": text for name, text in TWO.items()},
+    "what a Mac leaves": TWO | {"__MACOSX/._x": ""},
+    "strange names": TWO | {"ben/aux.py": "", "../../up.py": "", "/root.py": ""},
+    "names that become one": ONE_EACH | {f"{STUDENTS[0]}/{n}": n for n in ("x*", "x_/y")},
+    "a device": ONE_EACH | {f"{STUDENTS[0]}/{n}": n for n in ("con/x", "_con")},
+    "a long path": ONE_EACH | {f"{STUDENTS[1]}/{f'{chr(0x3B1) * 80}/' * 50}a.py": "y"},
+}
 
 
-def test_a_folder_around_folders_is_taken_off_too(classroom):
-    (classroom / "all.zip").write_bytes(zipped(under("all/ann") | under("all/ben")))
-    with open_class(classroom / "all.zip") as taken:
-        assert [each.name for each in taken.found] == ["ann", "ben"]
-
-
-def test_one_strange_name_in_a_download_does_not_stop_the_class(classroom):
-    files = {
-        **under("ann"),
-        "ben/integrators.py": "x = 1\n",
-        "ben/aux.py": "",
-        "../../up.py": "",
-        "/root.py": "",
-    }
-    (classroom / "all.zip").write_bytes(zipped(files))
-    with open_class(classroom / "all.zip") as taken:
-        assert [each.name for each in taken.found] == ["ann", "ben"]
-        assert names_in(taken.found[1]) == ["_aux.py", "integrators.py"]
+@pytest.mark.parametrize("kind", DOWNLOADS)
+def test_a_download_of_a_class_is_read_whatever_is_in_it(classroom, kind):
+    (classroom / "all.zip").write_bytes(zipped(DOWNLOADS[kind]))
+    with open_class(classroom / "all.zip") as intake:
+        first, second = intake.found
+        assert first.name.lower().startswith("ann") and second.name.lower().startswith("ben")
+        assert {"integrators.py"} <= set(names_in(first))
+        if kind in ("names that become one", "a device"):
+            assert len([each for each in first.sources[0].rglob("*") if each.is_file()]) == 3
+        if kind == "a long path":
+            with pytest.raises(CannotTake, match="folders in each other"):
+                pack(second)
     assert {path.name for path in classroom.parent.iterdir()} == {"class"}
 
 
 # ---------------------------------------------------------------- what people keep
 
 
-@pytest.mark.parametrize("odd", [("x*", "x_/y"), ("con/a", "_con"), ("x.", " x/y")])
-def test_names_that_become_the_same_in_a_download_do_not_stop_the_class(classroom, odd):
-    students = [f"{name}_1_assignsubmission_file_" for name in ("Ann", "Ben")]
-    files = {f"{student}/integrators.py": "x = 1" for student in students}
-    files |= {f"{students[0]}/{name}": name for name in odd}
-    (classroom / "class.zip").write_bytes(zipped(files))
-    with open_class(classroom / "class.zip") as intake:
-        assert intake.names == ["Ann_1", "Ben_1"] and not intake.troubles
-        held = [
-            path.read_text() for path in intake.found[0].sources[0].rglob("*") if path.is_file()
-        ]
-    assert sorted(held) == sorted(["x = 1", *odd])
-
-
-def test_a_path_that_no_system_takes_does_not_stop_the_class(classroom):
-    students = [f"{name}_1_assignsubmission_file_" for name in ("Ann", "Ben")]
-    files = {f"{student}/integrators.py": "x = 1" for student in students}
-    files[f"{students[0]}/{f'{chr(0x3B1) * 80}/' * 50}a.py"] = "y"
-    (classroom / "class.zip").write_bytes(zipped(files))
-    with open_class(classroom / "class.zip") as intake:
-        assert intake.names == ["Ann_1", "Ben_1"]
-        with pytest.raises(CannotTake, match="folders in each other"):
-            pack(intake.found[0])
-        assert pack(intake.found[1]).files
-
-
 def test_folders_checkouts_and_system_files(classroom):
     write(classroom, under("ann") | under("ben/x/y") | {"cem.zip": zipped(under("cem's work"))})
-    write(
-        classroom, {"ann/.git/config": "", "ben/x/.DS_Store": "", ".DS_Store": "", "Thumbs.db": ""}
-    )
+    left = ("ann/.git/config", "ben/x/._mini_engine", ".DS_Store", "Thumbs.db")
+    write(classroom, dict.fromkeys(left, ""))
     write(classroom, {"roster.csv": "", "adjustments.toml": ""})
     (classroom / "empty").mkdir()
     with open_class(classroom) as taken:
@@ -273,14 +240,6 @@ def test_one_zip_is_laid_out_as_one_of_a_class_is(tmp_path):
         pass
 
 
-def test_taking_in_loads_the_judge_and_no_more_of_the_grader():
-    code = "import sys; from grader.intake import listing; print(*sys.modules)"
-    done = subprocess.run([sys.executable, "-c", code], cwd=KIT, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    loaded = {name.split(".")[1] for name in done.stdout.split() if name.startswith("grader.")}
-    assert loaded == {"errors", "intake", "judge", "protocol", "source", "text"}
-
-
 def test_one_submission_is_not_taken_for_a_class(classroom):
     with pytest.raises(Stop, match="leave out --class"):
         open_class(write(classroom, PROGRAM)).__enter__()
@@ -289,16 +248,12 @@ def test_one_submission_is_not_taken_for_a_class(classroom):
 def test_who_handed_in_twice_must_choose_unless_it_is_the_same(classroom):
     write(classroom, under("ann") | {"ann.zip": zipped(PROGRAM)})
     write(classroom, under("Ben") | {"ben.zip": zipped({"integrators.py": "other"})})
+    write(classroom, under("cem") | {"cem.rar": "Rar!"})
     with open_class(classroom) as taken:
         assert [each.name for each in taken.found] == ["ann"]
         assert "Ben and ben.zip" in taken.troubles["Ben"]
+        assert "as cem and cem.rar" in taken.troubles["cem"]
         assert "ann and ann.zip are the same" in taken.notes[0]
-
-
-def test_a_folder_beside_a_file_of_that_name_is_for_a_person_to_choose(classroom):
-    write(classroom, under("ann") | {"ann.rar": "Rar!"})
-    with open_class(classroom) as taken:
-        assert not taken.found and "as ann and ann.rar" in taken.troubles["ann"]
 
 
 def test_a_zip_in_a_zip_and_a_zip_in_a_folder(classroom):
@@ -313,20 +268,16 @@ def test_two_programs_beside_each_other_are_for_a_person_to_choose(classroom):
         read_package(Found("ann", (classroom / "ann",)))
 
 
-def test_the_same_files_have_one_digest_whoever_and_however(classroom):
+def test_the_same_files_are_one_package_whoever_and_however(classroom, tmp_path):
     folder = Found("ann", (write(classroom / "ann", PROGRAM),))
     (classroom / "b.zip").write_bytes(zipped(under("x/y", dict(reversed(PROGRAM.items())))))
-    zip_ = Found("ben", (classroom / "b.zip",))
-    assert read_package(folder).digest == read_package(zip_).digest
+    package = read_package(folder)
+    assert package.digest == read_package(Found("ben", (classroom / "b.zip",))).digest
+    unpacked = package.unpack(tmp_path)
+    assert unpacked.name == "ann"
+    assert {name: (unpacked / name).read_text() for name in PROGRAM} == PROGRAM
     write(classroom / "ann", {"integrators.py": "x = 2\n"})
-    assert read_package(folder).digest != read_package(zip_).digest
-
-
-def test_a_package_unpacks_into_what_was_packed(classroom, tmp_path):
-    package = read_package(Found("ann", (write(classroom / "ann", PROGRAM),)))
-    folder = package.unpack(tmp_path)
-    assert folder.name == "ann"
-    assert {name: (folder / name).read_text() for name in PROGRAM} == PROGRAM
+    assert read_package(folder).digest != package.digest
 
 
 # ---------------------------------------------------------------- the class list
@@ -359,20 +310,14 @@ def test_a_class_list_names_students_as_the_gradebook_does(classroom, tmp_path):
         assert names == ["bo", "jane", "stranger"]
         assert known.list_absent(names) == ["al"]
         assert known.list_unlisted(names) == ["stranger"]
-
-
-def test_moodles_class_list_knows_full_names(classroom, tmp_path):
     known = people(tmp_path, MOODLE_LIST)
-    write(classroom, under("Ann Lee_5_assignsubmission_file") | under("bo"))
-    with open_class(classroom, known) as taken:
+    write(classroom / "moodle", under("Ann Lee_5_assignsubmission_file") | under("bo"))
+    with open_class(classroom / "moodle", known) as taken:
         names = [each.name for each in taken.found]
         assert names == ["ann@school.edu", "bo"]
         assert known.list_absent(names) == [] and known.list_unlisted(names) == []
-
-
-def test_of_two_with_one_name_neither_is_guessed(tmp_path):
-    known = people(tmp_path, MOODLE_LIST + "Ann,Lee,9,other@school.edu\n")
-    assert known.find(["name"], "Ann Lee") is None
+    twins = people(tmp_path, MOODLE_LIST + "Ann,Lee,9,other@school.edu\n")
+    assert twins.find(["name"], "Ann Lee") is None
 
 
 @pytest.mark.parametrize(
@@ -396,34 +341,20 @@ def test_names_become_file_names_of_every_system(words, name):
 # ---------------------------------------------------------------- zips that must be refused
 
 
-@pytest.mark.parametrize(
-    "name", ["../up.py", "a/../../up.py", "/etc/up.py", "C:/up.py", "..\\up.py", "\\\\host\\up.py"]
-)
-def test_no_zip_reaches_outside(classroom, name):
-    assert "outside" in refused(classroom, zipped(PROGRAM | {name: "x"}))
+OUTSIDE = ["../up.py", "a/../../up.py", "/etc/up.py", "C:/up.py", "..\\up.py", "\\\\host\\up.py"]
+UNPORTABLE = ["aux.py", "a/com1.zip", "what?.py", "lab: last/more.py", "x" * 200]
 
 
-@pytest.mark.parametrize(
-    "name", ["aux.py", "a/com1.zip", "what?.py", "lab: last/more.py", "x" * 200]
-)
-def test_names_of_work_that_not_every_system_has_are_refused(classroom, name):
-    assert "not for every system" in refused(classroom, zipped(PROGRAM | {name: "x"}))
-
-
-@pytest.mark.parametrize("name", ["a/com1.txt", 'the "floor".png', "at 10:30.png", "note: b.md"])
-def test_other_files_with_such_names_are_left_out(classroom, name):
-    package = read_package(handed_in(classroom, zipped(PROGRAM | {name: "x"})))
-    assert [file for file, _ in package.files] == sorted(PROGRAM)
-    assert package.notes == [f"left out {name!r}: a name not for every system"]
-
-
-def test_what_desktops_leave_behind_is_left_out_whatever_its_name(classroom):
-    package = read_package(handed_in(classroom, zipped(PROGRAM | {"lab/Icon\r": ""})))
-    assert [file for file, _ in package.files] == sorted(PROGRAM) and not package.notes
-
-
-def test_names_that_differ_in_case_alone_are_refused(classroom):
+def test_names_that_not_every_system_takes_are_refused_or_left_out(classroom):
+    for name in OUTSIDE:
+        assert "outside" in refused(classroom, zipped(PROGRAM | {name: "x"})), name
+    for name in UNPORTABLE:
+        assert "not for every system" in refused(classroom, zipped(PROGRAM | {name: "x"})), name
     assert "case alone" in refused(classroom, zipped(PROGRAM | {"Integrators.py": "x"}))
+    for name in ("a/com1.txt", 'the "floor".png', "at 10:30.png", "note: b.md"):
+        package = read_package(handed_in(classroom, zipped(PROGRAM | {name: "x"})))
+        assert [file for file, _ in package.files] == sorted(PROGRAM)
+        assert package.notes == [f"left out {name!r}: a name not for every system"]
 
 
 def test_broken_encrypted_and_unusual_zips_are_refused(classroom):
@@ -441,18 +372,15 @@ def test_broken_encrypted_and_unusual_zips_are_refused(classroom):
     assert "unusual" in refused(classroom, zipped(PROGRAM, zipfile.ZIP_LZMA))
 
 
-def test_a_zip_that_lists_too_many_files_is_not_even_listed(classroom, monkeypatch):
-    monkeypatch.setattr(archives, "MAX_DIRECTORY", 1000)
-    assert "too many" in refused(classroom, zipped({f"{n}.py": "" for n in range(40)}))
-
-
-@pytest.mark.parametrize("hidden", [b"PK\x05\x06", b"PK\x06\x07"])
-def test_the_list_that_is_bounded_is_the_one_that_is_read(classroom, monkeypatch, hidden):
-    """A second end of a zip, hidden in the comment of the first, says that the list is short."""
+@pytest.mark.parametrize("hidden", [b"", b"PK\x05\x06", b"PK\x06\x07"])
+def test_a_zip_that_lists_too_many_files_is_not_even_listed(classroom, monkeypatch, hidden):
+    """Nor where a second end, in the comment of the first, says that the list is short."""
     monkeypatch.setattr(archives, "MAX_DIRECTORY", 1000)
     content = bytearray(zipped({f"{n}.py": "" for n in range(40)}))
-    content[-2:] = (40).to_bytes(2, "little")
-    assert "too many" in refused(classroom, bytes(content + hidden + bytes(36)))
+    if hidden:
+        content[-2:] = (40).to_bytes(2, "little")
+        hidden += bytes(36)
+    assert "too many" in refused(classroom, bytes(content + hidden))
 
 
 def test_a_short_list_is_read_where_another_end_is_hidden_in_it(classroom):
@@ -478,25 +406,16 @@ def test_many_archives_have_the_bounds_of_one(classroom, monkeypatch):
         read_package(handed_in(classroom, many))
 
 
-def test_a_zip_that_is_too_large_is_not_opened(classroom, monkeypatch):
+def test_bombs_give_the_program_and_no_more_than_the_bounds(classroom, monkeypatch):
+    bomb = {f"{n:02}.bin": bytes(MAX_BYTES // 4) for n in range(8)}
+    inner = zipped({f"{n}.bin": bytes(MAX_BYTES // 2) for n in range(4)})
+    for files in (bomb, {f"{n}.zip": inner for n in range(50)}):
+        package = read_package(handed_in(classroom, zipped(files | PROGRAM)))
+        assert {"integrators.py", "mini_engine/__init__.py"} <= {name for name, _ in package.files}
+        assert sum(len(content) for _, content in package.files) <= MAX_BYTES
+        assert package.notes
     monkeypatch.setattr(archives, "MAX_ZIP", 10)
     assert "MB" in refused(classroom, zipped(PROGRAM))
-
-
-def test_a_bomb_gives_the_program_and_no_more_than_the_bounds(classroom):
-    bomb = {f"{n:02}.bin": bytes(MAX_BYTES // 4) for n in range(8)}
-    package = read_package(handed_in(classroom, zipped(bomb | PROGRAM)))
-    assert {"integrators.py", "mini_engine/__init__.py"} <= {name for name, _ in package.files}
-    assert sum(len(content) for _, content in package.files) <= MAX_BYTES
-    assert package.notes
-
-
-def test_bombs_inside_bombs_share_the_bounds(classroom):
-    inner = zipped({f"{n}.bin": bytes(MAX_BYTES // 2) for n in range(4)})
-    package = read_package(
-        handed_in(classroom, zipped({f"{n}.zip": inner for n in range(50)} | PROGRAM))
-    )
-    assert sum(len(content) for _, content in package.files) <= MAX_BYTES
 
 
 def test_more_files_than_may_be_are_left_out_and_named(classroom):
@@ -524,7 +443,7 @@ def test_links_environments_and_system_files_in_a_zip_are_left_out(classroom):
         archive.writestr(link, "/etc/passwd")
         for name in ("env/pyvenv.cfg", "env/lib/site.py", ".git/config", "__MACOSX/._x.py"):
             archive.writestr(name, "")
-        for name in ("mini_engine/._contacts.py", "mini_engine/._world.py", "._integrators.py"):
+        for name in ("mini_engine/._contacts.py", "._integrators.py", "lab/Icon\r"):
             archive.writestr(name, b"\0\5\26\7\0\2\0\0Mac OS X")
         for number in range(MAX_FILES + 1):
             archive.writestr(f"node_modules/{number}.py", "")
@@ -532,28 +451,16 @@ def test_links_environments_and_system_files_in_a_zip_are_left_out(classroom):
     assert [name for name, _ in package.files] == sorted(PROGRAM) and not package.notes
 
 
-def test_what_a_mac_leaves_beside_each_file_is_no_part_of_a_folder(classroom):
-    shadows = [".DS_Store", "._mini_engine", "._integrators.py", "mini_engine/._contacts.py"]
-    write(classroom, under("ann") | under("ann", dict.fromkeys(shadows, b"\0\5\26\7")))
-    with open_class(classroom) as taken:
-        (found,) = taken.found
-        assert names_in(found) == sorted(PROGRAM)
-
-
-@pytest.mark.parametrize("said", [True, False])
-def test_names_in_utf_8_are_read_whether_the_zip_says_so_or_not(classroom, said):
+def test_names_are_read_in_utf_8_and_in_the_old_dos_letters(classroom):
     content = zipped(PROGRAM | {"möbius.txt": ""})
-    if not said:  # as macOS writes them
-        for sign, place in ((b"PK\x01\x02", 8), (b"PK\x03\x04", 6)):
-            at = content.rindex(sign) + place
-            flags = int.from_bytes(content[at : at + 2], "little") & ~0x800
-            content = content[:at] + flags.to_bytes(2, "little") + content[at + 2 :]
-    assert "möbius.txt" in names_in(handed_in(classroom, content))
-
-
-def test_names_in_the_old_dos_letters_are_read(classroom):
-    content = zipped(PROGRAM | {"m#bius.txt": ""}).replace(b"m#bius", b"m\x94bius")
-    assert "möbius.txt" in names_in(handed_in(classroom, content))
+    unsaid = content
+    for sign, place in ((b"PK\x01\x02", 8), (b"PK\x03\x04", 6)):  # as macOS writes them
+        at = unsaid.rindex(sign) + place
+        flags = int.from_bytes(unsaid[at : at + 2], "little") & ~0x800
+        unsaid = unsaid[:at] + flags.to_bytes(2, "little") + unsaid[at + 2 :]
+    dos = zipped(PROGRAM | {"m#bius.txt": ""}).replace(b"m#bius", b"m\x94bius")
+    for each in (content, unsaid, dos):
+        assert "möbius.txt" in names_in(handed_in(classroom, each))
 
 
 def test_a_file_that_is_also_a_folder_is_refused(classroom):
@@ -564,7 +471,7 @@ def test_a_file_that_is_also_a_folder_is_refused(classroom):
 def test_a_zip_with_any_bytes_changed_is_taken_or_refused_with_a_sentence(classroom):
     rng, content = random.Random(1), zipped(PROGRAM | {"a/ö.txt": "hello" * 50})
     outcomes = set()
-    for _ in range(150):
+    for _ in range(60):
         changed = bytearray(content)
         for _ in range(rng.choice([1, 2, 20])):
             changed[rng.randrange(len(changed))] = rng.randrange(256)
