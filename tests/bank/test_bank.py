@@ -100,7 +100,6 @@ def test_a_member_knows_what_it_is_based_on():
         "window-at-import",
         "nanoseconds-without-pacing",
         "updates-twice-a-frame",
-        "old-package",
     ]
 
 

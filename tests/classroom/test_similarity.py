@@ -32,14 +32,11 @@ from grader.intake.packing import pack
 from grader.judge.grade import KIT, Options
 
 WHOLE = [  # of the bank: written anew from end to end, each in another way
-    "whole-complex-numbers",
     "whole-functional-style",
     "whole-numpy-inside",
     "whole-slots-and-floats",
-    "whole-verbose-many-classes",
     "whole-very-terse",
     "single-file-dataclasses",
-    "single-file-typed-slots",
 ]
 
 

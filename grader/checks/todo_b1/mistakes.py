@@ -91,11 +91,6 @@ known(
     wrong_at(FLOOR_GONE, CARRIED_AWAY, unsure=(ONE_OF_TWO_GONE,)),
 )
 known(
-    "stands-still-without-sleeping",
-    "The body stands still but is computed on: fall_asleep() makes it static for the while.",
-    wrong_at(CHEAP, unsure=(*HIT, *LEFT)),
-)
-known(
     "an-awake-neighbour-wakes",
     "A neighbour that is awake wakes it, though it lies still: a pile in which bodies come to rest "
     "one after another never sleeps. Only a body that moves wakes another one.",

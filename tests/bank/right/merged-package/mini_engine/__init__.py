@@ -1,2 +1,0 @@
-from .engine import *
-from .window import main

@@ -1,4 +1,0 @@
-from mini_engine import main
-
-if __name__ == "__main__":
-    main()

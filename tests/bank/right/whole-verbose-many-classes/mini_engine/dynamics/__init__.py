@@ -1,1 +1,0 @@
-"""Bodies and what moves them."""
