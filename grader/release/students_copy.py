@@ -38,7 +38,7 @@ from grader.source.regions import read_source
 
 NOT_FOR_STUDENTS = (
     *("bank", "bench", "classroom", "intake", "release", "__pycache__"),
-    *("checks/*/mistakes.py", "checks/expected_runs.json"),
+    *("checks/*/mistakes.py", "checks/mistakes.*", "checks/expected_runs.json"),
     *("cli/classes.py", "cli/classroom.py", "cli/dev.py", "cli/questions.py"),
     *(f"questions/{name}.py" for name in ("cases*", "making", "marking", "moodle", "numbers")),
     "questions/templates/moodle.xml",

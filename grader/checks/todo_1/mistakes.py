@@ -2,18 +2,19 @@
 
 import math
 from collections.abc import Callable
-from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Disc, Rect, Touch
-from grader.judge.misconceptions import Undecided, mistake, truth
+from grader.checks.mistakes import known_in
+from grader.judge.misconceptions import Undecided, truth
 
 Answer = Touch | str | None  # a str is the name of an exception
 Right = Touch | None
 Model = Callable[[Disc, Rect], Answer]
+Box = tuple[float, float, float, float]  # as in Rect
 Change = Callable[[Touch, Disc, Rect], Touch]
 
-known = partial(mistake, "1", "circle_box")
+known = known_in("1", "circle_box")
 
 FAR = 65536.0  # px, beyond every distance that a check asks about
 
@@ -102,6 +103,11 @@ def any_distance(disc: Disc, rect: Rect) -> Touch:
     return answer._replace(depth=answer.depth - FAR)
 
 
+def in_another_box(change: Callable[[float, float, float, float], Box]) -> Model:
+    """Return the model that takes another box, made from x, y, hx and hy of the right one."""
+    return lambda disc, rect: right(disc, Rect(*change(*rect)))
+
+
 def on_an_edge(disc: Disc, edge: Rect) -> Answer:
     """Return the contact with an edge, in place of the box."""
     if is_inside(disc, edge):
@@ -109,13 +115,7 @@ def on_an_edge(disc: Disc, edge: Rect) -> Answer:
     return right(disc, edge)
 
 
-mistake(
-    "1",
-    "order",
-    "the-box-comes-first",
-    "The box is body A of the contact; the circle must be A and the box B.",
-    lambda disc, rect: (False, False),
-)
+known_in("1", "order")("the-box-comes-first", lambda disc, rect: (False, False))
 
 
 def normal_points_out(disc: Disc, rect: Rect) -> Answer:
@@ -123,43 +123,27 @@ def normal_points_out(disc: Disc, rect: Rect) -> Answer:
     return answer and turned(answer)
 
 
+known("normal-points-out-of-the-box", normal_points_out)
 known(
-    "normal-points-out-of-the-box",
-    "The normal points from the box to the circle; it must point from A, the circle, into B.",
-    normal_points_out,
+    "inside-is-forgotten", lambda disc, rect: None if is_inside(disc, rect) else right(disc, rect)
 )
-known(
-    "inside-is-forgotten",
-    "There is no answer for a centre inside the box: a fast ball that got in never comes out.",
-    lambda disc, rect: None if is_inside(disc, rect) else right(disc, rect),
-)
-known(
-    "inside-normal-points-out",
-    "For a centre inside, the normal is the way out; it must point the opposite way, into the box.",
-    inside(lambda touch, disc, rect: turned(touch)),
-)
+known("inside-normal-points-out", inside(lambda touch, disc, rect: turned(touch)))
 known(
     "inside-has-no-case-of-its-own",
-    "A centre inside has no case of its own. It must leave through the nearest of the four faces: "
-    "that face's normal, a depth of radius + gap, and a point on the face.",
     inside(lambda touch, disc, rect: Touch(0.0, 1.0, disc.r, disc.x, disc.y)),
     inside(lambda touch, disc, rect: Touch(0.0, -1.0, disc.r, disc.x, disc.y)),
     inside(lambda touch, disc, rect: Touch(1.0, 0.0, disc.r, disc.x, disc.y)),
     inside(lambda touch, disc, rect: Touch(-1.0, 0.0, disc.r, disc.x, disc.y)),
 )
 known(
-    "inside-depth-forgets-the-gap",
-    "For a centre inside, the depth is radius + gap: it has to cross the gap to the face as well.",
-    inside(lambda touch, disc, rect: touch._replace(depth=disc.r)),
+    "inside-depth-forgets-the-gap", inside(lambda touch, disc, rect: touch._replace(depth=disc.r))
 )
 known(
     "inside-depth-is-the-gap",
-    "For a centre inside, the depth is the gap; the circle has its radius to leave as well.",
     inside(lambda touch, disc, rect: touch._replace(depth=touch.depth - disc.r)),
 )
 known(
     "inside-point-is-the-centre",
-    "For a centre inside, the point is the centre; it must lie on the face it leaves through.",
     inside(lambda touch, disc, rect: touch._replace(px=disc.x, py=disc.y)),
 )
 
@@ -173,11 +157,7 @@ def farthest_face(disc: Disc, rect: Rect) -> Answer:
     return deepest[0]
 
 
-known(
-    "inside-leaves-by-the-farthest-face",
-    "A centre inside leaves by the face that is farthest away; it must take the nearest.",
-    farthest_face,
-)
+known("inside-leaves-by-the-farthest-face", farthest_face)
 
 
 def top_face(disc: Disc, rect: Rect) -> Answer:
@@ -186,11 +166,7 @@ def top_face(disc: Disc, rect: Rect) -> Answer:
     return exact.ways_out(disc, rect)[2]
 
 
-known(
-    "inside-always-leaves-by-the-top",
-    "A centre inside always leaves by the top; it must take the nearest of the four faces.",
-    top_face,
-)
+known("inside-always-leaves-by-the-top", top_face)
 
 
 def face_by_share(disc: Disc, rect: Rect) -> Answer:
@@ -219,29 +195,16 @@ def face_by_offset(disc: Disc, rect: Rect) -> Answer:
 for error in ("ZeroDivisionError", "ValueError"):
     known(
         "edge-counts-as-outside",
-        "A centre on the edge is taken for one outside, where the way to the closest point has no "
-        "length: on the edge it counts as inside, <= and >= instead of < and >.",
         lambda disc, rect, error=error: error if is_on_the_edge(disc, rect) else right(disc, rect),
     )
-known(
-    "face-by-the-distance-from-the-middle",
-    "The face is chosen by how far the centre is from the middle of the box. It must be chosen by "
-    "how far it is from the faces, half - |offset|.",
-    face_by_offset,
-)
-known(
-    "face-by-share-of-the-half",
-    "The nearest face is taken by shares of the box, not by px: wrong unless the box is square.",
-    face_by_share,
-)
+known("face-by-the-distance-from-the-middle", face_by_offset)
+known("face-by-share-of-the-half", face_by_share)
 known(
     "depth-is-the-distance",
-    "The depth is the distance to the closest point; it must be radius - distance.",
     outside(lambda touch, disc, rect: touch._replace(depth=disc.r - touch.depth)),
 )
 known(
     "normal-is-not-a-unit-vector",
-    "The normal is as long as the distance; divide by it, so that its length is 1.",
     outside(lambda touch, disc, rect: with_normal(touch, touch.px - disc.x, touch.py - disc.y)),
 )
 
@@ -251,11 +214,7 @@ def normal_to_centre(touch: Touch, disc: Disc, rect: Rect) -> Touch:
     return with_normal(touch, dx / math.hypot(dx, dy), dy / math.hypot(dx, dy))
 
 
-known(
-    "normal-points-at-the-centre-of-the-box",
-    "The normal points at the centre of the box; it must point at the closest point.",
-    outside(normal_to_centre),
-)
+known("normal-points-at-the-centre-of-the-box", outside(normal_to_centre))
 
 
 def normal_along_an_axis(touch: Touch, disc: Disc, rect: Rect) -> Touch:
@@ -266,14 +225,9 @@ def normal_along_an_axis(touch: Touch, disc: Disc, rect: Rect) -> Touch:
     return with_normal(touch, 0.0, math.copysign(1.0, touch.ny))
 
 
-known(
-    "corner-normal-along-an-axis",
-    "The normal at a corner is level or upright; it must point at the corner itself.",
-    outside(normal_along_an_axis),
-)
+known("corner-normal-along-an-axis", outside(normal_along_an_axis))
 known(
     "point-lies-on-the-circle",
-    "The point lies on the circle's edge; it must be the closest point of the box.",
     outside(
         lambda touch, disc, rect: touch._replace(
             px=disc.x + touch.nx * disc.r, py=disc.y + touch.ny * disc.r
@@ -288,15 +242,10 @@ def fails_inside(error: str) -> Model:
 
 known(
     "inside-normalises-zero",
-    "Inside, the closest point is the centre: the offset is 0 long and has no direction.",
     fails_inside("ValueError"),  # of normalize()
     fails_inside("ZeroDivisionError"),
 )
-known(
-    "apart-is-not-noticed",
-    "A circle apart from the box gets a contact; it must get None.",
-    lambda disc, rect: any_distance(disc, rect),
-)
+known("apart-is-not-noticed", lambda disc, rect: any_distance(disc, rect))
 
 
 def touching(disc: Disc, rect: Rect) -> Answer:
@@ -304,77 +253,37 @@ def touching(disc: Disc, rect: Rect) -> Answer:
     return touch if touch.depth >= 0 else None
 
 
+known("touching-counts-as-overlap", touching)
 known(
-    "touching-counts-as-overlap",
-    "A circle that only touches the box gets a contact; return None where distance = radius, too.",
-    touching,
+    "half-is-taken-for-the-full-size", in_another_box(lambda x, y, hx, hy: (x, y, hx / 2, hy / 2))
 )
-known(
-    "half-is-taken-for-the-full-size",
-    "The box is half as large as it should be: half holds half of the sides already.",
-    lambda disc, rect: right(disc, rect._replace(hx=rect.hx / 2, hy=rect.hy / 2)),
-)
-known(
-    "half-is-taken-for-the-full-width",
-    "The box is half as wide as it should be: half holds half of the sides already.",
-    lambda disc, rect: right(disc, rect._replace(hx=rect.hx / 2)),
-)
-known(
-    "half-is-taken-for-the-full-height",
-    "The box is half as high as it should be: half holds half of the sides already.",
-    lambda disc, rect: right(disc, rect._replace(hy=rect.hy / 2)),
-)
-known(
-    "half-is-doubled",
-    "The box is twice as large as it should be: half is the way from its centre to its sides.",
-    lambda disc, rect: right(disc, rect._replace(hx=rect.hx * 2, hy=rect.hy * 2)),
-)
-known(
-    "width-for-height",
-    "The box is taken for a square as wide as it is: half.x goes with x, and half.y with y.",
-    lambda disc, rect: right(disc, rect._replace(hy=rect.hx)),
-)
-known(
-    "height-for-width",
-    "The box is taken for a square as high as it is: half.x goes with x, and half.y with y.",
-    lambda disc, rect: right(disc, rect._replace(hx=rect.hy)),
-)
-known(
-    "box-at-the-origin",
-    "The box is taken to be at (0, 0): its closest point is a place in the world, so b.pos belongs "
-    "in it.",
-    lambda disc, rect: right(disc, rect._replace(x=0.0, y=0.0)),
-)
+known("half-is-taken-for-the-full-width", in_another_box(lambda x, y, hx, hy: (x, y, hx / 2, hy)))
+known("half-is-taken-for-the-full-height", in_another_box(lambda x, y, hx, hy: (x, y, hx, hy / 2)))
+known("half-is-doubled", in_another_box(lambda x, y, hx, hy: (x, y, 2 * hx, 2 * hy)))
+known("width-for-height", in_another_box(lambda x, y, hx, hy: (x, y, hx, hx)))
+known("height-for-width", in_another_box(lambda x, y, hx, hy: (x, y, hy, hy)))
+known("box-at-the-origin", in_another_box(lambda x, y, hx, hy: (0.0, 0.0, hx, hy)))
 known(
     "point-from-the-middle-of-the-box",
-    "The point is measured from the middle of the box; it is a place in the world: add b.pos.",
     outside(lambda t, disc, rect: t._replace(px=t.px - rect.x, py=t.py - rect.y)),
     inside(lambda t, disc, rect: t._replace(px=t.px - rect.x, py=t.py - rect.y)),
 )
 known(
     "top-and-bottom-swapped",
-    "The closest point is always on the bottom edge: y grows down, so the top has the smaller y.",
     lambda disc, rect: on_an_edge(disc, rect._replace(y=rect.y + rect.hy, hy=0.0)),
 )
 known(
     "left-and-right-swapped",
-    "The closest point is always on the right edge: left and right have changed places.",
     lambda disc, rect: on_an_edge(disc, rect._replace(x=rect.x + rect.hx, hx=0.0)),
 )
 known(
-    "position-is-taken-for-a-corner",
-    "The box's position is taken for its top left corner; it is the centre.",
-    lambda disc, rect: right(disc, rect._replace(x=rect.x + rect.hx, y=rect.y + rect.hy)),
+    "position-is-taken-for-a-corner", in_another_box(lambda x, y, hx, hy: (x + hx, y + hy, hx, hy))
 )
+known("clamp-is-turned-round", in_another_box(lambda x, y, hx, hy: (x - hx, y - hy, 0.0, 0.0)))
 known(
     "clamp-is-turned-round",
-    "The closest point is always the top left corner: min and max have changed places.",
-    lambda disc, rect: right(disc, Rect(rect.x - rect.hx, rect.y - rect.hy, 0.0, 0.0)),
-)
-known(
-    "clamp-is-turned-round",
-    "The closest point is always the bottom right corner: min and max have changed places.",
-    lambda disc, rect: right(disc, Rect(rect.x + rect.hx, rect.y + rect.hy, 0.0, 0.0)),
+    in_another_box(lambda x, y, hx, hy: (x + hx, y + hy, 0.0, 0.0)),
+    meaning="The closest point is always the bottom right corner: min and max have changed places.",
 )
 
 
@@ -385,12 +294,7 @@ def overlap_turned_round(disc: Disc, rect: Rect) -> Answer:
     return None if answer.depth > 0 else answer
 
 
-known(
-    "test-is-turned-round",
-    "None comes back where the two overlap, and a contact where they are apart: the test of the "
-    "distance is turned round.",
-    overlap_turned_round,
-)
+known("test-is-turned-round", overlap_turned_round)
 
 
 def distance_squared(disc: Disc, rect: Rect) -> Answer:
@@ -417,13 +321,7 @@ def shortened(disc: Disc, rect: Rect) -> Answer:
     return with_normal(touch, touch.nx / distance, touch.ny / distance)
 
 
-known(
-    "distance-is-squared",
-    "The square of the distance is compared with the radius: length_squared() goes with r * r.",
-    shortened,
-    distance_squared,
-    compared_as_a_square,
-)
+known("distance-is-squared", shortened, distance_squared, compared_as_a_square)
 
 
 def farther_way(disc: Disc, rect: Rect) -> Answer:
@@ -442,7 +340,9 @@ def gap(touch: Touch) -> float:
 
 known(
     "inside-leaves-by-the-farthest-face",
-    "A centre inside leaves to the side where up or down is nearer, and the other way round: "
-    "compare the two gaps once more.",
     farther_way,
+    meaning=(
+        "A centre inside leaves to the side where up or down is nearer, and the other way round: "
+        "compare the two gaps once more."
+    ),
 )

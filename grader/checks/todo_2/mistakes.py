@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Callable
-from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Lever, Pair, cross, inverse
-from grader.judge.misconceptions import Undecided, mistake, truth
+from grader.checks.mistakes import known_in
+from grader.judge.misconceptions import Undecided, truth
 
 Sum = Callable[[Lever, Lever, Pair], float]
 
@@ -33,7 +33,7 @@ def turning_way(lever: Lever, axis: Pair) -> str:
 
 truth("effective_mass", exact.effective_mass, like, {"the sum": [0]})
 
-known = partial(mistake, "2", "effective_mass")
+known = known_in("2", "effective_mass")
 
 
 def masses(a: Lever, b: Lever) -> float:
@@ -57,56 +57,34 @@ def lever_cross(lever: Lever, axis: Pair) -> float:
     return cross((lever.rx, lever.ry), axis)
 
 
-known(
-    "no-spin-terms",
-    "Only the masses are in the sum; a body also gives way by turning.",
-    lambda a, b, axis: masses(a, b),
-)
-known(
-    "second-body-forgotten",
-    "The second body's spin term is left out; both bodies turn.",
-    lambda a, b, axis: masses(a, b) + spin_term(a, axis),
-)
-known(
-    "first-body-forgotten",
-    "The first body's spin term is left out; both bodies turn.",
-    lambda a, b, axis: masses(a, b) + spin_term(b, axis),
-)
+known("no-spin-terms", lambda a, b, axis: masses(a, b))
+known("second-body-forgotten", lambda a, b, axis: masses(a, b) + spin_term(a, axis))
+known("first-body-forgotten", lambda a, b, axis: masses(a, b) + spin_term(b, axis))
 known(
     "one-term-is-enough",
-    "The second body's spin term is left out where the first one turns; both bodies turn.",
     lambda a, b, axis: masses(a, b) + (spin_term(a, axis) if a.mass else spin_term(b, axis)),
 )
-known(
-    "masses-forgotten",
-    "The spin terms replace 1/m_a + 1/m_b; they must be added to them.",
-    lambda a, b, axis: spin_term(a, axis) + spin_term(b, axis),
-)
+known("masses-forgotten", lambda a, b, axis: spin_term(a, axis) + spin_term(b, axis))
 known(
     "terms-are-subtracted",
-    "The spin terms count as negative; turning makes a body give way more, so they are added.",
     lambda a, b, axis: masses(a, b) - spin_term(a, axis) - spin_term(b, axis),
 )
 known(
     "cross-is-not-squared",
-    "The cross product is not squared: a term can come out negative.",
     with_term(lambda lever, axis: lever_cross(lever, axis) * inverse(lever.inertia)),
 )
 known(
     "dot-for-cross",
-    "The dot product is the part of the arm along the axis; the part across it turns a body.",
     with_term(
         lambda lever, axis: (lever.rx * axis[0] + lever.ry * axis[1]) ** 2 * inverse(lever.inertia)
     ),
 )
 known(
     "whole-arm",
-    "The whole arm counts; only its part across the axis can turn a body: ra x axis.",
     with_term(lambda lever, axis: math.hypot(lever.rx, lever.ry) ** 2 * inverse(lever.inertia)),
 )
 known(
     "inverse-mass-for-inverse-inertia",
-    "The spin terms are divided by the mass, not by the inertia.",
     with_term(lambda lever, axis: lever_cross(lever, axis) ** 2 * inverse(lever.mass)),
 )
 
@@ -117,62 +95,42 @@ def divided(a: Lever, b: Lever, axis: Pair) -> float:
     return with_term(lambda lever, axis: lever_cross(lever, axis) ** 2 * lever.inertia)(a, b, axis)
 
 
-known(
-    "divides-by-the-inverse",
-    "inv_inertia is 1/I already, and 0 for a static body: multiply by it.",
-    divided,
-)
+known("divides-by-the-inverse", divided)
 known(
     "inverse-inertia-is-squared",
-    "The inverse inertia is squared too; only the cross product is to be squared.",
     with_term(lambda lever, axis: (lever_cross(lever, axis) * inverse(lever.inertia)) ** 2),
 )
 known(
     "inertia-forgotten",
-    "The spin terms lack the inertia: multiply each by its body's inv_inertia.",
     with_term(lambda lever, axis: lever_cross(lever, axis) ** 2 if lever.mass else 0.0),
     with_term(lambda lever, axis: lever_cross(lever, axis) ** 2),
 )
 known(
     "inertia-forgotten-in-the-first",
-    "The spin term of the first body lacks its inertia: multiply it by a.inv_inertia.",
     lambda a, b, axis: masses(a, b) + lever_cross(a, axis) ** 2 + spin_term(b, axis),
 )
 known(
     "inertia-forgotten-in-the-second",
-    "The spin term of the second body lacks its inertia: multiply it by b.inv_inertia.",
     lambda a, b, axis: masses(a, b) + spin_term(a, axis) + lever_cross(b, axis) ** 2,
 )
 known(
     "size-for-the-square",
-    "The cross product counts by its size and is not squared: abs() makes no square.",
     with_term(lambda lever, axis: abs(lever_cross(lever, axis)) * inverse(lever.inertia)),
 )
 known(
     "doubled-for-the-square",
-    "The cross product is doubled, * 2, and not squared, ** 2.",
     with_term(lambda lever, axis: 2 * lever_cross(lever, axis) * inverse(lever.inertia)),
 )
-known(
-    "half-of-the-terms",
-    "The spin terms are half of what they must be; they have no factor of their own.",
-    with_term(lambda lever, axis: spin_term(lever, axis) / 2),
-)
-known(
-    "second-term-replaces-the-sum",
-    "Only B's spin term is left: add it to total, or it takes the place of all the rest.",
-    lambda a, b, axis: spin_term(b, axis),
-)
+known("half-of-the-terms", with_term(lambda lever, axis: spin_term(lever, axis) / 2))
+known("second-term-replaces-the-sum", lambda a, b, axis: spin_term(b, axis))
 known(
     "first-inertia-for-both",
-    "Both spin terms use the inertia of A; the second body has one of its own.",
     lambda a, b, axis: (
         masses(a, b) + spin_term(a, axis) + lever_cross(b, axis) ** 2 * inverse(a.inertia)
     ),
 )
 known(
     "sum-before-the-square",
-    "The two cross products are added before they are squared; each body has a term of its own.",
     lambda a, b, axis: (
         masses(a, b)
         + (lever_cross(a, axis) + lever_cross(b, axis)) ** 2
@@ -181,25 +139,19 @@ known(
 )
 known(
     "first-arm-for-both",
-    "Both spin terms use ra; the second body has an arm of its own, rb.",
     lambda a, b, axis: (
         masses(a, b) + spin_term(a, axis) + spin_term(b._replace(rx=a.rx, ry=a.ry), axis)
     ),
 )
 known(
     "inertias-swapped",
-    "Each arm goes with the other body's inertia; ra belongs to a, rb to b.",
     lambda a, b, axis: (
         masses(a, b)
         + lever_cross(a, axis) ** 2 * inverse(b.inertia)
         + lever_cross(b, axis) ** 2 * inverse(a.inertia)
     ),
 )
-known(
-    "returns-the-inverse",
-    "The sum comes back as 1 / sum; the callers divide by it themselves.",
-    lambda a, b, axis: 1 / exact.effective_mass(a, b, axis),
-)
+known("returns-the-inverse", lambda a, b, axis: 1 / exact.effective_mass(a, b, axis))
 
 
 def arms_crossed(a: Lever, b: Lever, axis: Pair) -> float:
@@ -207,14 +159,9 @@ def arms_crossed(a: Lever, b: Lever, axis: Pair) -> float:
     return masses(a, b) + both * (inverse(a.inertia) + inverse(b.inertia))
 
 
-known(
-    "arms-are-crossed",
-    "The two arms are crossed with each other; it is ra x axis, and rb x axis.",
-    arms_crossed,
-)
+known("arms-are-crossed", arms_crossed)
 known(
     "mass-counts-twice",
-    "The inverse inertia is multiplied by the inverse mass as well; the mass is in it already.",
     with_term(
         lambda lever, axis: (
             lever_cross(lever, axis) ** 2 * inverse(lever.inertia) * inverse(lever.mass)

@@ -6,11 +6,11 @@ can move, one mistake alone is known: the division by 0.
 
 import math
 from collections.abc import Callable
-from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Pair, Rod
-from grader.judge.misconceptions import Undecided, mistake, truth
+from grader.checks.mistakes import known_in
+from grader.judge.misconceptions import Undecided, truth
 
 Ends = tuple[Pair, Pair]
 Model = Callable[[Rod], Ends]
@@ -49,7 +49,7 @@ PARTS = {"the velocity of A": [0, 1], "the velocity of B": [2, 3], "the position
 
 truth("rod", right, like, PARTS, apart=True)
 
-known = partial(mistake, "3", "rod")
+known = known_in("3", "rod")
 
 
 def velocities(model: Model) -> Callable[[Rod], Answer]:
@@ -63,11 +63,7 @@ def velocities(model: Model) -> Callable[[Rod], Answer]:
     return answer
 
 
-known(
-    "divides-by-a-k-of-0",
-    "Where neither end can move, k is 0 and nothing can be divided by it: do nothing then.",
-    lambda rod: right(rod) if rod.k else "ZeroDivisionError",
-)
+known("divides-by-a-k-of-0", lambda rod: right(rod) if rod.k else "ZeroDivisionError")
 
 
 def right_impulse(rod: Rod) -> float:
@@ -78,26 +74,10 @@ def moved(vel: Pair, axis: Pair, by: float) -> Pair:
     return vel[0] + by * axis[0], vel[1] + by * axis[1]
 
 
-known(
-    "only-pulls",
-    "The rod only pulls, like a rope; a rod also pushes when it is too short.",
-    velocities(lambda rod: exact.pushed(rod, min(0.0, right_impulse(rod)))),
-)
-known(
-    "only-pushes",
-    "The impulse is clamped like a contact's; a rod needs no clamp, it also pulls.",
-    velocities(lambda rod: exact.pushed(rod, max(0.0, right_impulse(rod)))),
-)
-known(
-    "ignores-the-bias",
-    "The bias is left out: the rod never wins back the length it has lost.",
-    velocities(lambda rod: exact.pushed(rod, -rod.speed / rod.k)),
-)
-known(
-    "ignores-the-speed",
-    "The speed along the rod is left out; the impulse is for what is missing.",
-    velocities(lambda rod: exact.pushed(rod, rod.bias / rod.k)),
-)
+known("only-pulls", velocities(lambda rod: exact.pushed(rod, min(0.0, right_impulse(rod)))))
+known("only-pushes", velocities(lambda rod: exact.pushed(rod, max(0.0, right_impulse(rod)))))
+known("ignores-the-bias", velocities(lambda rod: exact.pushed(rod, -rod.speed / rod.k)))
+known("ignores-the-speed", velocities(lambda rod: exact.pushed(rod, rod.bias / rod.k)))
 
 
 def as_seen(rod: Rod, seen: Rod) -> Ends:
@@ -105,59 +85,21 @@ def as_seen(rod: Rod, seen: Rod) -> Ends:
     return exact.pushed(rod, (rod.bias - seen.speed) / rod.k)
 
 
-known(
-    "speed-of-b-alone",
-    "The speed of B alone counts; it is B's speed away from A that bias is for.",
-    velocities(lambda rod: as_seen(rod, rod._replace(vel_a=(0.0, 0.0)))),
-)
-known(
-    "speed-of-a-alone",
-    "The speed of A alone counts; it is B's speed away from A that bias is for.",
-    velocities(lambda rod: as_seen(rod, rod._replace(vel_b=(0.0, 0.0)))),
-)
-known(
-    "adds-the-speed",
-    "The speed counts with the wrong sign: it must be B's minus A's, taken from the bias.",
-    velocities(lambda rod: exact.pushed(rod, (rod.bias + rod.speed) / rod.k)),
-)
-known(
-    "pushes-the-wrong-way",
-    "Both ends are pushed the wrong way: of (bias - speed) / k, A gets -impulse and B +impulse.",
-    velocities(lambda rod: exact.pushed(rod, -right_impulse(rod))),
-)
-known(
-    "multiplies-by-k",
-    "The impulse is multiplied by k; k is speed per impulse, so divide by it.",
-    velocities(lambda rod: exact.pushed(rod, (rod.bias - rod.speed) * rod.k)),
-)
-known(
-    "not-divided-by-k",
-    "The impulse lacks the division by k, the speed that one unit of it gives.",
-    velocities(lambda rod: exact.pushed(rod, rod.bias - rod.speed)),
-)
+known("speed-of-b-alone", velocities(lambda rod: as_seen(rod, rod._replace(vel_a=(0.0, 0.0)))))
+known("speed-of-a-alone", velocities(lambda rod: as_seen(rod, rod._replace(vel_b=(0.0, 0.0)))))
+known("adds-the-speed", velocities(lambda rod: exact.pushed(rod, (rod.bias + rod.speed) / rod.k)))
+known("pushes-the-wrong-way", velocities(lambda rod: exact.pushed(rod, -right_impulse(rod))))
+known("multiplies-by-k", velocities(lambda rod: exact.pushed(rod, (rod.bias - rod.speed) * rod.k)))
+known("not-divided-by-k", velocities(lambda rod: exact.pushed(rod, rod.bias - rod.speed)))
 known(
     "bias-has-the-wrong-sign",
-    "The bias has the wrong sign: a stretched rod is stretched further.",
     velocities(lambda rod: exact.pushed(rod, (-rod.bias - rod.speed) / rod.k)),
 )
-known(
-    "impulse-is-not-applied",
-    "No velocity changes: the impulse must reach both ends, and do so unless k is 0.",
-    velocities(lambda rod: (rod.vel_a, rod.vel_b)),
-)
-known(
-    "moves-only-a",
-    "Only A gets the impulse; B must get the opposite one.",
-    velocities(lambda rod: (exact.pushed(rod, right_impulse(rod))[0], rod.vel_b)),
-)
-known(
-    "moves-only-b",
-    "Only B gets the impulse; A must get the opposite one.",
-    velocities(lambda rod: (rod.vel_a, exact.pushed(rod, right_impulse(rod))[1])),
-)
+known("impulse-is-not-applied", velocities(lambda rod: (rod.vel_a, rod.vel_b)))
+known("moves-only-a", velocities(lambda rod: (exact.pushed(rod, right_impulse(rod))[0], rod.vel_b)))
+known("moves-only-b", velocities(lambda rod: (rod.vel_a, exact.pushed(rod, right_impulse(rod))[1])))
 known(
     "b-does-it-all",
-    "B changes speed for both, as if A were static; each end takes the impulse by its inv_mass.",
     velocities(lambda rod: (rod.vel_a, moved(rod.vel_b, rod.axis, rod.bias - rod.speed))),
 )
 
@@ -168,7 +110,6 @@ def speed_of_lengths(rod: Rod) -> float:
 
 known(
     "speeds-by-their-lengths",
-    "The speeds are compared by their lengths; only the part along the rod counts: a dot product.",
     velocities(lambda rod: exact.pushed(rod, (rod.bias - speed_of_lengths(rod)) / rod.k)),
 )
 
@@ -179,7 +120,6 @@ def length_error(rod: Rod) -> float:
 
 known(
     "length-error-for-the-bias",
-    "The error of the length is used as a speed; bias has it already, as a share per dt.",
     velocities(lambda rod: exact.pushed(rod, (length_error(rod) - rod.speed) / rod.k)),
     velocities(lambda rod: exact.pushed(rod, (-length_error(rod) - rod.speed) / rod.k)),
 )
@@ -196,18 +136,11 @@ def impulse_made_anew_for_a(rod: Rod) -> Ends:
     return exact.pushed(rod, right_impulse(rod._replace(vel_b=b)))[0], b
 
 
-known(
-    "impulse-made-anew",
-    "The impulse is worked out again after one end has changed: do it once, for both ends.",
-    velocities(impulse_made_anew),
-    velocities(impulse_made_anew_for_a),
-)
+known("impulse-made-anew", velocities(impulse_made_anew), velocities(impulse_made_anew_for_a))
 
 
 known(
     "nothing-where-bias-is-0",
-    "Nothing happens where the bias is 0; it is k that may be 0. A rod of the right length has to "
-    "stop its ends as well.",
     velocities(
         lambda rod: (
             exact.pushed(rod, right_impulse(rod))
@@ -223,12 +156,7 @@ def speed_taken_from_b(rod: Rod) -> Ends:
     return a, (x - rod.vel_a[0], y - rod.vel_a[1])
 
 
-known(
-    "velocity-changed-in-place",
-    "B loses the velocity of A. After v = self.b.vel, v -= ... changes the body itself: make a new "
-    "vector, self.b.vel - self.a.vel.",
-    velocities(speed_taken_from_b),
-)
+known("velocity-changed-in-place", velocities(speed_taken_from_b))
 
 
 def same_way(rod: Rod) -> Ends:
@@ -236,11 +164,7 @@ def same_way(rod: Rod) -> Ends:
     return moved(rod.vel_a, rod.axis, by), exact.pushed(rod, right_impulse(rod))[1]
 
 
-known(
-    "pushes-both-the-same-way",
-    "Both ends get the same impulse; A must get the opposite one.",
-    velocities(same_way),
-)
+known("pushes-both-the-same-way", velocities(same_way))
 
 
 def static_end_first(rod: Rod) -> Ends:
@@ -250,11 +174,7 @@ def static_end_first(rod: Rod) -> Ends:
     return moved(rod.vel_a, rod.axis, by), rod.vel_b
 
 
-known(
-    "static-end-first",
-    "A moves the wrong way where B is static: A gets the opposite of what B would get.",
-    velocities(static_end_first),
-)
+known("static-end-first", velocities(static_end_first))
 
 
 def without_masses(rod: Rod) -> Ends:
@@ -262,28 +182,18 @@ def without_masses(rod: Rod) -> Ends:
     return moved(rod.vel_a, rod.axis, -by), moved(rod.vel_b, rod.axis, by)
 
 
-known(
-    "forgets-the-masses",
-    "The impulse is added to the velocities as it is: multiply it by the inv_mass of each end.",
-    velocities(without_masses),
-)
+known("forgets-the-masses", velocities(without_masses))
 
 
 known(
     "forgets-the-mass-of-a",
-    "The velocity of A changes by the impulse itself; it must change by impulse * inv_mass of A.",
     velocities(lambda rod: (without_masses(rod)[0], exact.pushed(rod, right_impulse(rod))[1])),
 )
 known(
     "forgets-the-mass-of-b",
-    "The velocity of B changes by the impulse itself; it must change by impulse * inv_mass of B.",
     velocities(lambda rod: (exact.pushed(rod, right_impulse(rod))[0], without_masses(rod)[1])),
 )
-known(
-    "half-of-the-impulse",
-    "The impulse is half of what it must be: k has the masses of both ends in it already.",
-    velocities(lambda rod: exact.pushed(rod, right_impulse(rod) / 2)),
-)
+known("half-of-the-impulse", velocities(lambda rod: exact.pushed(rod, right_impulse(rod) / 2)))
 
 
 def masses_crossed(rod: Rod) -> Ends:
@@ -292,11 +202,7 @@ def masses_crossed(rod: Rod) -> Ends:
     return moved(rod.vel_a, rod.axis, -a), moved(rod.vel_b, rod.axis, b)
 
 
-known(
-    "masses-crossed",
-    "Each end takes the impulse by the mass of the other one; inv_mass of A is for A.",
-    velocities(masses_crossed),
-)
+known("masses-crossed", velocities(masses_crossed))
 
 
 def axis_too_long(rod: Rod) -> Ends:
@@ -306,11 +212,7 @@ def axis_too_long(rod: Rod) -> Ends:
     return moved(rod.vel_a, rod.offset, -a), moved(rod.vel_b, rod.offset, b)
 
 
-known(
-    "axis-is-not-a-unit-vector",
-    "The axis is as long as the rod; self.axis has the length 1, as prepare() has made it.",
-    velocities(axis_too_long),
-)
+known("axis-is-not-a-unit-vector", velocities(axis_too_long))
 
 
 def replaced(rod: Rod) -> Ends:
@@ -318,11 +220,7 @@ def replaced(rod: Rod) -> Ends:
     return exact.pushed(still, right_impulse(rod))
 
 
-known(
-    "velocities-are-replaced",
-    "Each velocity becomes the change alone; the change must be added to the velocity it had.",
-    velocities(replaced),
-)
+known("velocities-are-replaced", velocities(replaced))
 
 
 def halves(rod: Rod) -> Ends:
@@ -330,11 +228,7 @@ def halves(rod: Rod) -> Ends:
     return moved(rod.vel_a, rod.axis, -by), moved(rod.vel_b, rod.axis, by)
 
 
-known(
-    "shares-equally",
-    "Both ends change speed alike; the lighter one must change more.",
-    velocities(halves),
-)
+known("shares-equally", velocities(halves))
 
 
 def whole_velocity(rod: Rod) -> Ends:
@@ -348,11 +242,7 @@ def whole_velocity(rod: Rod) -> Ends:
     return moved(rod.vel_a, direction, -a), moved(rod.vel_b, direction, b)
 
 
-known(
-    "stops-the-sideways-speed",
-    "The whole velocity is taken away; only its part along the rod may be.",
-    velocities(whole_velocity),
-)
+known("stops-the-sideways-speed", velocities(whole_velocity))
 
 
 def placed(rod: Rod) -> Answer:
@@ -361,11 +251,7 @@ def placed(rod: Rod) -> Answer:
     return rod.vel_a, rod.vel_b, (rod.axis[0] * rod.length, rod.axis[1] * rod.length)
 
 
-known(
-    "moves-positions-instead",
-    "The ends are put in place; a pass changes velocities, and the step moves the bodies.",
-    placed,
-)
+known("moves-positions-instead", placed)
 
 
 def by_whole_speed(rod: Rod) -> Ends:
@@ -373,11 +259,7 @@ def by_whole_speed(rod: Rod) -> Ends:
     return exact.pushed(rod, (rod.bias - math.hypot(bx - ax, by - ay)) / rod.k)
 
 
-known(
-    "speed-in-every-direction",
-    "The whole speed of B as seen from A counts; only its part along the axis does: a dot product.",
-    velocities(by_whole_speed),
-)
+known("speed-in-every-direction", velocities(by_whole_speed))
 
 
 def by_one_mass(rod: Rod, mass: float) -> Ends:
@@ -388,13 +270,10 @@ def by_one_mass(rod: Rod, mass: float) -> Ends:
 
 known(
     "k-of-one-end",
-    "The impulse is divided by the inverse mass of one end; k is the sum of both.",
     velocities(lambda rod: by_one_mass(rod, rod.mass_b)),
     velocities(lambda rod: by_one_mass(rod, rod.mass_a)),
 )
 known(
     "distance-for-speed",
-    "The distance between the ends stands for their speed: it is the velocities' part along the "
-    "axis.",
     velocities(lambda rod: exact.pushed(rod, (rod.bias - math.hypot(*rod.offset)) / rod.k)),
 )

@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Callable
-from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Pair, clamped
-from grader.judge.misconceptions import Undecided, known_mistakes, mistake, truth
+from grader.checks.mistakes import known_in
+from grader.judge.misconceptions import Undecided, truth
 
 Limit = Callable[[Pair, float], float]  # both frictions, jn -> the limit
 Rule = Callable[[float, float, float], float]  # total so far, total wanted, limit -> new total
@@ -28,7 +28,7 @@ def like(mu: Pair, k: float, closing: float, slip: float) -> dict[str, str]:
 
 truth("friction", exact.friction, like, {"the friction": []})
 
-known = partial(mistake, "4", "friction")
+known = known_in("4", "friction")
 
 
 def with_limit_and_rule(limit_of: Limit, rule: Rule) -> Model:
@@ -52,61 +52,17 @@ def with_limit(limit_of: Limit) -> Model:
     return with_limit_and_rule(limit_of, lambda total, wanted, limit: clamped(wanted, limit))
 
 
-known(
-    "friction-of-a-only",
-    "The limit has the friction of A alone; it takes sqrt(mu_a mu_b).",
-    with_limit(lambda mu, jn: mu[0] * jn),
-)
-known(
-    "friction-of-b-only",
-    "The limit has the friction of B alone; it takes sqrt(mu_a mu_b).",
-    with_limit(lambda mu, jn: mu[1] * jn),
-)
-known(
-    "root-is-forgotten",
-    "The two frictions are multiplied, and the square root is missing.",
-    with_limit(lambda mu, jn: mu[0] * mu[1] * jn),
-)
-known(
-    "root-over-jn-too",
-    "jn is under the square root; only the two frictions belong there.",
-    with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1] * jn)),
-)
-known(
-    "arithmetic-mean-of-mu",
-    "The limit takes the mean of both frictions; it must take sqrt(mu_a mu_b).",
-    with_limit(lambda mu, jn: (mu[0] + mu[1]) / 2 * jn),
-)
-known(
-    "smaller-mu",
-    "The smaller friction counts, as restitution does; it takes sqrt(mu_a mu_b).",
-    with_limit(lambda mu, jn: min(mu) * jn),
-)
-known(
-    "six-tenths",
-    "The limit has 0.6 for every body's friction; it takes sqrt(mu_a mu_b).",
-    with_limit(lambda mu, jn: 0.6 * jn),
-)
-known(
-    "rough-is-one",
-    "Frictions above 1 count as 1; rubber may have more, and the limit takes it as it is.",
-    with_limit(lambda mu, jn: math.sqrt(min(mu[0], 1.0) * min(mu[1], 1.0)) * jn),
-)
-known(
-    "limit-without-mu",
-    "The limit is jn itself, without the two frictions: ice would grip as well as rubber.",
-    with_limit(lambda mu, jn: jn),
-)
-known(
-    "limit-without-jn",
-    "The limit lacks jn: the harder two bodies press, the more friction.",
-    with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1])),
-)
-known(
-    "limit-comes-from-the-depth",
-    "The limit takes the depth of the overlap for the pressure, jn.",
-    with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1]) * DEPTH),
-)
+known("friction-of-a-only", with_limit(lambda mu, jn: mu[0] * jn))
+known("friction-of-b-only", with_limit(lambda mu, jn: mu[1] * jn))
+known("root-is-forgotten", with_limit(lambda mu, jn: mu[0] * mu[1] * jn))
+known("root-over-jn-too", with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1] * jn)))
+known("arithmetic-mean-of-mu", with_limit(lambda mu, jn: (mu[0] + mu[1]) / 2 * jn))
+known("smaller-mu", with_limit(lambda mu, jn: min(mu) * jn))
+known("six-tenths", with_limit(lambda mu, jn: 0.6 * jn))
+known("rough-is-one", with_limit(lambda mu, jn: math.sqrt(min(mu[0], 1.0) * min(mu[1], 1.0)) * jn))
+known("limit-without-mu", with_limit(lambda mu, jn: jn))
+known("limit-without-jn", with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1])))
+known("limit-comes-from-the-depth", with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1]) * DEPTH))
 
 
 # ---------------------------------------------------------------- the right limit, another clamp
@@ -120,26 +76,16 @@ def with_clamp(rule: Rule, sign: int = 1) -> Model:
     )
 
 
-known(
-    "no-limit",
-    "Friction has no limit; it may be sqrt(mu_a mu_b) * jn at the most, either way.",
-    with_clamp(lambda total, wanted, limit: wanted),
-)
-known(
-    "no-friction-at-all",
-    "No friction acts: the impulse is total - c.jt. Is total set to 0, or c.jt changed too early?",
-    with_clamp(lambda total, wanted, limit: 0.0),
-)
+known("no-limit", with_clamp(lambda total, wanted, limit: wanted))
+known("no-friction-at-all", with_clamp(lambda total, wanted, limit: 0.0))
 known(
     "clamps-the-increment",
-    "Each change is clamped; clamp the total, or the passes add up beyond the limit.",
     with_clamp(lambda total, wanted, limit: total + clamped(wanted - total, limit)),
 )
 
 
 known(
     "total-for-the-lower-bound",
-    "The lower bound is the total's opposite; it must be -limit.",
     with_clamp(lambda total, wanted, limit: max(-wanted, min(wanted, limit))),
 )
 
@@ -150,11 +96,7 @@ def at_the_limit(total: float, wanted: float, limit: float) -> float:
     return math.copysign(limit, wanted)
 
 
-known(
-    "always-at-the-limit",
-    "Friction is always as large as its limit, whatever the slip; less may end the slip.",
-    with_clamp(at_the_limit),
-)
+known("always-at-the-limit", with_clamp(at_the_limit))
 
 
 def against_the_slip(total: float, wanted: float, limit: float) -> float:
@@ -163,57 +105,30 @@ def against_the_slip(total: float, wanted: float, limit: float) -> float:
     return math.copysign(min(abs(wanted), limit), wanted - total)
 
 
-known(
-    "against-the-slip",
-    "The total has the sign of this pass's slip; a pass may take back a part and leave the rest.",
-    with_clamp(against_the_slip),
-)
+known("against-the-slip", with_clamp(against_the_slip))
 known(
     "lets-go-beyond-the-limit",
-    "Beyond the limit friction is 0; on a sliding body it stays at the limit.",
     with_clamp(lambda total, wanted, limit: wanted if abs(wanted) <= limit else 0.0),
 )
-known(
-    "clamps-from-above-only",
-    "The total has an upper limit only; slip the other way needs one too.",
-    with_clamp(lambda total, wanted, limit: min(limit, wanted)),
-)
-known(
-    "clamps-from-below-only",
-    "The total has a lower limit only; slip the other way needs one too.",
-    with_clamp(lambda total, wanted, limit: max(-limit, wanted)),
-)
+known("clamps-from-above-only", with_clamp(lambda total, wanted, limit: min(limit, wanted)))
+known("clamps-from-below-only", with_clamp(lambda total, wanted, limit: max(-limit, wanted)))
 
 # Which way a total counts as positive is each engine's own business.
 for sign in (1, -1):
     known(
         "limit-never-below-zero",
-        "The total is kept from 0 up, like jn; friction acts both ways.",
         with_clamp(lambda total, wanted, limit: max(0.0, min(limit, wanted)), sign),
     )
     known(
         "loses-the-sign",
-        "The size is limited and the sign lost: friction acts one way only.",
         with_clamp(lambda total, wanted, limit: min(abs(wanted), limit), sign),
         with_clamp(lambda total, wanted, limit: limit if abs(wanted) > limit else wanted, sign),
     )
-    known(
-        "clamp-is-turned-round",
-        "The total is the limit whatever the slip: min and max swapped, or the slip left out?",
-        with_clamp(lambda total, wanted, limit: -limit, sign),
-    )
+    known("clamp-is-turned-round", with_clamp(lambda total, wanted, limit: -limit, sign))
 
 
-known(
-    "half-the-limit",
-    "The limit is half of what it may be: sqrt(mu_a mu_b) * jn either way.",
-    with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1]) * jn / 2),
-)
-known(
-    "twice-the-limit",
-    "The limit is twice what it may be: sqrt(mu_a mu_b) * jn either way.",
-    with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1]) * jn * 2),
-)
+known("half-the-limit", with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1]) * jn / 2))
+known("twice-the-limit", with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1]) * jn * 2))
 
 
 def limit_by_the_slip(mu: Pair, k: float, closing: float, slip: float) -> float:
@@ -226,11 +141,7 @@ def limit_by_the_slip(mu: Pair, k: float, closing: float, slip: float) -> float:
     return total
 
 
-known(
-    "limit-grows-with-the-slip",
-    "The limit is multiplied by the slip; it is sqrt(mu_a mu_b) * jn, however fast a body slips.",
-    limit_by_the_slip,
-)
+known("limit-grows-with-the-slip", limit_by_the_slip)
 
 
 def kept_as_wanted(applied: Rule) -> Model:
@@ -254,8 +165,6 @@ def kept_as_wanted(applied: Rule) -> Model:
 
 known(
     "result-goes-to-the-contact",
-    "The limited value is written to c.jt, and total stays as it was. Give it to total: the lines "
-    "below apply total - c.jt, and write c.jt themselves.",
     kept_as_wanted(lambda kept, wanted, limit: wanted - clamped(wanted, limit)),
     kept_as_wanted(
         lambda kept, wanted, limit: (
@@ -266,7 +175,6 @@ known(
 for sign in (1, -1):
     known(
         "lower-limit-without-its-minus",
-        "Whatever is below limit becomes -limit: compare with -limit for the other way.",
         with_clamp(lambda total, wanted, limit: limit if wanted > limit else -limit, sign),
     )
 
@@ -292,19 +200,10 @@ RULES: tuple[tuple[str, Rule], ...] = (
 )
 
 
-def meaning_of(name: str) -> str:
-    return next(each.meaning for each in known_mistakes if (each.todo, each.id) == ("4", name))
-
-
 for limit_name, limit_of in LIMITS.items():
     for rule_name, rule in RULES:
         known(
             f"{limit_name}+{rule_name}",
-            f"{meaning_of(limit_name)} Also: {meaning_of(rule_name)}",
             with_limit_and_rule(limit_of, rule),
         )
-known(
-    "jn-counts-twice",
-    "The limit has jn twice: friction_limit(c) has it already.",
-    with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1]) * jn**2),
-)
+known("jn-counts-twice", with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1]) * jn**2))

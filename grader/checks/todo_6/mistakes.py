@@ -5,10 +5,10 @@ Time is counted in thirds of a millisecond: there a step, the cap and every fram
 
 from collections.abc import Callable
 from fractions import Fraction
-from functools import partial
 
+from grader.checks.mistakes import known_in
 from grader.judge.lab import STEP as STEP_SECONDS
-from grader.judge.misconceptions import Undecided, mistake, truth
+from grader.judge.misconceptions import Undecided, truth
 from grader.protocol import MAX_STEP_SIZES, RUNAWAY
 
 STEP, CAP, SECOND = 25, 200, 3000
@@ -16,7 +16,7 @@ STEP, CAP, SECOND = 25, 200, 3000
 Frames = tuple[int, ...]  # ms
 Answer = tuple[list[int], list[float]]  # steps after each frame but the last, step sizes in s
 
-known = partial(mistake, "6 7d", "frames")  # of both programs
+known = known_in("6 7d", "frames")  # of both programs
 
 
 def counted(steps: list[int]) -> Answer:
@@ -59,29 +59,15 @@ def right(frames: Frames) -> Answer:
 
 truth("frames", right)
 
-known(
-    "one-step-per-frame",
-    "Every frame runs one step: the faster the computer draws, the faster everything moves.",
-    lambda frames: counted([1 for _ in frames[:-1]]),
-)
-known(
-    "one-step-per-frame-at-most",
-    "A frame runs one step at the most, however much time waits: repeat it while a step is left.",
-    lambda frames: counted(accumulated(frames, capped, most=1)),
-)
-known(
-    "assumes-sixty-frames",
-    "Every frame is taken to last 1/60 s; a frame lasts what the clock says.",
-    lambda frames: counted([2 for _ in frames[:-1]]),
-)
+known("one-step-per-frame", lambda frames: counted([1 for _ in frames[:-1]]))
+known("one-step-per-frame-at-most", lambda frames: counted(accumulated(frames, capped, most=1)))
+known("assumes-sixty-frames", lambda frames: counted([2 for _ in frames[:-1]]))
 known(
     "drops-the-remainder",
-    "What is left of a frame after its whole steps is never run; it belongs to the next frame.",
     lambda frames: counted([whole_steps(capped(frame)) for frame in frames[:-1]]),
 )
 known(
     "rounds-each-frame",
-    "Each frame is rounded to whole steps by itself, and the errors add up.",
     lambda frames: counted([round(capped(frame) / STEP) for frame in frames[:-1]]),
 )
 
@@ -104,54 +90,33 @@ def taken_out(frames: Frames, due: Callable[[int], int], price: int) -> Answer:
 
 known(
     "steps-before-it-is-due",
-    "A step runs while any time is left, so the accumulator falls below 0; wait for a whole STEP.",
     lambda frames: taken_out(frames, lambda held: max(0, -(-held // STEP)), STEP),
 )
-known(
-    "no-cap",
-    "A slow frame is simulated in full, which makes the next one slower still: "
-    "add MAX_STEPS * STEP at the most.",
-    lambda frames: counted(accumulated(frames, uncapped)),
-)
+known("no-cap", lambda frames: counted(accumulated(frames, uncapped)))
 known(
     "cap-is-in-seconds",
-    "The cap is 8 seconds; MAX_STEPS counts steps, so it is MAX_STEPS * STEP.",
     lambda frames: counted(accumulated(frames, lambda frame: min(3 * frame, 8 * SECOND))),
 )
 known(
     "cap-is-a-quarter-second",
-    "The cap is 0.25 s, as in many other programs; here it is MAX_STEPS * STEP.",
     lambda frames: counted(accumulated(frames, lambda frame: min(3 * frame, SECOND // 4))),
 )
 known(
     "cap-counts-frames",
-    "The cap is 8 frames of 1/60 s; MAX_STEPS counts steps, so it is MAX_STEPS * STEP.",
     lambda frames: counted(accumulated(frames, lambda frame: min(3 * frame, 2 * CAP))),
 )
 known(
     "cap-is-one-step",
-    "A frame may add one STEP at the most; the cap is MAX_STEPS of them.",
     lambda frames: counted(accumulated(frames, lambda frame: min(3 * frame, STEP))),
 )
 known(
     "cap-is-turned-round",
-    "Every frame adds MAX_STEPS * STEP or more: take the smaller of the two, and not the larger.",
     lambda frames: counted(accumulated(frames, lambda frame: max(3 * frame, CAP))),
 )
-known(
-    "keeps-the-backlog",
-    "A slow frame runs 8 steps and leaves the rest of its time waiting: "
-    "the frames after it have to make up for it.",
-    lambda frames: counted(accumulated(frames, uncapped, most=CAP // STEP)),
-)
-known(
-    "counts-milliseconds",
-    "The frame is counted in milliseconds and the step in seconds: every frame reaches the cap.",
-    lambda frames: counted([CAP // STEP for _ in frames[:-1]]),
-)
+known("keeps-the-backlog", lambda frames: counted(accumulated(frames, uncapped, most=CAP // STEP)))
+known("counts-milliseconds", lambda frames: counted([CAP // STEP for _ in frames[:-1]]))
 known(
     "takes-seconds-for-milliseconds",
-    "The frame is divided by 1000, but it is in seconds already: almost nothing moves.",
     lambda frames: counted(
         accumulated(frames, lambda frame: min(Fraction(3 * frame, 1000), Fraction(CAP)))
     ),
@@ -167,11 +132,7 @@ def never_shrinks(frames: Frames) -> Answer:
     return counted(steps)
 
 
-known(
-    "accumulator-never-shrinks",
-    "The loop of steps does not end: each step must take STEP from the accumulator.",
-    never_shrinks,
-)
+known("accumulator-never-shrinks", never_shrinks)
 
 
 def steps_of_a_sixtieth(frames: Frames) -> Answer:
@@ -179,19 +140,13 @@ def steps_of_a_sixtieth(frames: Frames) -> Answer:
     return steps, [2 * size for size in sizes]
 
 
-known(
-    "steps-of-another-size",
-    "The steps are 1/60 s long, and each is paid for with 1/120 s; every step must be STEP long.",
-    steps_of_a_sixtieth,
-)
+known("steps-of-another-size", steps_of_a_sixtieth)
 known(
     "steps-with-the-frame-time",
-    "Every frame runs one step of its own length, up to the cap; every step must be STEP long.",
     lambda frames: ([1 for _ in frames[:-1]], different([capped(frame) for frame in frames])),
 )
 known(
     "steps-with-all-of-the-frame-time",
-    "Every frame runs one step of its own length; every step must be STEP long.",
     lambda frames: ([1 for _ in frames[:-1]], different([uncapped(frame) for frame in frames])),
 )
 
@@ -209,11 +164,7 @@ def steps_with_all_that_is_left(frames: Frames) -> Answer:
     return steps, different(sizes)
 
 
-known(
-    "steps-with-all-that-is-left",
-    "A step gets all the time that has gathered; every step must be STEP long.",
-    steps_with_all_that_is_left,
-)
+known("steps-with-all-that-is-left", steps_with_all_that_is_left)
 
 
 def different(sizes: list[int]) -> list[float]:
@@ -230,15 +181,9 @@ def emptied(frames: Frames) -> Answer:
     return counted(steps)
 
 
-known(
-    "emptied-by-a-step",
-    "A step empties the accumulator: what is left beyond STEP is lost; take STEP from it.",
-    emptied,
-)
+known("emptied-by-a-step", emptied)
 known(
     "drops-the-remainder+no-cap",
-    "What is left of a frame after its whole steps is never run; it belongs to the next frame. "
-    "Also: A slow frame is simulated in full: add MAX_STEPS * STEP at the most.",
     lambda frames: counted([whole_steps(uncapped(frame)) for frame in frames[:-1]]),
 )
 
@@ -255,11 +200,7 @@ def sixtieths(frames: Frames) -> Answer:
     return steps, [2 * STEP_SECONDS] if any(steps) else []
 
 
-known(
-    "sixtieths-for-steps",
-    "Every step is 1/60 s long, and so is the time it waits for; STEP is half of that.",
-    sixtieths,
-)
+known("sixtieths-for-steps", sixtieths)
 
 
 def steps_with_the_accumulator(frames: Frames) -> Answer:
@@ -273,11 +214,7 @@ def steps_with_the_accumulator(frames: Frames) -> Answer:
     return steps, different(sizes)
 
 
-known(
-    "steps-with-the-accumulator",
-    "Each step in the loop gets all that is in the accumulator; it must be STEP long.",
-    steps_with_the_accumulator,
-)
+known("steps-with-the-accumulator", steps_with_the_accumulator)
 
 
 def steps_with_the_frame(frames: Frames) -> Answer:
@@ -286,11 +223,7 @@ def steps_with_the_frame(frames: Frames) -> Answer:
     return steps, different([uncapped(frame) for count, frame in pairs if count])
 
 
-known(
-    "steps-with-the-frame-in-the-loop",
-    "Each step in the loop gets the time of the whole frame; it must be STEP long.",
-    steps_with_the_frame,
-)
+known("steps-with-the-frame-in-the-loop", steps_with_the_frame)
 
 
 def pair_swapped(frames: Frames) -> Answer:
@@ -303,11 +236,7 @@ def pair_swapped(frames: Frames) -> Answer:
     return counted(steps[1:])
 
 
-known(
-    "pair-the-wrong-way-round",
-    "The pair is the wrong way round: return the accumulator first, then steps.",
-    pair_swapped,
-)
+known("pair-the-wrong-way-round", pair_swapped)
 
 
 def one_more(frames: Frames) -> Answer:
@@ -316,15 +245,9 @@ def one_more(frames: Frames) -> Answer:
     return counted([1 + steps for steps in accumulated(frames, capped)])
 
 
-known(
-    "a-step-more-each-frame",
-    "Each frame runs one step more than the accumulator pays for: does one stand outside the loop?",
-    one_more,
-)
+known("a-step-more-each-frame", one_more)
 known(
     "a-step-less-each-frame",
-    "In each frame one step is paid for that does not run: range(1, n) runs n - 1 times, and "
-    "range(n) n times.",
     lambda frames: counted([max(steps - 1, 0) for steps in accumulated(frames, capped)]),
 )
 
@@ -344,30 +267,12 @@ def second_taken_out(frames: Frames) -> Answer:
 
 known(
     "count-taken-out",
-    "The count of steps is taken out of the accumulator, which holds seconds: a step takes STEP.",
     lambda frames: taken_out(frames, lambda held: int(held / STEP), SECOND),  # towards 0
     second_taken_out,
 )
-known(
-    "no-step-runs",
-    "No step runs, however much time passes. Print the count of steps: is it more than 0? And is "
-    "step(STEP) called so many times?",
-    lambda frames: counted([0 for _ in frames[:-1]]),
-)
+known("no-step-runs", lambda frames: counted([0 for _ in frames[:-1]]))
 
 truth("said", lambda ran: ran)
 
-mistake(
-    "6 7d",
-    "said",
-    "steps-are-not-counted",
-    "The steps run, but they are not counted: steps must be the number of them.",
-    lambda ran: 0,
-)
-mistake(
-    "6 7d",
-    "said",
-    "steps-are-counted-down",
-    "Every step takes one from the count; it must add one.",
-    lambda ran: -ran,
-)
+known_in("6 7d", "said")("steps-are-not-counted", lambda ran: 0)
+known_in("6 7d", "said")("steps-are-counted-down", lambda ran: -ran)

@@ -2,20 +2,23 @@
 
 import math
 from collections.abc import Callable, Sequence
-from functools import partial
 from itertools import product
 
 from grader.checks import exact
 from grader.checks.exact import Accel, State, polynomial
-from grader.judge.misconceptions import mistake, right_models, truth
+from grader.checks.mistakes import known_in
+from grader.judge.misconceptions import right_models, truth
 
 SEMI_IMPLICIT, VERLET, RK4 = "semi_implicit_euler", "velocity_verlet", "rk4"
+SAMPLES = "samples of accel"
 Force = Sequence[float]
 Step = Callable[[float, float, float, Force], State]
 
-known_8a = partial(mistake, "8a", SEMI_IMPLICIT)
-known_8b = partial(mistake, "8b", VERLET)
-known_8c = partial(mistake, "8c", RK4, apart=False)  # x and v share the samples
+known_8a = known_in("8a", SEMI_IMPLICIT)
+known_8b = known_in("8b", VERLET)
+known_8c = known_in("8c", RK4, apart=False)  # x and v share the samples
+known_samples = known_in("8c", SAMPLES)
+KNOWN = {SEMI_IMPLICIT: known_8a, VERLET: known_8b, RK4: known_in("8c", RK4)}
 
 
 def right_semi_implicit(x: float, v: float, dt: float, force: Force) -> State:
@@ -51,13 +54,12 @@ truth(RK4, lambda x, v, dt, force: exact.rk4(x, v, dt, polynomial(force)), like,
 
 
 SPRING = (0.0, -((2 * math.pi) ** 2))  # the lesson's
-for todo, about in (("8a", SEMI_IMPLICIT), ("8b", VERLET), ("8c", RK4)):
-    mistake(
-        todo,
-        about,
+for about, known in KNOWN.items():
+    known(
         "the-spring-itself",
-        "The acceleration of the lesson's spring is used, whatever force is asked about: accel(x).",
         lambda x, v, dt, force, about=about: right_models[about](x, v, dt, SPRING),
+        meaning="The acceleration of the lesson's spring is used, whatever force is asked about: "
+        "accel(x).",
     )
 
 
@@ -158,21 +160,9 @@ def explicit_euler(x: float, v: float, dt: float, force: Force) -> State:
     return x + v * dt, v + polynomial(force)(x) * dt
 
 
-known_8a(
-    "explicit-euler-again",
-    "x moves with the old velocity; it must move with the velocity this step has just changed.",
-    explicit_euler,
-)
-known_8b(
-    "explicit-euler-again",
-    "This is explicit Euler: x leaves out the acceleration, v the one at the end of the step.",
-    explicit_euler,
-)
-known_8c(
-    "explicit-euler-again",
-    "This is explicit Euler: it takes one sample, at the start; RK4 takes four.",
-    explicit_euler,
-)
+known_8a("explicit-euler-again", explicit_euler)
+known_8b("explicit-euler-again", explicit_euler)
+known_8c("explicit-euler-again", explicit_euler)
 
 
 def position_first(x: float, v: float, dt: float, force: Force) -> State:
@@ -180,27 +170,13 @@ def position_first(x: float, v: float, dt: float, force: Force) -> State:
     return x, v + polynomial(force)(x) * dt
 
 
-known_8a(
-    "position-first",
-    "x moves first and v follows; semi-implicit Euler changes v first, then x by the new v.",
-    position_first,
-)
-known_8b(
-    "position-first",
-    "x moves without the acceleration, and v uses the acceleration at the end only.",
-    position_first,
-)
+known_8a("position-first", position_first)
+known_8b("position-first", position_first)
 
 
+known_8a("velocity-without-the-step", semi_implicit_with(lambda a, dt: a, times(1.0)))
 known_8a(
-    "velocity-without-the-step",
-    "The whole acceleration is added to v; a step of dt seconds adds accel(x) * dt.",
-    semi_implicit_with(lambda a, dt: a, times(1.0)),
-)
-known_8a(
-    "old-velocity-returned",
-    "x moves with the new velocity, but the old one is returned.",
-    lambda x, v, dt, force: (right_semi_implicit(x, v, dt, force)[0], v),
+    "old-velocity-returned", lambda x, v, dt, force: (right_semi_implicit(x, v, dt, force)[0], v)
 )
 
 
@@ -209,18 +185,10 @@ def velocity_replaced(x: float, v: float, dt: float, force: Force) -> State:
     return x + v * dt, v
 
 
-known_8a(
-    "velocity-is-replaced",
-    "The new v is the change alone: add accel(x) * dt to the v there was.",
-    velocity_replaced,
-)
+known_8a("velocity-is-replaced", velocity_replaced)
 
 
-known_8a(
-    "pair-swapped-and-both-old",
-    "The pair is the wrong way round, and x moves with the old velocity: change v first.",
-    lambda x, v, dt, force: explicit_euler(x, v, dt, force)[::-1],
-)
+known_8a("pair-swapped-and-both-old", lambda x, v, dt, force: explicit_euler(x, v, dt, force)[::-1])
 
 
 def mean_velocity(x: float, v: float, dt: float, force: Force) -> State:
@@ -228,11 +196,7 @@ def mean_velocity(x: float, v: float, dt: float, force: Force) -> State:
     return x + (v + new_v) / 2 * dt, new_v
 
 
-known_8a(
-    "mean-of-both-velocities",
-    "x moves with the mean of the old and the new velocity; it must move with the new one alone.",
-    mean_velocity,
-)
+known_8a("mean-of-both-velocities", mean_velocity)
 
 
 def acceleration_of_v(x: float, v: float, dt: float, force: Force) -> State:
@@ -240,11 +204,7 @@ def acceleration_of_v(x: float, v: float, dt: float, force: Force) -> State:
     return x + v * dt, v
 
 
-known_8a(
-    "acceleration-of-the-velocity",
-    "accel is asked about v; the acceleration depends on the position: accel(x).",
-    acceleration_of_v,
-)
+known_8a("acceleration-of-the-velocity", acceleration_of_v)
 
 
 def moved_alone(x: float, v: float, dt: float, force: Force) -> State:
@@ -252,14 +212,9 @@ def moved_alone(x: float, v: float, dt: float, force: Force) -> State:
     return v * dt, v
 
 
-known_8a(
-    "position-is-replaced",
-    "The new x is the way alone: add v * dt to the x there was.",
-    moved_alone,
-)
+known_8a("position-is-replaced", moved_alone)
 known_8a(
     "changes-alone-are-returned",
-    "What comes back are the changes alone: return x and v with their changes added.",
     lambda x, v, dt, force: ((v + polynomial(force)(x) * dt) * dt, polynomial(force)(x) * dt),
 )
 
@@ -269,17 +224,11 @@ def bent_as_well(x: float, v: float, dt: float, force: Force) -> State:
     return end + polynomial(force)(x) * dt**2 / 2, new_v
 
 
-known_8a(
-    "parabola-with-the-new-velocity",
-    "x gets the acceleration twice: by the new v and by the parabola's term. Leave out the term.",
-    bent_as_well,
-)
+known_8a("parabola-with-the-new-velocity", bent_as_well)
 
 
 known_8a(
-    "velocity-by-the-square-of-the-step",
-    "v changes by accel(x) * dt²; it is accel(x) * dt, without the square.",
-    semi_implicit_with(lambda a, dt: a * dt**2, times(1.0)),
+    "velocity-by-the-square-of-the-step", semi_implicit_with(lambda a, dt: a * dt**2, times(1.0))
 )
 
 
@@ -290,48 +239,25 @@ def parabola(x: float, v: float, dt: float, accel: Accel) -> float:
     return x + v * dt + accel(x) * dt**2 / 2
 
 
-BENDS: dict[str, tuple[str, Callable[[float, float], float]]] = {
-    "half-is-missing-in-x": (
-        "x gets a * dt² of the acceleration in all; on a parabola it is half of that.",
-        lambda a, dt: a * dt**2,
-    ),
-    "straight-line-in-x": (
-        "x moves along a straight line, x + v * dt; the acceleration bends the way.",
-        lambda a, dt: 0.0,
-    ),
-    "square-is-missing-in-x": (
-        "x gets half of a * dt; the square is missing: half of a * dt².",
-        lambda a, dt: a * dt / 2,
-    ),
+BENDS: dict[str, Callable[[float, float], float]] = {
+    "half-is-missing-in-x": lambda a, dt: a * dt**2,
+    "straight-line-in-x": lambda a, dt: 0.0,
+    "square-is-missing-in-x": lambda a, dt: a * dt / 2,
 }
-KICKS: dict[str, tuple[str, Callable[[float, float, float], float]]] = {
-    "sum-instead-of-mean": (
-        "v gets the sum of both accelerations; it needs their mean, half of that.",
-        lambda begin, end, dt: (begin + end) * dt,
-    ),
-    "old-acceleration-twice": (
-        "Both accelerations are the one at the old x; the second belongs to the new x.",
-        lambda begin, end, dt: begin * dt,
-    ),
-    "new-acceleration-only": (
-        "v uses the acceleration at the new x only; it needs the mean of both ends.",
-        lambda begin, end, dt: end * dt,
-    ),
-    "step-is-missing-in-v": (
-        "v gets the mean acceleration itself; in a step of dt seconds it changes by mean * dt.",
-        lambda begin, end, dt: (begin + end) / 2,
-    ),
+KICKS: dict[str, Callable[[float, float, float], float]] = {
+    "sum-instead-of-mean": lambda begin, end, dt: (begin + end) * dt,
+    "old-acceleration-twice": lambda begin, end, dt: begin * dt,
+    "new-acceleration-only": lambda begin, end, dt: end * dt,
+    "step-is-missing-in-v": lambda begin, end, dt: (begin + end) / 2,
 }
 
 
 def known_bend(name: str) -> None:
-    words, bend = BENDS[name]
-    known_8b(name, words, verlet_with(bend, mean_times(1.0)))
+    known_8b(name, verlet_with(BENDS[name], mean_times(1.0)))
 
 
 def known_kick(name: str) -> None:
-    words, kick = KICKS[name]
-    known_8b(name, words, verlet_with(bent(1.0), kick))
+    known_8b(name, verlet_with(bent(1.0), KICKS[name]))
 
 
 known_kick("old-acceleration-twice")
@@ -341,7 +267,6 @@ known_bend("half-is-missing-in-x")
 known_bend("straight-line-in-x")
 known_8b(
     "semi-implicit-euler-again",
-    "This is semi-implicit Euler: it never asks for the acceleration at the new x.",
     lambda x, v, dt, force: exact.semi_implicit_euler(x, v, dt, polynomial(force)),
 )
 
@@ -357,48 +282,21 @@ def end_on_a_straight_line(x: float, v: float, dt: float, force: Force) -> State
     return parabola(x, v, dt, accel), v + (accel(x) + accel(x + v * dt)) / 2 * dt
 
 
-known_8b(
-    "end-on-a-straight-line",
-    "The second acceleration is taken at x + v * dt; it belongs to where x ends, on the parabola.",
-    end_on_a_straight_line,
-)
-known_8b(
-    "force-at-the-mean-place",
-    "v uses the acceleration at the mean place; it needs the mean of the accelerations at both "
-    "ends. For a spring the two are the same.",
-    acceleration_at_the_mean_place,
-)
+known_8b("end-on-a-straight-line", end_on_a_straight_line)
+known_8b("force-at-the-mean-place", acceleration_at_the_mean_place)
 
 
 midpoint = weighed(USUAL, (0, 1, 0, 0))
 
 
-known_8b(
-    "midpoint-method",
-    "This is the midpoint method: it samples half-way; Verlet uses both ends of the step.",
-    midpoint,
-)
-known_8c(
-    "midpoint-method",
-    "This is the midpoint method: it stops after the second of the four samples.",
-    midpoint,
-)
+known_8b("midpoint-method", midpoint)
+known_8c("midpoint-method", midpoint)
 
 
-known_8b(
-    "old-half-alone",
-    "v gets half of the old acceleration; the half of the one at the new x is missing.",
-    verlet_with(bent(1.0), lambda old, new, dt: old * dt / 2),
-)
-known_8b(
-    "new-half-alone",
-    "v gets half of the acceleration at the new x; the half of the old one is missing.",
-    verlet_with(bent(1.0), lambda old, new, dt: new * dt / 2),
-)
+known_8b("old-half-alone", verlet_with(bent(1.0), lambda old, new, dt: old * dt / 2))
+known_8b("new-half-alone", verlet_with(bent(1.0), lambda old, new, dt: new * dt / 2))
 known_8b(
     "mean-without-brackets",
-    "Only one of the two accelerations is halved or multiplied by dt: put brackets around their "
-    "sum, (old + new) / 2 * dt.",
     verlet_with(bent(1.0), lambda old, new, dt: old + new / 2 * dt),
     verlet_with(bent(1.0), lambda old, new, dt: (old + new / 2) * dt),
     verlet_with(bent(1.0), lambda old, new, dt: old + new * dt / 2),
@@ -408,7 +306,6 @@ known_8b(
 )
 known_8b(
     "mean-by-the-square-of-the-step",
-    "v changes by the mean * dt²; it is the mean * dt, without the square.",
     verlet_with(bent(1.0), lambda old, new, dt: (old + new) / 2 * dt**2),
 )
 
@@ -419,11 +316,7 @@ def acceleration_returned(x: float, v: float, dt: float, force: Force) -> State:
     return end, accel(end)
 
 
-known_8b(
-    "acceleration-for-velocity",
-    "The acceleration is returned in the place of v.",
-    acceleration_returned,
-)
+known_8b("acceleration-for-velocity", acceleration_returned)
 
 
 def old_acceleration_of_v(x: float, v: float, dt: float, force: Force) -> State:
@@ -432,11 +325,7 @@ def old_acceleration_of_v(x: float, v: float, dt: float, force: Force) -> State:
     return end, v + (accel(v) + accel(end)) / 2 * dt
 
 
-known_8b(
-    "acceleration-of-the-velocity",
-    "accel is asked about v; the acceleration depends on the position: accel(x).",
-    old_acceleration_of_v,
-)
+known_8b("acceleration-of-the-velocity", old_acceleration_of_v)
 
 
 # ---------------------------------------------------------------- 8c
@@ -451,11 +340,7 @@ def samples_that_lead_on(x: float, v: float, dt: float, force: Force) -> State:
     return x, v
 
 
-known_8c(
-    "samples-lead-on",
-    "Each sample goes on from the place of the one before; all of them begin at x and v.",
-    samples_that_lead_on,
-)
+known_8c("samples-lead-on", samples_that_lead_on)
 
 
 def euler_in_x(x: float, v: float, dt: float, force: Force) -> State:
@@ -463,30 +348,15 @@ def euler_in_x(x: float, v: float, dt: float, force: Force) -> State:
     return x + end * dt, end
 
 
-known_8c(
-    "new-velocity-in-x",
-    "x moves with the new velocity alone; it needs the four velocities, weighed as v is.",
-    euler_in_x,
-)
-known_8c(
-    "weights-are-swapped",
-    "The first and the last sample count twice; it is the two in the middle that do: 1, 2, 2, 1.",
-    weighed(USUAL, (2 / 6, 1 / 6, 1 / 6, 2 / 6)),
-    apart=True,
-)
-known_8c(
-    "mean-of-both-ends",
-    "Only the start and the end are sampled; RK4 takes two samples in the middle as well.",
-    weighed(WHOLE_STEPS, (1 / 2, 1 / 2, 0, 0)),
-)
+known_8c("new-velocity-in-x", euler_in_x)
+known_8c("weights-are-swapped", weighed(USUAL, (2 / 6, 1 / 6, 1 / 6, 2 / 6)), apart=True)
+known_8c("mean-of-both-ends", weighed(WHOLE_STEPS, (1 / 2, 1 / 2, 0, 0)))
 known_8c(
     "velocity-is-not-sampled",
-    "Only the acceleration is sampled four times; each sample has a velocity of its own too.",
     weighed(USUAL, RIGHT_WEIGHTS, tuple((before, 0.0) for before, _ in USUAL)),
 )
 known_8c(
     "step-stays-halved",
-    "dt is halved for the samples and stays so: the step covers only half of its time.",
     lambda x, v, dt, force: weighed(WHOLE_STEPS, RIGHT_WEIGHTS)(x, v, dt / 2, force),
 )
 
@@ -500,75 +370,51 @@ def three_eighths(x: float, v: float, dt: float, force: Force) -> State:
     return x + dt / 8 * (v1 + 3 * v2 + 3 * v3 + v4), v + dt / 8 * (a1 + 3 * a2 + 3 * a3 + a4)
 
 
-known_8c(
-    "three-eighths",
-    "This is the 3/8 rule, as good a method but another: RK4 samples the middle twice and weighs "
-    "1, 2, 2, 1.",
-    three_eighths,
-)
+known_8c("three-eighths", three_eighths)
 
 
 # ---------------------------------------------------------------- a part left out, or typed in
 
 
 TYPED = {"1/60": 1 / 60, "1/30": 1 / 30, "1/120": 1 / 120, "1/40": 1 / 40}
-for todo, about in (("8a", SEMI_IMPLICIT), ("8b", VERLET), ("8c", RK4)):
+for about, known in KNOWN.items():
     for words, seconds in TYPED.items():
-        mistake(
-            todo,
-            about,
+        known(
             f"step-of-{words.replace('/', '-')}",
-            f"Every step is taken to last {words} s; it lasts dt.",
             lambda x, v, dt, force, about=about, seconds=seconds: right_models[about](
                 x, v, seconds, force
             ),
+            meaning=f"Every step is taken to last {words} s; it lasts dt.",
         )
-    mistake(
-        todo,
-        about,
+    known(
         "velocity-returned-first",
-        "The pair is the wrong way round: return x first, then v.",
         lambda x, v, dt, force, about=about: right_models[about](x, v, dt, force)[::-1],
+        meaning="The pair is the wrong way round: return x first, then v.",
     )
-    mistake(
-        todo,
-        about,
+    known(
         "x-is-not-moved",
-        "x comes back as it was: it must move.",
         lambda x, v, dt, force, about=about: (x, right_models[about](x, v, dt, force)[1]),
+        meaning="x comes back as it was: it must move.",
     )
-    mistake(
-        todo,
-        about,
+    known(
         "v-is-not-changed",
-        "v comes back as it was: the acceleration must change it.",
         lambda x, v, dt, force, about=about: (right_models[about](x, v, dt, force)[0], v),
+        meaning="v comes back as it was: the acceleration must change it.",
     )
 
 
-known_8a(
-    "moves-a-whole-second",
-    "x moves by v; in a step of dt seconds it moves by v * dt.",
-    semi_implicit_with(lambda a, dt: a * dt, lambda v, dt: v),
-)
+known_8a("moves-a-whole-second", semi_implicit_with(lambda a, dt: a * dt, lambda v, dt: v))
 known_8a(
     "acceleration-has-the-wrong-sign",
-    "v changes the wrong way: add accel(x) * dt, whose sign says which way.",
     semi_implicit_with(lambda a, dt: -a * dt, lambda v, dt: v * dt),
 )
-known_8a(
-    "velocity-is-not-used",
-    "v does not change: add accel(x) * dt to it before x moves.",
-    semi_implicit_with(lambda a, dt: 0.0, lambda v, dt: v * dt),
-)
+known_8a("velocity-is-not-used", semi_implicit_with(lambda a, dt: 0.0, lambda v, dt: v * dt))
 
 
 known_bend("square-is-missing-in-x")
 known_kick("step-is-missing-in-v")
-for bend_name, (bend_words, bend) in BENDS.items():
-    for kick_name, (kick_words, kick) in KICKS.items():
-        both = verlet_with(bend, kick)
-        known_8b(f"{bend_name}+{kick_name}", f"{bend_words} Also: {kick_words}", both)
+for (bend_name, bend), (kick_name, kick) in product(BENDS.items(), KICKS.items()):
+    known_8b(f"{bend_name}+{kick_name}", verlet_with(bend, kick))
 
 
 def changed_twice(x: float, v: float, dt: float, force: Force) -> State:
@@ -579,11 +425,7 @@ def changed_twice(x: float, v: float, dt: float, force: Force) -> State:
     return x, v + (begin + accel(x)) / 2 * dt
 
 
-known_8b(
-    "velocity-changes-twice",
-    "v changes twice: before x moves, and by the mean after it. Leave out the first.",
-    changed_twice,
-)
+known_8b("velocity-changes-twice", changed_twice)
 
 
 def speed_left_out(x: float, v: float, dt: float, force: Force) -> State:
@@ -592,11 +434,7 @@ def speed_left_out(x: float, v: float, dt: float, force: Force) -> State:
     return end, v + (accel(x) + accel(end)) / 2 * dt
 
 
-known_8b(
-    "speed-is-missing-in-x",
-    "x moves by the acceleration alone: v * dt is missing.",
-    speed_left_out,
-)
+known_8b("speed-is-missing-in-x", speed_left_out)
 
 
 def second_at_v(x: float, v: float, dt: float, force: Force) -> State:
@@ -606,86 +444,46 @@ def second_at_v(x: float, v: float, dt: float, force: Force) -> State:
 
 known_8b(
     "acceleration-of-the-velocity",
-    "The second acceleration is that at v; accel is asked about the new x.",
     second_at_v,
+    meaning="The second acceleration is that at v; accel is asked about the new x.",
 )
 
 
 # ---------------------------------------------------------------- 8c: other samples, other weights
 
-SAMPLES = "samples of accel"
 truth(
     SAMPLES,
     places_of(USUAL),
     like,
     {f"the position of k{n + 1}": [n] for n in range(4)},
 )
-OTHER_SAMPLES: dict[str, tuple[str, tuple[Source, ...]]] = {
-    "second-sample-at-full-step": (
-        "The second sample, k2, is taken a whole step ahead; it belongs half-way.",
-        ((0, 1.0), (1, 0.5), (2, 1.0)),
-    ),
-    "third-sample-at-full-step": (
-        "The third sample, k3, is taken a whole step ahead; it belongs half-way.",
-        ((0, 0.5), (1, 1.0), (2, 1.0)),
-    ),
-    "last-sample-at-half-step": (
-        "The last sample is taken half-way; it belongs to the end of the step.",
-        ((0, 0.5), (1, 0.5), (2, 0.5)),
-    ),
-    "middle-samples-at-full-step": (
-        "All samples are taken a whole step ahead; the two in the middle belong half-way.",
-        WHOLE_STEPS,
-    ),
-    "third-sample-repeats-the-second": (
-        "The third sample starts from the first again; it must use what the second one found.",
-        ((0, 0.5), (0, 0.5), (2, 1.0)),
-    ),
-    "last-sample-uses-the-second": (
-        "The last sample, k4, goes on from the second; it must use what the third one found.",
-        ((0, 0.5), (1, 0.5), (1, 1.0)),
-    ),
-    "every-sample-from-the-first": (
-        "Every sample starts from the first one; each must use what the one before it found.",
-        ((0, 0.5), (0, 0.5), (0, 1.0)),
-    ),
+OTHER_SAMPLES: dict[str, tuple[Source, ...]] = {
+    "second-sample-at-full-step": ((0, 1.0), (1, 0.5), (2, 1.0)),
+    "third-sample-at-full-step": ((0, 0.5), (1, 1.0), (2, 1.0)),
+    "last-sample-at-half-step": ((0, 0.5), (1, 0.5), (2, 0.5)),
+    "middle-samples-at-full-step": WHOLE_STEPS,
+    "third-sample-repeats-the-second": ((0, 0.5), (0, 0.5), (2, 1.0)),
+    "last-sample-uses-the-second": ((0, 0.5), (1, 0.5), (1, 1.0)),
+    "every-sample-from-the-first": ((0, 0.5), (0, 0.5), (0, 1.0)),
 }
-OTHER_WEIGHTS: dict[str, tuple[str, tuple[tuple[float, ...], ...]]] = {
-    "equal-weights": (
-        "All four samples weigh the same; the two in the middle count twice: 1, 2, 2, 1.",
-        ((1 / 4,) * 4, (1 / 6,) * 4),
-    ),
-    "sum-is-not-divided": (
-        "The weighted sum is used as it is; the weights 1, 2, 2, 1 add up to 6, so divide by 6.",
-        ((1.0, 2.0, 2.0, 1.0),),
-    ),
-    "third-sample-counts-once": (
-        "The third sample, k3, counts once; it counts twice, like the second: 1, 2, 2, 1.",
-        ((1 / 6, 2 / 6, 1 / 6, 1 / 6), (1 / 5, 2 / 5, 1 / 5, 1 / 5)),
-    ),
-    "second-sample-counts-once": (
-        "The second sample, k2, counts once; it counts twice, like the third: 1, 2, 2, 1.",
-        ((1 / 6, 1 / 6, 2 / 6, 1 / 6), (1 / 5, 1 / 5, 2 / 5, 1 / 5)),
-    ),
-    "divided-by-another-number": (
-        "The weighted sum is divided by a number other than 6, which is what 1, 2, 2, 1 add up to.",
-        tuple((1 / n, 2 / n, 2 / n, 1 / n) for n in (2, 3, 4, 5, 8)),
-    ),
-    "one-middle-sample-stands-twice": (
-        "One of the two samples in the middle counts for both of them: k2 and k3 count 2 each.",
-        ((1 / 6, 4 / 6, 0.0, 1 / 6), (1 / 6, 0.0, 4 / 6, 1 / 6)),
-    ),
+OTHER_WEIGHTS: dict[str, tuple[tuple[float, ...], ...]] = {
+    "equal-weights": ((1 / 4,) * 4, (1 / 6,) * 4),
+    "sum-is-not-divided": ((1.0, 2.0, 2.0, 1.0),),
+    "third-sample-counts-once": ((1 / 6, 2 / 6, 1 / 6, 1 / 6), (1 / 5, 2 / 5, 1 / 5, 1 / 5)),
+    "second-sample-counts-once": ((1 / 6, 1 / 6, 2 / 6, 1 / 6), (1 / 5, 1 / 5, 2 / 5, 1 / 5)),
+    "divided-by-another-number": tuple((1 / n, 2 / n, 2 / n, 1 / n) for n in (2, 3, 4, 5, 8)),
+    "one-middle-sample-stands-twice": ((1 / 6, 4 / 6, 0.0, 1 / 6), (1 / 6, 0.0, 4 / 6, 1 / 6)),
     "last-sample-is-missing": (
-        "Only three samples count; the fourth, k4, at the end of the step, is missing.",
-        ((1 / 5, 2 / 5, 2 / 5, 0.0), (1 / 6, 2 / 6, 2 / 6, 0.0), (1 / 4, 2 / 4, 1 / 4, 0.0)),
+        (1 / 5, 2 / 5, 2 / 5, 0.0),
+        (1 / 6, 2 / 6, 2 / 6, 0.0),
+        (1 / 4, 2 / 4, 1 / 4, 0.0),
     ),
 }
-for sample_name, (sample_words, sources) in OTHER_SAMPLES.items():
-    mistake("8c", SAMPLES, sample_name, sample_words, places_of(sources))
-    known_8c(sample_name, sample_words, weighed(sources, RIGHT_WEIGHTS))
-for weight_name, (weight_words, many) in OTHER_WEIGHTS.items():
-    models = (weighed(USUAL, weights) for weights in many)
-    known_8c(weight_name, weight_words, *models, apart=True)
+for sample_name, sources in OTHER_SAMPLES.items():
+    known_samples(sample_name, places_of(sources))
+    known_8c(sample_name, weighed(sources, RIGHT_WEIGHTS))
+for weight_name, many in OTHER_WEIGHTS.items():
+    known_8c(weight_name, *(weighed(USUAL, weights) for weights in many), apart=True)
 
 
 PLACES = ("first", "second", "third", "fourth")
@@ -705,17 +503,17 @@ for number, (before, reach) in enumerate(USUAL, 1):
         name = f"k{number + 1}-from-k{source + 1}-at-{share:g}"
         for part, places, speeds in (("position", other, USUAL), ("velocity", USUAL, other)):
             words = f"The {part} {told}"
-            mistake("8c", SAMPLES, f"{part}-of-{name}", words, places_of(places, speeds))
-            known_8c(f"{part}-of-{name}", words, weighed(places, RIGHT_WEIGHTS, speeds))
+            known_samples(f"{part}-of-{name}", places_of(places, speeds), meaning=words)
+            known_8c(f"{part}-of-{name}", weighed(places, RIGHT_WEIGHTS, speeds), meaning=words)
 
 
 for number, (before, reach) in enumerate(USUAL, 1):
     other = (*USUAL[: number - 1], (number, reach), *USUAL[number:])
     known_8c(
         f"position-of-k{number + 1}-by-its-own-velocity",
-        f"The position of the {PLACES[number]} sample, k{number + 1}, is moved by its own "
-        f"velocity; it must be moved by that of the {PLACES[before]} one.",
         weighed(other, RIGHT_WEIGHTS, USUAL),
+        meaning=f"The position of the {PLACES[number]} sample, k{number + 1}, is moved by its own "
+        f"velocity; it must be moved by that of the {PLACES[before]} one.",
     )
 
 
@@ -723,12 +521,7 @@ def pairs_joined(x: float, v: float, dt: float, force: Force) -> State:
     return x + dt / 6 * v, v + dt / 6 * polynomial(force)(x)
 
 
-known_8c(
-    "pairs-are-joined",
-    "Only the first sample counts, divided by 6. + joins two pairs to one of four numbers, and 2 * "
-    "repeats a pair: add the velocities and the accelerations one by one.",
-    pairs_joined,
-)
+known_8c("pairs-are-joined", pairs_joined)
 
 
 def led_by_acceleration(x: float, v: float, dt: float, force: Force) -> tuple[float, ...]:
@@ -748,22 +541,8 @@ def each_from_the_last(x: float, v: float, dt: float, force: Force) -> tuple[flo
     return tuple(dict.fromkeys(places))
 
 
-mistake(
-    "8c",
-    SAMPLES,
-    "acceleration-leads-to-the-places",
-    "The place of a sample is moved by the acceleration of the one before; it is moved by its "
-    "velocity.",
-    led_by_acceleration,
-)
-mistake(
-    "8c",
-    SAMPLES,
-    "each-sample-from-the-last-place",
-    "Each sample goes on from the place of the one before; all of them start from x, where the "
-    "step begins.",
-    each_from_the_last,
-)
+known_samples("acceleration-leads-to-the-places", led_by_acceleration)
+known_samples("each-sample-from-the-last-place", each_from_the_last)
 
 
 # ---------------------------------------------------------------- a factor too much
@@ -772,19 +551,20 @@ FACTORS = (("half", "half of", 0.5), ("twice", "twice", 2.0), ("opposite", "the 
 for name, words, factor in FACTORS:
     known_8a(
         f"{name}-the-way",
-        f"x moves by {words} v * dt; it moves by v * dt, with the new v.",
         semi_implicit_with(times(1.0), times(factor)),
+        meaning=f"x moves by {words} v * dt; it moves by v * dt, with the new v.",
     )
     if factor != 2.0:  # twice as much is half too little
         known_8b(
             f"{name}-the-bend",
-            f"x bends by {words} a * dt² / 2; it bends by a * dt² / 2, with the old a.",
             verlet_with(bent(factor), mean_times(1.0)),
+            meaning=f"x bends by {words} a * dt² / 2; it bends by a * dt² / 2, with the old a.",
         )
         known_8b(
             f"{name}-the-mean",
-            f"v changes by {words} the mean of both accelerations * dt; it is that mean * dt.",
             verlet_with(bent(1.0), mean_times(factor)),
+            meaning=f"v changes by {words} the mean of both accelerations * dt; it is that mean "
+            "* dt.",
         )
 
 
@@ -795,9 +575,4 @@ def sum_without_dt(x: float, v: float, dt: float, force: Force) -> State:
     return x, v
 
 
-known_8c(
-    "sum-without-the-step",
-    "The mean of the samples is added as it is; a step of dt seconds adds it times dt.",
-    sum_without_dt,
-    apart=True,
-)
+known_8c("sum-without-the-step", sum_without_dt, apart=True)

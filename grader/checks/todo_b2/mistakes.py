@@ -1,17 +1,17 @@
 """Known mistakes in TODO B2, as models of what one step of a spring does to its ends."""
 
 import math
-from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Pair, Spring
-from grader.judge.misconceptions import Undecided, mistake, truth
+from grader.checks.mistakes import known_in
+from grader.judge.misconceptions import Undecided, truth
 
 Ends = tuple[Pair, Pair]  # velocities of A and B, px/s
 
 truth("spring", exact.spring_applied)
 
-known = partial(mistake, "B2", "spring")
+known = known_in("B2", "spring")
 
 
 def pulled(spring: Spring, force: float) -> Ends:
@@ -23,39 +23,17 @@ def brake(spring: Spring) -> float:
     return spring.damping * spring.rod.speed
 
 
-known(
-    "pushes-when-stretched",
-    "The force is turned round: a stretched spring must pull.",
-    lambda s: pulled(s, -s.stiffness * s.stretch - brake(s)),
-)
-known(
-    "damping-drives",
-    "The damping has the wrong sign: it must work against the speed.",
-    lambda s: pulled(s, s.stiffness * s.stretch - brake(s)),
-)
-known(
-    "damping-is-forgotten",
-    "The damping is left out: the spring swings for ever.",
-    lambda s: pulled(s, s.stiffness * s.stretch),
-)
+known("pushes-when-stretched", lambda s: pulled(s, -s.stiffness * s.stretch - brake(s)))
+known("damping-drives", lambda s: pulled(s, s.stiffness * s.stretch - brake(s)))
+known("damping-is-forgotten", lambda s: pulled(s, s.stiffness * s.stretch))
 known(
     "takes-the-distance-for-the-stretch",
-    "The force grows with the distance; it must grow with what that is above the length at rest.",
     lambda s: pulled(s, s.stiffness * (s.stretch + s.rod.length) + brake(s)),
 )
-known(
-    "stretch-the-other-way",
-    "The stretch is turned round: it is the distance minus the length at rest.",
-    lambda s: pulled(s, -s.stiffness * s.stretch + brake(s)),
-)
-known(
-    "only-pulls",
-    "It only pulls, like a rubber band; a squeezed spring must push.",
-    lambda s: pulled(s, max(0.0, s.stiffness * s.stretch + brake(s))),
-)
+known("stretch-the-other-way", lambda s: pulled(s, -s.stiffness * s.stretch + brake(s)))
+known("only-pulls", lambda s: pulled(s, max(0.0, s.stiffness * s.stretch + brake(s))))
 known(
     "a-hundred-and-twentieth",
-    "The force acts for 1/120 s whatever dt is; it must act for dt seconds.",
     lambda s: exact.pushed(s.rod, -(s.stiffness * s.stretch + brake(s)) / 120),
 )
 
@@ -71,14 +49,9 @@ def brakes_all(spring: Spring) -> Ends:
     return (ax + a * fx, ay + a * fy), (bx - b * fx, by - b * fy)
 
 
-known(
-    "damps-sideways-as-well",
-    "The damping brakes what goes across the spring, too; it is for the speed along it.",
-    brakes_all,
-)
+known("damps-sideways-as-well", brakes_all)
 known(
     "forgets-the-step",
-    "The force acts for dt seconds: what changes the velocities is force·dt.",
     lambda spring: exact.pushed(spring.rod, -spring.stiffness * spring.stretch - brake(spring)),
 )
 
@@ -90,11 +63,7 @@ def without_masses(spring: Spring) -> Ends:
     return (ax + change * x, ay + change * y), (bx - change * x, by - change * y)
 
 
-known(
-    "forgets-the-masses",
-    "Both ends get the same change of speed; each takes it by inv_mass.",
-    without_masses,
-)
+known("forgets-the-masses", without_masses)
 
 
 def times_masses(spring: Spring) -> Ends:
@@ -107,21 +76,12 @@ def times_masses(spring: Spring) -> Ends:
     return (ax + a * x, ay + a * y), (bx - b * x, by - b * y)
 
 
-known(
-    "divides-by-the-inverse-mass",
-    "inv_mass is 1/m already: an end takes the impulse times it.",
-    times_masses,
-)
+known("divides-by-the-inverse-mass", times_masses)
 known(
     "offset-for-the-axis",
-    "The force grows with the distance once more: its direction is axis, 1 long, and not offset.",
     lambda s: pulled(s, (s.stiffness * s.stretch + brake(s)) * math.hypot(*s.rod.offset)),
 )
-known(
-    "pulls-when-squeezed",
-    "It pulls however long it is: the stretch has a sign, below 0 for a squeezed spring.",
-    lambda s: pulled(s, s.stiffness * abs(s.stretch) + brake(s)),
-)
+known("pulls-when-squeezed", lambda s: pulled(s, s.stiffness * abs(s.stretch) + brake(s)))
 
 
 def whole_speed(spring: Spring) -> float:
@@ -131,17 +91,7 @@ def whole_speed(spring: Spring) -> float:
 
 known(
     "damps-by-the-whole-speed",
-    "The damping takes the whole speed of B as seen from A; it is for the part along the axis, "
-    "which has a sign: a dot product.",
     lambda s: pulled(s, s.stiffness * s.stretch + s.damping * whole_speed(s)),
 )
-known(
-    "moves-only-a",
-    "Only A is pulled; B must get the opposite impulse.",
-    lambda spring: (exact.spring_applied(spring)[0], spring.rod.vel_b),
-)
-known(
-    "moves-only-b",
-    "Only B is pulled; A must get the opposite impulse.",
-    lambda spring: (spring.rod.vel_a, exact.spring_applied(spring)[1]),
-)
+known("moves-only-a", lambda spring: (exact.spring_applied(spring)[0], spring.rod.vel_b))
+known("moves-only-b", lambda spring: (spring.rod.vel_a, exact.spring_applied(spring)[1]))

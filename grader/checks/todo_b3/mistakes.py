@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Callable, Sequence
-from functools import partial
 from itertools import product
 
 from grader.checks.exact import Disc, Rect
-from grader.judge.misconceptions import always, mistake, truth
+from grader.checks.mistakes import known_in
+from grader.judge.misconceptions import always, truth
 
 CELL = 48.0  # px; who has chosen another is not told the mistake's name
 
@@ -18,7 +18,7 @@ Model = Callable[[Sequence[Disc], Sequence[Rect], Pairs], Pairs]
 truth("contacts", lambda balls, boxes, touching: touching)
 truth("comparison of all", always(False))
 
-known = partial(mistake, "B3", "contacts")
+known = known_in("B3", "contacts")
 
 
 def grid(cells_of: Callable[[Bounds], Cells]) -> Model:
@@ -62,27 +62,13 @@ def cells_of_two_corners(bounds: Bounds) -> Cells:
     return {(left, top), (right, bottom)}
 
 
-known(
-    "forgets-the-last-cell",
-    "The last cell of each body is left out: a range ends before its second number.",
-    grid(lambda bounds: cells(bounds, beyond=0)),
-)
+known("forgets-the-last-cell", grid(lambda bounds: cells(bounds, beyond=0)))
 known(
     "nothing-left-of-zero",
-    "Bodies left of x = 0 or above y = 0 are in no cell; cells have negative numbers, too.",
     grid(lambda bounds: {(x, y) for x, y in cells(bounds) if x >= 0 and y >= 0}),
 )
-known(
-    "only-the-cell-of-the-centre",
-    "A body lies in every cell that its extent reaches, not only in that of its centre.",
-    grid(cell_of_the_centre),
-)
-known(
-    "only-the-cells-of-the-corners",
-    "A large body lies in all cells from corner to corner, not in those of the corners alone.",
-    grid(cells_of_the_corners),
-    grid(cells_of_two_corners),
-)
+known("only-the-cell-of-the-centre", grid(cell_of_the_centre))
+known("only-the-cells-of-the-corners", grid(cells_of_the_corners), grid(cells_of_two_corners))
 
 
 def once_per_cell(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
@@ -90,11 +76,7 @@ def once_per_cell(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs)
     return [(a, b) for a, b in touching for _ in within[a] & within[b]]
 
 
-known(
-    "a-pair-once-per-cell",
-    "Two bodies that share several cells are found once for each; each pair must come once.",
-    once_per_cell,
-)
+known("a-pair-once-per-cell", once_per_cell)
 
 
 def nearest(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
@@ -108,36 +90,15 @@ def nearest(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pa
     return [(a, b) for a, b in touching if nearest_of[a] == b or nearest_of[b] == a]
 
 
-known(
-    "only-the-nearest",
-    "A body can touch several others; it is not enough to look at the nearest.",
-    nearest,
-)
+known("only-the-nearest", nearest)
 
 
-known(
-    "a-pair-in-both-orders",
-    "Each pair comes twice, as (a, b) and as (b, a): combinations(group, 2) yields each once.",
-    lambda balls, boxes, touching: sorted([*touching, *touching]),
-)
+known("a-pair-in-both-orders", lambda balls, boxes, touching: sorted([*touching, *touching]))
 known(
     "boxes-are-left-out",
-    "No box is in any pair: balls touch boxes as well.",
     lambda balls, boxes, touching: [pair for pair in touching if max(pair) < len(balls)],
 )
-known(
-    "no-pair-that-touches",
-    "No two bodies that touch are found: are what is returned pairs of bodies, and those of all "
-    "cells?",
-    lambda balls, boxes, touching: [],
-)
+known("no-pair-that-touches", lambda balls, boxes, touching: [])
 
 # Last, for it says nothing about contacts that are lost: another may tell more.
-mistake(
-    "B3",
-    "comparison of all",
-    "compares-all-pairs",
-    "Every ball is still compared with every other. Only those that share a cell should be, "
-    "and a cell should be little larger than a ball.",
-    always(True),
-)
+known_in("B3", "comparison of all")("compares-all-pairs", always(True))
