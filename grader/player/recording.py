@@ -21,7 +21,6 @@ from grader.protocol import (
     MAX_RODS,
     MAX_TOUCHES,
     Answered,
-    BodyLook,
     BodyRow,
     Call,
     Get,
@@ -56,7 +55,6 @@ class Recorder:
     """Records the requests of a lab: a line of a run for each."""
 
     translator: Translator
-    shows_all: bool = False  # the replay shows every scene, not only the last
     experiment: str = ""
     scenes: list[list[Run]] = field(default_factory=lambda: [[]])
     steps: list[list[Step]] = field(default_factory=lambda: [[]])  # by scene
@@ -68,8 +66,7 @@ class Recorder:
         """Begin another experiment, described by `text`."""
         self.experiment = text
         self._new_scene = self._new_run = True
-        if not self.shows_all:
-            self.translator.begin_scene()
+        self.translator.begin_scene()
 
     def send(self, child: Child, request: Request) -> Answered:
         """Ask the child; record the request unless it only imports or reads."""
@@ -119,14 +116,13 @@ class Recorder:
             answer = describe_reply(Returned(answers[-1]) if answers else recorded.reply)
         for number, look in islice(recorded.looks.items(), MAX_BODIES):
             run.looks[number] = look
-            name = self._name_of(look)
-            run.names[number] = describe_body(
-                look, name.lstrip(ascii_letters) if name else f"{number}"
-            )
+            name = self.translator.names.get(look.ref, "")
+            own = name.lstrip(ascii_letters) if name.isidentifier() else str(number)
+            run.names[number] = describe_body(look, own)
         self._count += len(moments)
         if is_setup(request) and run.lines and run.lines[-1].is_setup:
             run.lines[-1].moments = []  # only the last request of a setup is shown
-        step.line = Line(
+        line = Line(
             signature_of(request),
             answer,
             moments,
@@ -135,32 +131,22 @@ class Recorder:
             find_marks(request, run),
             isinstance(request, Call) and request.work,
         )
-        run.lines.append(step.line)
-        if moments:
-            rows = moments[-1].bodies
-            names = {row.number: self._name_of(run.looks.get(row.number)) for row in rows}
-            step.bodies = {names[row.number]: row for row in rows if names[row.number]}
-
-    def _name_of(self, look: BodyLook | None) -> str:
-        """Return a body's variable in the script; empty if it has none."""
-        name = self.translator.names.get(look.ref, "") if look else ""
-        return name if name.isidentifier() else ""
+        run.lines.append(line)
 
     def _add_step(self, request: Request, answered: Answered) -> Step:
         reply = answered.reply
         assert not isinstance(reply, WithMoments)
         code = self.translator.translate(request, reply)
-        before = self.steps[-1][-1].bodies if self.steps[-1] else {}  # until it is recorded
         value = reply.value if isinstance(reply, Returned) else reply
         watched = self.translator.watched_names(request)
-        step = Step(request, code, value is None, self.translator.recalled, watched, before)
+        step = Step(request, code, value is None, self.translator.recalled, watched)
         self.steps[-1].append(step)
         return step
 
     def scenes_to_show(self) -> slice:
         """Return the last scene, or all; a check that fails between scenes needs all."""
         is_between = self._new_scene and self.scenes[-1] != []
-        return slice(None) if self.shows_all or is_between else slice(-1, None)
+        return slice(None) if is_between else slice(-1, None)
 
 
 class RecordingLab(Lab):
@@ -170,9 +156,8 @@ class RecordingLab(Lab):
         open_child: Callable[[], Child],
         pieces: list[Piece],
         secret: str | None = None,
-        shows_all: bool = False,
     ) -> None:
-        self.recorder = Recorder(Translator(module), shows_all)
+        self.recorder = Recorder(Translator(module))
         super().__init__(module, open_child, pieces, self.recorder.send, secret)
 
     def ran(self, text: str) -> None:
@@ -242,13 +227,7 @@ def record_again(failing: Failing, open_child: OpenChild, pieces: list[Piece]) -
     """Run a failed check again and record it."""
     todo, check = failing.todo, failing.check
     module = check.module or todo.module
-    lab = RecordingLab(
-        module,
-        lambda: open_child(check.cpu_seconds),
-        pieces,
-        failing.secret,
-        shows_all=check.kind == "property",
-    )
+    lab = RecordingLab(module, lambda: open_child(check.cpu_seconds), pieces, failing.secret)
     with lab.opened(), suppress(Exception):
         failing.again(lab=lab)
     return lab

@@ -23,7 +23,7 @@ from grader.player.page import make_page
 from grader.player.pairing import pair_runs
 from grader.player.recording import OpenChild, record_again
 from grader.player.runs import Run
-from grader.player.script import find_parting_step, write_script
+from grader.player.script import write_script
 
 MAX_CHARACTERS, MAX_TOGETHER = 3_000_000, 20_000_000  # of a page and of all; usually 30,000
 MAX_DEATHS = 3  # children that ended, after which no more runs of a submission are recorded
@@ -112,13 +112,10 @@ class Replays:
         expected = [run for runs in right[shown] for run in runs] if len(right) == count else []
         steps = [step for steps in recorder.steps[shown] for step in steps]
         both = pair_runs(yours, expected, exact=self.open_reference is not None)
-        parting = find_parting_step(both, yours, steps)
         task = f"TODO {todo.id}, {todo.title}" if failing.todo.function else todo.title
         title = f"{task}: {check.title}"
         words = [f"Expected: {check.expected}", f"Got: {check.got}"]
-        again = write_script(
-            title, recorder.translator, steps, parting, words, self._has_pacing(lab.module)
-        )
+        again = write_script(title, recorder.translator, steps, words, self._has_pacing(lab.module))
         made = [make_page(title, named_reasons(check), both, again), again]
         return made if len(made[0]) <= MAX_CHARACTERS else None
 

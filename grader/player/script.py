@@ -5,10 +5,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 
-from grader.player.runs import Line, Replay, Run
 from grader.protocol import (
     Argument,
-    BodyRow,
     BodyValue,
     Call,
     ContactValue,
@@ -35,7 +33,6 @@ from grader.text import printable
 
 MAX_COMMENT = 288  # characters
 FINDERS = ("circle_box", "circle_circle", "collide")  # return a Contact or None
-FEW = 40  # a script of so many steps is not shortened
 MANY = 4  # equal lines that become a loop
 STATE = ("pos", "vel", "angle", "omega")
 PARTS = {  # modules of names that a package without a BonusWorld does not export
@@ -48,15 +45,13 @@ Exchange = tuple[Request, Reply]
 
 @dataclass
 class Step:
-    """One request, its code in Python, and the state of the bodies after it."""
+    """One request and its code in Python."""
 
     request: Request
     code: list[str]
     silent: bool  # nothing came back
     recalled: list[str] = field(default_factory=list)  # code that makes objects of earlier scenes
     watched: list[str] = field(default_factory=list)  # names of the bodies that it reads
-    bodies: dict[str, BodyRow] = field(default_factory=dict)  # by name
-    line: Line | None = None  # of the replay
 
 
 @dataclass
@@ -87,7 +82,9 @@ class Translator:
         for ref in made:
             self.makers.setdefault(ref, [(request, reply)])
         if isinstance(request, Set) and request.ref in self.makers:
-            self.makers[request.ref].append((request, reply))
+            maker, *settings = self.makers[request.ref]
+            settings = [each for each in settings if not overrides(request, each[0])]
+            self.makers[request.ref] = [maker, *settings, (request, reply)]
         return code
 
     def _translate(self, request: Request, reply: Reply) -> list[str]:
@@ -252,6 +249,11 @@ class Translator:
         return lines + [f"{name}.joints.append({self.name(ref)})" for ref in request.joints]
 
 
+def overrides(later: Set, earlier: Request) -> bool:
+    """Return whether a request sets all the fields that an earlier one has set."""
+    return isinstance(earlier, Set) and earlier.fields.keys() <= later.fields.keys()
+
+
 def list_refs(value: Value) -> list[int]:
     """Return the numbers of all objects in an answer."""
     match value:
@@ -291,7 +293,6 @@ def write_script(
     title: str,
     translator: Translator,
     steps: Sequence[Step],
-    parting: Step | None,
     words: Sequence[str],
     paced: bool,
 ) -> str:
@@ -303,22 +304,12 @@ def write_script(
     if plays:
         imports, body = write_play(translator.module, plays[-1], paced)
     else:
-        body = list(fold_repeats(shorten(steps, parting)))
+        body = list(fold_repeats(write_calls(steps)))
         imports = list(write_imports(translator, "\n".join(body)))
     comments = [f"# {write_comment(each)}" for each in words if each]
     head = [f"# {write_comment(title)}", "# Run it in the folder of your own files.", "import sys"]
     begin = ['sys.path.insert(0, "")  # your own files come first', ""]
     return "\n".join([*head, *begin, *imports, "", *body, *comments, ""])
-
-
-def find_parting_step(both: Replay, runs: Sequence[Run], steps: Sequence[Step]) -> Step | None:
-    """Return the step at which the runs part."""
-    if both.parting is None:
-        return None
-    number = both.parting.scene
-    pairs = zip(both.scenes[number].lines, runs[number].lines, strict=True)
-    line = [line for pair, line in pairs if pair.at <= both.parting.moment][-1]
-    return next((step for step in steps if step.line is line), None)
 
 
 def write_imports(translator: Translator, body: str) -> Iterator[str]:
@@ -339,27 +330,18 @@ def write_comment(text: str) -> str:
     return cut(printable(text), MAX_COMMENT)
 
 
-def shorten(steps: Sequence[Step], parting: Step | None) -> Iterator[str]:
-    """Yield the script's lines: one round of a long loop, and a `print` for each answer."""
-    start, period = find_rounds(steps)
-    chosen = list(steps)
-    if period:
-        count = (len(steps) - start) // period
-        at = next((i for i, each in enumerate(steps) if each is parting), len(steps) - 1)
-        begin = start + period * min(max(at - start, 0) // period, count - 1)
-        chosen = [*steps[:start], *drop_setup(steps[begin : begin + period])]
-    for index, step in enumerate(chosen):
-        if period and index == start:
-            yield from restore_bodies(steps[start - 1], steps[begin - 1])
+def write_calls(steps: Sequence[Step]) -> Iterator[str]:
+    """Yield the script's lines, with a `print` for each answer."""
+    for step in steps:
         yield from step.recalled
-        last = index == len(chosen) - 1
         for line in step.code:
             assigned = re.match(r"[\w, ]+ = ", line)
             answers = isinstance(step.request, Call | Get) and not assigned
-            yield f"print({print_form(line)})" if answers and (last or not step.silent) else line
+            is_shown = answers and (step is steps[-1] or not step.silent)
+            yield f"print({print_form(line)})" if is_shown else line
         if isinstance(step.request, Integrate):
             yield "print(x, v)"
-    yield from print_last_state(chosen)
+    yield from print_last_state(steps)
 
 
 def fold_repeats(lines: Iterable[str]) -> Iterator[str]:
@@ -372,30 +354,10 @@ def fold_repeats(lines: Iterable[str]) -> Iterator[str]:
             yield from (f"for _ in range({count}):", f"    {line}")
 
 
-def drop_setup(steps: Sequence[Step]) -> list[Step]:
-    """Drop from the end of a round what sets up the next one."""
-    last_call = max((i for i, s in enumerate(steps) if isinstance(s.request, Call)), default=0)
-    return [s for i, s in enumerate(steps) if i < last_call or not isinstance(s.request, Set)]
-
-
 def print_form(code: str) -> str:
     if code.endswith(".find_contacts()"):
         return f"[(each.normal, each.depth, each.point) for each in {code}]"
     return code
-
-
-def find_rounds(steps: Sequence[Step]) -> tuple[int, int]:
-    """Find requests that repeat until the end; return where they begin, and their number."""
-    signs = [signature_of(each.request) for each in steps]
-    if len(signs) <= FEW:
-        return 0, 0
-    for period in range(1, 13):
-        start = len(signs) - period
-        while start >= period and signs[start - period : start] == signs[-period:]:
-            start -= period
-        if (len(signs) - start) // period >= 4:
-            return start, period
-    return 0, 0
 
 
 def signature_of(request: Request) -> str:
@@ -410,15 +372,6 @@ def signature_of(request: Request) -> str:
         case Set(fields=fields):
             return f"set {' '.join(fields)}"
     return type(request).__name__
-
-
-def restore_bodies(before: Step, after: Step) -> Iterator[str]:
-    """Yield code that moves the bodies to their states after the omitted rounds."""
-    for name, row in after.bodies.items():
-        if name in before.bodies and before.bodies[name] != row:
-            yield f"{name}.pos = Vector2({row.x!r}, {row.y!r})"
-            yield f"{name}.vel = Vector2({row.vx!r}, {row.vy!r})"
-            yield f"{name}.angle, {name}.omega = {row.angle!r}, {row.omega!r}"
 
 
 def print_last_state(steps: Sequence[Step]) -> Iterator[str]:
