@@ -20,6 +20,7 @@ class Listeners:
     """The part of a world that its bodies call when something of them is set."""
 
     static_moved_hooks: list[Callable[..., Any]]
+    body_moved_hooks: list[Callable[..., Any]]
     body_changed_hooks: list[Callable[..., Any]]
     lighter_hooks: list[Callable[..., Any]]
 
@@ -70,7 +71,7 @@ class Body:
     __slots__ = (
         *("outline", "segment", "r", "hx", "hy", "m", "inv_mass", "inv_inertia"),
         *("e", "mu", "restitution_given", "friction_given"),
-        *("x", "y", "vx", "vy", "angle", "w"),
+        *("x", "y", "vx", "vy", "angle", "w", "last_x", "last_y"),
         *("id", "world", "is_bullet", "is_kinematic", "idle", "sleeps", "still", "calm", "island"),
         "joint_count",
     )
@@ -102,22 +103,19 @@ class Body:
         else:
             refuse("Body.shape", shape, "a Circle, a Box or a Segment")
         self.outline = shape
-        self.world: Listeners | None = None
-        self.island: Island | None = None  # the bodies it sleeps with
-        self.joint_count = 0  # of the world's joints that are tied to it
-        self.restitution_given = self.friction_given = False
-        self.e, self.mu = RESTITUTION, FRICTION
-        if restitution is not None:
-            self.restitution = restitution
-        if friction is not None:
-            self.friction = friction
-        self.weigh(mass)
         if pos is None:
             refuse("Body.pos", pos, "a pair of numbers, except for a Segment")
         self.x, self.y = pair("Body.pos", pos)  # px
+        self.last_x, self.last_y = self.x, self.y  # px, for Contacts: at the start of the step
         self.vx = self.vy = 0.0  # px/s
         self.angle = 0.0  # rad, clockwise on the screen
         self.w = 0.0  # rad/s
+        self.m = self.inv_mass = self.inv_inertia = 0.0  # see weigh
+        self.e, self.mu = RESTITUTION, FRICTION
+        self.restitution_given = self.friction_given = False
+        self.world: Listeners | None = None
+        self.island: Island | None = None  # the bodies it sleeps with
+        self.joint_count = 0  # of the world's joints that are tied to it
         self.id = 0  # from 1 up for a ball in a world, from -1 down for a static body
         self.is_bullet = bullet
         self.is_kinematic = kinematic
@@ -125,6 +123,12 @@ class Body:
         self.sleeps = False
         self.still = 0.0  # s, how long it has been slow enough to sleep
         self.calm = 0.0  # px²/s², its speed when that began, squared
+        # from here on methods run: a compiled attribute is fast if it was set before any did
+        self.weigh(mass)
+        if restitution is not None:
+            self.restitution = restitution
+        if friction is not None:
+            self.friction = friction
 
     def __repr__(self) -> str:
         mass = f", mass={self.m:g}, vel=({self.vx:g}, {self.vy:g})" if self.m else ""
@@ -230,6 +234,9 @@ class Body:
     @pos.setter
     def pos(self, value: Iterable[float]) -> None:
         self.x, self.y = pair("Body.pos", value)
+        if self.world:
+            for body_moved in self.world.body_moved_hooks:
+                body_moved(self)
         self.moved()
 
     @property

@@ -1,44 +1,88 @@
-"""Find the bodies that are near each other, by sort and sweep: the broad phase."""
+"""Find the pairs of bodies that are near each other, by sort and sweep: the broad phase."""
 
 from operator import attrgetter
 
 from .body import Body
+from .contact import Contact
 
-FAR = 0.25  # radii; a ball that has moved further in a step is fast
+ROOM = 0.1  # radii, on each side of a body that can move
+CROWD = 2  # near pairs for each such body; of more, many are not worth their looks
+LONGEST = 0.5  # s, that a room covers
+SHUFFLED = 8  # steps, after which the order of the sweep has changed much
+WIDER = 1.1  # times, must bodies be spread along the other axis for the sweep to change to it
 FEW = 8  # boxes, so few that dropping any is not worth it
 
 
-class Bounds:
-    """The bounding box of a body, along the axis of the sweep and across it."""
+class Pair:
+    """Two bodies that are near each other, and their contact while they touch."""
 
-    __slots__ = ("body", "high", "low", "place", "side_high", "side_low", "x", "y")
+    __slots__ = ("a", "b", "contact")
+
+    def __init__(self, a: Body, b: Body) -> None:
+        self.a = a  # always a ball with mass: the one with the higher id
+        self.b = b
+        self.contact: Contact | None = None
+
+
+class Bounds:
+    """The room of a body, in which its centre may move, and the box that it cannot leave then.
+
+    Along the axis of the sweep the box goes from low to high, across it from side_low to side_high.
+    """
+
+    __slots__ = (
+        *("body", "place", "near", "margin", "left", "right", "top", "bottom"),
+        *("high", "low", "side_high", "side_low"),
+    )
 
     def __init__(self, body: Body, place: int) -> None:
         self.body = body
         self.place = place  # in the world's list
-        self.x, self.y = body.x, body.y  # px, when contacts were last found
+        self.near = False  # whether any other body is near
+        self.margin = ROOM * min(body.hx, body.hy)  # px, room on each side
+        self.left = self.right = body.x  # px
+        self.top = self.bottom = body.y  # px
         self.low = self.high = self.side_low = self.side_high = 0.0  # px
 
-    def update(self, upright: bool, margin: float) -> None:
-        """Take over where the body is. Low ends are moved out by margin px."""
-        body = self.body
-        x, y, hx, hy = body.x, body.y, body.hx, body.hy
-        self.x, self.y = x, y
-        if upright:
-            self.low, self.high = y - hy - margin, y + hy
-            self.side_low, self.side_high = x - hx - margin, x + hx
-        else:
-            self.low, self.high = x - hx - margin, x + hx
-            self.side_low, self.side_high = y - hy - margin, y + hy
+    def make_room(self, back: float, ahead: float, fall_x: float, fall_y: float) -> None:
+        """Make room for the way of a body, from so many seconds ago to so many ahead.
 
-    def cover_way(self, upright: bool, x: float, y: float) -> None:
-        """Widen the box to cover the way from (x, y) as well."""
-        along, across = x - self.x, y - self.y
+        A ball falls on its way, if nothing near may hold it.
+        """
+        body, margin = self.body, self.margin
+        left, right = body.x - margin, body.x + margin
+        top, bottom = body.y - margin, body.y + margin
+        dx, dy = body.vx * ahead, body.vy * ahead
+        back_x, back_y = body.vx * back, body.vy * back
+        if not (self.near or body.idle):
+            dx, dy = dx + fall_x, dy + fall_y
+        if dx > 0:
+            right += dx
+        else:
+            left += dx
+        if dy > 0:
+            bottom += dy
+        else:
+            top += dy
+        if back_x > 0:
+            left -= back_x
+        else:
+            right -= back_x
+        if back_y > 0:
+            top -= back_y
+        else:
+            bottom -= back_y
+        self.left, self.right, self.top, self.bottom = left, right, top, bottom
+
+    def update_box(self, upright: bool, margin: float) -> None:
+        """Work out the box. Low ends are moved out by margin px."""
+        hx, hy = self.body.hx, self.body.hy
         if upright:
-            along, across = across, along
-        self.low, self.high = self.low + min(along, 0.0), self.high + max(along, 0.0)
-        self.side_low += min(across, 0.0)
-        self.side_high += max(across, 0.0)
+            self.low, self.high = self.top - hy - margin, self.bottom + hy
+            self.side_low, self.side_high = self.left - hx - margin, self.right + hx
+        else:
+            self.low, self.high = self.left - hx - margin, self.right + hx
+            self.side_low, self.side_high = self.top - hy - margin, self.bottom + hy
 
     def wins_tie(self, other: "Bounds") -> bool:
         """Return whether the sweep comes to this box first, of two that begin at one place."""
@@ -47,49 +91,83 @@ class Bounds:
         return self.place < other.place
 
 
-ORDER = attrgetter("low", "side_low", "place")  # of the sweep
+LOW = attrgetter("low")
 
 
 class BroadPhase:
-    """A sweep along the axis on which the awake bodies are spread wider.
+    """The pairs of bodies that are near each other, found by a sweep.
 
-    It meets each box where it begins; the boxes that began before and have not ended are the only
-    ones it can be near. Those that have ended are dropped once they may be half of all: that costs
-    less than dropping each at once. Bodies move little from step to step, so the order of one sweep
-    is nearly that of the next: a box that lies wrong is moved down to where it belongs (insertion
-    sort).
+    Each body has room to move, and pairs are near whose boxes with all their room overlap. So no
+    other pair can touch until a body has left its room; only then the sweep is made anew. Rooms are
+    longer the longer the last ones lasted, and shorter where too many pairs are near.
+
+    The sweep goes along the axis on which the awake bodies are spread wider. It meets each box
+    where it begins; the boxes that began before and have not ended are the only ones it can be
+    near. Those that have ended are dropped once they may be half of all: that costs less than
+    dropping each at once.
     """
 
     def __init__(self) -> None:
-        self.bounds: list[Bounds] = []  # in the order of the last sweep
-        self.sorted = False
+        self.bounds: list[Bounds] = []  # of all bodies, in the order of the last sweep
+        self.moving: list[Bounds] = []  # of those that can move
+        self.widest = 0.0  # px, half of the widest that can move
+        self.pairs: list[Pair] = []
+        self.is_stale = True
+        self.is_sorted = False
         self.upright = False  # whether the sweep goes along y
-        self.fast: list[
-            tuple[Bounds, float, float]
-        ] = []  # whose boxes cover their ways from (x, y)
+        self.ahead = 0.0  # s, that rooms cover
+        self.age = 0.0  # s, of the rooms
 
     def take(self, bodies: list[Body]) -> None:
         """Begin anew, with these bodies."""
-        self.fast = []
         self.bounds = [Bounds(body, place) for place, body in enumerate(bodies)]
-        self.sorted = False
+        self.moving = [b for b in self.bounds if not b.body.idle or b.body.is_kinematic]
+        self.widest = max([max(b.body.hx, b.body.hy) for b in self.moving], default=0.0)
+        self.is_stale, self.is_sorted = True, False
 
-    def near_pairs(self, awake: list[Body], margin: float) -> list[tuple[Body, Body]]:
-        """Pairs whose bounding boxes come within margin px, one of the two awake; higher id first.
+    def find_leavers(self, dt: float) -> list[Bounds]:
+        """Return the bounds of the bodies that have left their rooms in a step of dt seconds."""
+        self.age += dt
+        leavers = []
+        for one in self.moving:
+            body = one.body
+            x, y = body.x, body.y
+            if x < one.left or x > one.right or y < one.top or y > one.bottom:
+                leavers.append(one)
+        if leavers:
+            self.is_stale = True
+        return leavers
 
-        The awake ones are among the bodies that were taken.
+    def renew(self, g: tuple[float, float], dt: float, back: float, margin: float) -> None:
+        """Make room for all that can move, and find the pairs whose boxes come within margin px.
+
+        Rooms also cover the way of the last `back` seconds.
         """
-        left, right = min([b.x - b.hx for b in awake]) - margin, max([b.x + b.hx for b in awake])
-        top, bottom = min([b.y - b.hy for b in awake]) - margin, max([b.y + b.hy for b in awake])
-        upright = bottom - top > right - left
+        if self.age >= self.ahead and len(self.pairs) <= CROWD * len(self.moving):
+            ahead = min(max(2 * self.ahead, dt), LONGEST)
+        else:
+            ahead = max(self.ahead / 2, dt)
+        self.is_sorted = self.is_sorted and self.age < SHUFFLED * dt
+        self.is_stale, self.ahead, self.age = False, ahead, 0.0
+        fall_x, fall_y = g[0] * ahead * ahead / 2, g[1] * ahead * ahead / 2
+        for one in self.moving:
+            one.make_room(back, ahead, fall_x, fall_y)
+        self.pairs = self.sweep(margin)
+
+    def sweep(self, margin: float) -> list[Pair]:
+        """Return the pairs whose boxes come within margin px, one of the two able to move."""
+        moving, edge = self.moving, self.widest + margin
+        left, right = min([b.left for b in moving]) - edge, max([b.right for b in moving]) + edge
+        top, bottom = min([b.top for b in moving]) - edge, max([b.bottom for b in moving]) + edge
+        taller = (bottom - top) / (right - left)
+        upright = taller > (1 / WIDER if self.upright else WIDER)
         for one in self.bounds:
-            one.update(upright, margin)
-        for one, x, y in self.fast:
-            one.cover_way(upright, x, y)
+            one.near = False
+            one.update_box(upright, margin)
         self.sort(upright)
         if upright:
             left, right, top, bottom = top, bottom, left, right
-        pairs: list[tuple[Body, Body]] = []
+        pairs: list[Pair] = []
         active: list[Bounds] = []
         most = FEW
         for one in self.bounds:
@@ -97,7 +175,7 @@ class BroadPhase:
             if low >= right:
                 break
             if one.high <= left or side_low >= bottom or side_high <= top:
-                continue  # far from all that are awake
+                continue  # far from all that can move
             if len(active) > most:
                 active = [other for other in active if other.high > low]
                 most = 2 * len(active) + FEW
@@ -106,17 +184,21 @@ class BroadPhase:
                 if other.side_low < side_high and other.side_high > side_low and other.high > low:
                     b = other.body
                     if not (a.idle and b.idle):
-                        pairs.append((a, b) if a.id > b.id else (b, a))
+                        one.near = other.near = True
+                        pairs.append(Pair(a, b) if a.id > b.id else Pair(b, a))
             active.append(one)
         return pairs
 
     def sort(self, upright: bool) -> None:
-        """Put the boxes into the order in which the sweep meets them."""
+        """Put the boxes into the order in which the sweep meets them.
+
+        Bodies move little between two sweeps, so that the order of one is nearly that of the next:
+        a box that lies wrong is moved down to where it belongs (insertion sort).
+        """
         bounds = self.bounds
-        if not self.sorted or upright != self.upright:
-            bounds.sort(key=ORDER)
-            self.sorted, self.upright = True, upright
-            return
+        if not self.is_sorted or upright != self.upright:
+            bounds.sort(key=LOW)
+            self.is_sorted, self.upright = True, upright
         for i in range(1, len(bounds)):
             one, at = bounds[i], i
             low, before = one.low, bounds[i - 1]

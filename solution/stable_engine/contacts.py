@@ -1,10 +1,9 @@
 """Contacts: bodies do not pass through each other."""
 
 from collections.abc import Callable
-from math import hypot
 
 from .body import Body
-from .broad_phase import FAR, Bounds, BroadPhase
+from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, the_way_it_came
 from .effect import Effect, WorldState
 from .soft import SAME_DIRECTION, Pace, softness
@@ -18,9 +17,11 @@ STIFFENING = 0.07  # of a substep, per step
 RESTING_SPEED = 30.0  # 1/s, a slower impact does not bounce
 SPECULATIVE_SPEED = 10.0  # 1/s, slower pairs get a contact before they touch
 CORE = 0.5  # radii
+FAR = 0.125  # of both radii; two balls that come closer by more in a step may have passed
 CORNER_PASSES = 4  # of keeping cores out: put back from one static body, a ball may meet another
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
 TOUCHING = 1e-6  # bodies that are no further apart touch, but for what numbers are rounded to
+MOST_BODIES = 2**30  # and no id is larger
 REDETECT_DISTANCE = 1e-4  # contacts stay valid until a body has moved further
 
 OnHit = Callable[[Body, Body, float], object]
@@ -66,11 +67,13 @@ class Contacts(Effect):
         self.last_dt = 0.0  # s, of the step before
         self.flown: dict[Body, float] = {}  # s, how long a ball flew before it was stopped
         self.broad_phase = BroadPhase()
+        self.near: list[Body] = []  # can move, and are near others
+        self.alone: list[Body] = []  # can move, and are near nobody
+        self.beside_static: list[Body] = []  # balls that are near static bodies
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
         self.groups = [self.balls, self.statics]
-        self.cache: dict[tuple[int, int], Contact] = {}
-        self.sleeping_cache: dict[tuple[int, int], Contact] = {}
-        self.ignored: set[tuple[int, int]] = set()
+        self.unpaired: dict[int, Contact] = {}  # those of sleeping bodies, by their pair's number
+        self.ignored: set[int] = set()  # numbers of pairs
         self.pace = Pace(STIFFENING)
         self.h = 0.0  # s, the substep of the impulses that are kept
 
@@ -81,77 +84,139 @@ class Contacts(Effect):
         self.begin_contact_hooks = world.hooks("begin_contact")
 
     def detect(self, h: float) -> None:
-        bodies = self.world.bodies
-        is_new = len(self.broad_phase.bounds) < len(bodies)
-        self.changed = is_new or self.any_moved()
-        self.begun = []
-        if is_new:
-            self.broad_phase.take(bodies)
+        world, phase, dt = self.world, self.broad_phase, h * self.world.substep_count
+        if len(phase.bounds) != len(world.bodies):
+            phase.take(world.bodies)
+        self.changed = phase.is_stale or self.any_moved()
+        if phase.is_stale:
+            self.renew_pairs(dt)
+        for body in self.alone:
+            body.last_x, body.last_y = body.x, body.y
         if self.changed:
-            self.touching = self.find_contacts(h * self.world.substep_count)
+            for body in self.near:
+                body.last_x, body.last_y = body.x, body.y
+            self.find_contacts(dt)
 
     def any_moved(self) -> bool:
-        """Return whether any body is no longer where contacts were last found."""
+        """Return whether a body with others near is no longer where contacts were last found."""
         far = REDETECT_DISTANCE * self.world.unit
-        for last in self.broad_phase.bounds:
-            body = last.body
-            if abs(body.x - last.x) + abs(body.y - last.y) > far:
+        far2 = far * far
+        for body in self.near:
+            dx, dy = body.x - body.last_x, body.y - body.last_y
+            if dx * dx + dy * dy > far2:
                 return True
         return False
 
-    def find_contacts(self, dt: float) -> list[Contact]:
-        """Return the contacts of all bodies where they are now, with the impulses they had before.
+    def renew_pairs(self, dt: float) -> None:
+        """Find the near pairs anew. Contacts get theirs back where bodies still touch."""
+        phase, margin = self.broad_phase, SPECULATIVE_SPEED * self.world.unit * dt
+        phase.renew(self.world.g, dt, self.last_dt if self.lets_none_pass else 0.0, margin)
+        if self.ignored:
+            phase.pairs = [p for p in phase.pairs if pair_number(p.a, p.b) not in self.ignored]
+        self.near = [one.body for one in phase.moving if one.near]
+        self.alone = [one.body for one in phase.moving if not one.near]
+        self.beside_static = list(dict.fromkeys([p.a for p in phase.pairs if not p.b.inv_mass]))
+        for c in self.touching:
+            self.unpaired[pair_number(c.a, c.b)] = c
+
+    def find_contacts(self, dt: float) -> None:
+        """Find the contacts of all bodies where they are now, with the impulses they had before.
 
         Bodies that touch are in contact. So are slow ones that may touch within dt seconds: such
         a speculative contact lets them close the gap and no more. Fast ones may still miss each
         other, so they get none.
         """
-        slow, touching, push = (
+        touching: list[Contact] = []
+        balls: list[Contact] = []
+        statics: list[Contact] = []
+        deep: list[Contact] = []
+        slow, touching_gap, push = (
             SPECULATIVE_SPEED * self.world.unit,
             self.touching_gap,
             self.max_push_speed,
         )
-        margin = slow * dt
-        cache, found, deep = self.cache, {}, []
-        pairs = self.broad_phase.near_pairs(self.world.awake, margin)
-        any_fast = bool(self.broad_phase.fast)
-        for a, b in pairs:
+        margin, slow2 = slow * dt, slow * slow
+        back = self.last_dt if self.lets_none_pass else 0.0
+        for pair in self.broad_phase.pairs:
+            a, b = pair.a, pair.b
+            dvx, dvy = b.vx - a.vx, b.vy - a.vy
+            if b.r:
+                dx, dy, reach = b.x - a.x, b.y - a.y, a.r + b.r + margin
+                if back:
+                    reach += (abs(dvx) + abs(dvy)) * back
+                if dx * dx + dy * dy > reach * reach:
+                    if pair.contact:
+                        self.end_contact(pair)
+                    continue
             nx, ny, gap = collide(a, b)
             if (
-                gap > touching
-                and (gap > margin or hypot(b.vx - a.vx, b.vy - a.vy) > slow)
-                and not (any_fast and self.have_passed(a, b, gap))
+                gap > touching_gap
+                and (gap > margin or dvx * dvx + dvy * dvy > slow2)
+                and not (back and self.have_passed(a, b, gap))
             ):
+                if pair.contact:
+                    self.end_contact(pair)
                 continue
-            pair = a.id, b.id
-            c = cache.get(pair)
+            c = pair.contact
             if c is None:
-                if pair in self.ignored:
-                    continue
-                c = self.new_contact(a, b)
-                self.begun.append(c)
-                if self.on_hit:
-                    c.nx, c.ny = nx, ny
-                    self.hits.append((a, b, max(c.closing_speed(), 0.0)))
-            else:
+                c = pair.contact = self.find_contact(a, b, nx, ny)
+            if not b.r:
                 nx, ny, gap = the_way_it_came(c, nx, ny, gap)
-                if nx * c.nx + ny * c.ny < SAME_DIRECTION:
-                    c.jn = c.jt = 0.0
+            if nx * c.nx + ny * c.ny < SAME_DIRECTION:
+                c.jn = c.jt = 0.0
             c.nx, c.ny, c.gap, c.found, c.push = nx, ny, gap, gap, push
-            found[pair] = c
+            touching.append(c)
+            if b.inv_mass:
+                balls.append(c)
+            else:
+                statics.append(c)
             if gap < -a.r or gap < -b.r < 0:
                 deep.append(c)
-        if self.on_part:
-            gone = [pair for pair in cache if pair not in found and pair not in self.sleeping_cache]
-            self.parted += [(cache[pair].a, cache[pair].b) for pair in gone]
-        self.cache = found
+        self.touching, self.balls.contacts, self.statics.contacts = touching, balls, statics
+        if self.unpaired:
+            self.end_unpaired()
         if len(deep) > 1:
             share_push(deep, push)
-        return list(found.values())
+
+    def find_contact(self, a: Body, b: Body, nx: float, ny: float) -> Contact:
+        """Return the contact that two bodies had, or a new one, with this normal.
+
+        What other effects need of a new one is filled in.
+        """
+        before = self.unpaired.pop(pair_number(a, b), None)
+        if before is not None:
+            return before
+        c = Contact(a, b)
+        c.nx, c.ny = nx, ny
+        for begin_contact in self.begin_contact_hooks:
+            begin_contact(c)
+        self.begun.append(c)
+        if self.on_hit:
+            self.hits.append((a, b, max(c.closing_speed(), 0.0)))
+        return c
+
+    def end_contact(self, pair: Pair) -> None:
+        """End the contact of two bodies that have parted."""
+        pair.contact = None
+        if self.on_part:
+            self.parted.append((pair.a, pair.b))
+
+    def end_unpaired(self) -> None:
+        """End the contacts of bodies that are not even near each other, but for those that sleep.
+
+        Sleepers keep their impulses: with a warm start a pile wakes calmly.
+        """
+        unpaired, self.unpaired = self.unpaired, {}
+        for number, c in unpaired.items():
+            if c.a.sleeps and c.b.idle:
+                self.unpaired[number] = c
+            elif self.on_part:
+                self.parted.append((c.a, c.b))
 
     def have_passed(self, a: Body, b: Body, gap: float) -> bool:
         """Return whether two free balls have touched on their way here, and are past each other."""
-        if (abs(a.vx - b.vx) + abs(a.vy - b.vy)) * self.last_dt <= gap or not b.r:
+        way = (abs(a.vx - b.vx) + abs(a.vy - b.vy)) * self.last_dt
+        if way <= gap or way <= FAR * (a.r + b.r) or not b.r:
             return False
         if a.joint_count or b.joint_count or self.was_stopped(a) or self.was_stopped(b):
             return False
@@ -161,17 +226,14 @@ class Contacts(Effect):
         """Return whether a bullet met something static in the step before."""
         return body.is_bullet and body in self.flown
 
-    def new_contact(self, a: Body, b: Body) -> Contact:
-        """Return a contact, with what other effects need of it filled in."""
-        c = Contact(a, b)
-        for begin_contact in self.begin_contact_hooks:
-            begin_contact(c)
-        return c
-
     def ignore_pair(self, a: Body, b: Body) -> None:
         """Let A and B pass through each other: a joint may hold them overlapping."""
-        self.ignored |= pair_both_ways(a, b)
-        self.cache = {pair: c for pair, c in self.cache.items() if pair not in self.ignored}
+        self.ignored.add(pair_number(a, b))
+        self.drop(a, b)
+
+    def heed_pair(self, a: Body, b: Body) -> None:
+        """Let A and B touch again."""
+        self.ignored.discard(pair_number(a, b))
         self.broad_phase.bounds = []
 
     def prepare(self, h: float) -> None:
@@ -182,8 +244,6 @@ class Contacts(Effect):
         self.statics.bias_rate, self.statics.mass_scale = softness(2 * hertz, DAMPING_RATIO, h)
         if not self.changed:
             return
-        self.balls.contacts = [c for c in self.touching if c.b.inv_mass]
-        self.statics.contacts = [c for c in self.touching if not c.b.inv_mass]
         for c in self.touching:
             a, b, nx, ny = c.a, c.b, c.nx, c.ny
             c.ax, c.ay = nx * a.inv_mass, ny * a.inv_mass
@@ -267,16 +327,11 @@ class Contacts(Effect):
 
         The core is half as wide as the ball, so that one that slides is not held up at a seam.
         """
+        self.begun = []
         self.flown, self.last_dt = {}, h * self.world.substep_count
-        fast = []
-        for last in self.broad_phase.bounds:
-            body = last.body
-            distance = abs(body.x - last.x) + abs(body.y - last.y)
-            if distance > FAR * body.hx:
-                fast.append((last, last.x, last.y))
-                if distance > body.r:
-                    self.stop_core(last, h)
-        self.broad_phase.fast = fast if self.lets_none_pass else []
+        leavers = [one.body for one in self.broad_phase.find_leavers(self.last_dt)]
+        for body in dict.fromkeys([*self.beside_static, *leavers]):
+            self.stop_core(body, h)
         for _ in range(CORNER_PASSES):
             put_back = []
             for c in self.statics.contacts:
@@ -286,16 +341,14 @@ class Contacts(Effect):
                     put_back.append(a)
             if not put_back:
                 break
-            for last in self.broad_phase.bounds:
-                if last.body in put_back:
-                    self.stop_core(last, h)
+            for body in dict.fromkeys(put_back):
+                self.stop_core(body, h)
 
-    def stop_core(self, last: Bounds, h: float) -> None:
+    def stop_core(self, body: Body, h: float) -> None:
         """Stop a ball that has gone further than its radius where its core met a static body."""
-        body = last.body
-        distance = abs(body.x - last.x) + abs(body.y - last.y)
+        distance = abs(body.x - body.last_x) + abs(body.y - body.last_y)
         if distance > body.r > 0 and not (body.is_bullet or body.is_static):
-            self.sweep(body, (last.x, last.y), CORE * body.r, 0.0, h)
+            self.sweep(body, (body.last_x, body.last_y), CORE * body.r, 0.0, h)
 
     def let_no_deeper(self, c: Contact, gap: float) -> bool:
         """Put a ball back whose core got into a static body, or deeper than it was, and stop it.
@@ -323,11 +376,9 @@ class Contacts(Effect):
         """
         if c.found < -c.a.r:
             return True
-        for last in self.broad_phase.bounds:
-            if last.body is c.a:
-                way = c.a.x - last.x, c.a.y - last.y
-                return first_hit([c.b], 0.0, last.x, last.y, *way) < NO_HIT
-        return False
+        a = c.a
+        way = a.x - a.last_x, a.y - a.last_y
+        return first_hit([c.b], 0.0, a.last_x, a.last_y, *way) < NO_HIT
 
     def tell(self, h: float) -> None:
         """Tell of hits and partings, those whose bodies are still there."""
@@ -351,15 +402,24 @@ class Contacts(Effect):
         """
         statics = self.world.statics
         if self.ignored:
-            statics = [s for s in statics if (body.id, s.id) not in self.ignored]
+            statics = [s for s in statics if pair_number(body, s) not in self.ignored]
         fraction = stop_at_first_hit(body, start, radius, overlap, statics, self.world.g, h)
         if fraction < 1:
             self.flown[body] = fraction * h * self.world.substep_count
 
+    def all_contacts(self) -> list[Contact]:
+        """Return all contacts, those between sleeping bodies among them."""
+        return list(dict.fromkeys([*self.touching, *self.unpaired.values()]))
+
     def of_body(self, body: Body) -> list[Contact]:
         """Return the contacts of a body, those it sleeps with among them."""
-        contacts = [*self.cache.values(), *self.sleeping_cache.values()]
-        return [c for c in contacts if body in (c.a, c.b)]
+        return [c for c in self.all_contacts() if body in (c.a, c.b)]
+
+    def wake_beside(self, body: Body) -> None:
+        """Wake whatever touches a body."""
+        for c in self.of_body(body):
+            c.a.wake()
+            c.b.wake()
 
     def body_changed(self, body: Body) -> None:
         """Fill its contacts in anew, and wake whatever touches it."""
@@ -367,8 +427,7 @@ class Contacts(Effect):
             c.mn = 1 / (c.a.inv_mass + c.b.inv_mass)
             for begin_contact in self.begin_contact_hooks:
                 begin_contact(c)
-            c.a.wake()
-            c.b.wake()
+        self.wake_beside(body)
         self.broad_phase.bounds = []
 
     def lighter(self, body: Body, share: float) -> None:
@@ -376,7 +435,7 @@ class Contacts(Effect):
 
         They begin the next step with the impulses of this one, and would be thrown up.
         """
-        contacts = [*self.cache.values(), *self.sleeping_cache.values()]
+        contacts = self.all_contacts()
         balls = in_touch(body, contacts)
         mass = sum([ball.m for ball in balls])
         left = 0.0 if body.is_static else (mass - body.m * (1 - share)) / mass
@@ -385,12 +444,15 @@ class Contacts(Effect):
                 c.jn *= left
                 c.jt *= left
 
+    def body_moved(self, body: Body) -> None:
+        """Look for near pairs anew."""
+        self.broad_phase.bounds = []
+
     def static_moved(self, body: Body) -> None:
         """Wake the bodies that sleep on it or touch it now."""
         world = self.world
         if len(world.awake) + len(world.statics) < len(world.bodies):
-            for c in self.of_body(body):
-                c.a.wake()
+            self.wake_beside(body)
             for other in world.bodies:
                 dx, dy = abs(other.x - body.x), abs(other.y - body.y)
                 if other.sleeps and dx < other.hx + body.hx and dy < other.hy + body.hy:
@@ -398,13 +460,14 @@ class Contacts(Effect):
 
     def forget(self, body: Body) -> None:
         """Wake whatever touches it: it may have lain on it."""
-        for c in self.of_body(body):
-            c.a.wake()
-            c.b.wake()
-        gone = {(c.a.id, c.b.id) for c in self.of_body(body)}
-        self.cache = {pair: c for pair, c in self.cache.items() if pair not in gone}
-        self.sleeping_cache = {p: c for p, c in self.sleeping_cache.items() if p not in gone}
-        self.touching = [c for c in self.touching if body not in (c.a, c.b)]
+        self.wake_beside(body)
+        self.drop(body, body)
+
+    def drop(self, a: Body, b: Body) -> None:
+        """Drop all contacts that have A and B: they are not told of as parted."""
+        ends = {a, b}
+        self.touching = [c for c in self.touching if not ends <= {c.a, c.b}]
+        self.unpaired = {n: c for n, c in self.unpaired.items() if not ends <= {c.a, c.b}}
         self.broad_phase.bounds = []
 
     def is_used(self) -> bool:
@@ -414,11 +477,8 @@ class Contacts(Effect):
         return [(c.a, c.b) for c in self.touching]
 
     def awake_changed(self) -> None:
-        """Keep the impulses between sleeping bodies: with a warm start a pile wakes calmly."""
         self.broad_phase.bounds = []
-        self.cache = self.sleeping_cache | self.cache
-        self.sleeping_cache = {pair: c for pair, c in self.cache.items() if c.a.sleeps}
-        self.pace.awake_changed(bool(self.sleeping_cache))
+        self.pace.awake_changed(any([c.a.sleeps for c in self.all_contacts()]))
 
 
 def in_touch(body: Body, contacts: list[Contact]) -> set[Body]:
@@ -449,6 +509,6 @@ def share_push(deep: list[Contact], push: float) -> None:
             c.push = push / max(crowd[c.a], crowd[c.b])
 
 
-def pair_both_ways(a: Body, b: Body) -> set[tuple[int, int]]:
-    """Return the pair by its ids, whichever comes first."""
-    return {(a.id, b.id), (b.id, a.id)}
+def pair_number(a: Body, b: Body) -> int:
+    """Return a number that only this pair of bodies has, whichever comes first."""
+    return max(a.id, b.id) * MOST_BODIES + min(a.id, b.id)

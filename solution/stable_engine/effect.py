@@ -121,6 +121,9 @@ class Effect:
     def lighter(self, body: Body, share: float) -> None:
         """Prepare for a body whose mass falls to this share of its old mass: 0 if it leaves."""
 
+    def body_moved(self, body: Body) -> None:
+        """Take over a position of a body that the program has set."""
+
     def static_moved(self, body: Body) -> None:
         """Wake the bodies that a new position, velocity or spin of a static body concerns."""
 

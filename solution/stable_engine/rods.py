@@ -3,7 +3,7 @@
 from math import hypot, sqrt
 
 from .body import Body
-from .contacts import Contacts, pair_both_ways
+from .contacts import Contacts
 from .joint import Joint, Joints
 from .network import Network, connect
 from .soft import SAME_DIRECTION, Pace, softness
@@ -89,7 +89,7 @@ class Rods(Joints[Rod]):
         if not isinstance(contacts, Contacts):
             return
         if may:
-            contacts.ignored -= pair_both_ways(rod.a, rod.b)
+            contacts.heed_pair(rod.a, rod.b)
         else:
             contacts.ignore_pair(rod.a, rod.b)
 

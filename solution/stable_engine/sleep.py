@@ -34,7 +34,10 @@ class Sleep(Effect):
 
     def detect(self, h: float) -> None:
         """Wake islands that an awake ball touches, and those that these touch in turn."""
-        contacts = self.world.effects.get("Contacts")
+        world = self.world
+        if len(world.awake) + len(world.statics) == len(world.bodies):
+            return
+        contacts = world.effects.get("Contacts")
         while isinstance(contacts, Contacts) and (touched := sleepers(contacts)):
             for body in touched:
                 body.wake()

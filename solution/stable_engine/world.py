@@ -66,6 +66,7 @@ class World(WorldState):
         self.tell_hooks = self.hooks("tell")
         self.coast_hooks = self.hooks("coast")
         self.static_moved_hooks = self.hooks("static_moved")
+        self.body_moved_hooks = self.hooks("body_moved")
         self.body_changed_hooks = self.hooks("body_changed")
         self.lighter_hooks = self.hooks("lighter")
         self.forget_hooks = self.hooks("forget")
