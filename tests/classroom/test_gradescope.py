@@ -121,12 +121,9 @@ def test_scripts_lie_at_the_root_ready_to_run(archive: Path):
     assert not [each for each in names if "__pycache__" in each or each.startswith(("/", "."))]
 
 
-def test_the_same_kit_makes_the_same_zip(archive: Path, tmp_path: Path):
+def test_the_same_kit_makes_the_same_zip_with_its_settings(archive: Path, tmp_path: Path):
     write_autograder(tmp_path / "again.zip", Settings())
     assert (tmp_path / "again.zip").read_bytes() == archive.read_bytes()
-
-
-def test_settings_are_in_it(tmp_path: Path):
     write_autograder(tmp_path / "own.zip", Settings("strict", 4711))
     with zipfile.ZipFile(tmp_path / "own.zip") as opened:
         found = msgspec.json.decode(opened.read("settings.json"), type=Settings)
@@ -289,51 +286,9 @@ def test_it_is_set_up_from_its_own_packages_and_grades(tmp_path: Path):
     assert [(top / each).stat().st_mode & 0o777 for each in ("source", "results")] == [0o700] * 2
 
 
-# ---------------------------------------------------------------- the systems that Gradescope has
-
-
-@pytest.mark.parametrize("path", sorted(KIT.glob("requirements*.txt")), ids=lambda path: path.name)
-def test_a_release_candidate_of_python_meets_every_marker(path: Path):
+def test_a_release_candidate_of_python_meets_every_marker():
     """Ubuntu 22.04 has 3.11.0rc1, which to its pip is no full version below 3.12."""
-    core = path.name == "requirements.txt"
-    markers = re.findall(r"python_full_version\s*\S+\s*'(\d+(?:\.\d+)*)'", path.read_text())
-    assert not [version for version in markers if core or version.count(".") < 2]
-
-
-UBUNTU = {"22.04": "jammy", "24.04": "noble"}
-
-
-@pytest.mark.soak
-@pytest.mark.parametrize("release", UBUNTU)
-def test_it_is_set_up_and_grades_on_ubuntu(archive: Path, tmp_path: Path, release: str):
-    """In a root as debootstrap makes it: what Gradescope's images are, without their extras."""
-    if shutil.which("debootstrap") is None or os.geteuid():
-        pytest.skip("making a root of Ubuntu takes debootstrap, and root")
-    root, name = tmp_path / "root", UBUNTU[release]
-    script = Path("/usr/share/debootstrap/scripts/gutsy")  # of all Ubuntus, known to it or not
-    mirrors = re.findall(r"default_mirror (\S+)", script.read_text())
-    mirror = next(each for each in mirrors if "//archive." in each)  # what it takes with a keyring
-    make = ["debootstrap", "--variant=minbase", "--components=main,universe"]
-    made = subprocess.run([*make, "--include=ca-certificates", name, root, mirror, script])
-    if made.returncode:
-        pytest.skip(f"debootstrap reaches no packages of Ubuntu {release} from here")
-    sources = root / "etc/apt/sources.list"
-    lines = sources.read_text()
-    sources.write_text(lines + lines.replace(f" {name} ", f" {name}-updates "))
-    for file in ("etc/resolv.conf", "etc/ssl/certs/ca-certificates.crt"):
-        if Path("/", file).exists():
-            shutil.copy(f"/{file}", root / file)
-    top = root / "autograder"
-    lay_out(archive, top)
-    hand_in(top, "solution")
-    passed_on = ("http_proxy", "https_proxy", "no_proxy", "PIP_INDEX_URL")
-    kept = {key: value for key, value in os.environ.items() if key in passed_on}
-    kept |= {key.upper(): value for key, value in kept.items()}
-    environment = kept | {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root"}
-    script_text = (
-        "/autograder/source/setup.sh && mount -t proc proc /proc && "
-        "{ /autograder/run_autograder; status=$?; umount /proc; exit $status; }"
-    )
-    inside = ["chroot", str(root), "/bin/sh", "-c", script_text]
-    subprocess.run(inside, env=environment | {"DEBIAN_FRONTEND": "noninteractive"}, check=True)
-    assert json.loads((top / "results" / "results.json").read_bytes())["score"] == 100
+    for path in KIT.glob("requirements*.txt"):
+        core = path.name == "requirements.txt"
+        markers = re.findall(r"python_full_version\s*\S+\s*'(\d+(?:\.\d+)*)'", path.read_text())
+        assert not [version for version in markers if core or version.count(".") < 2], path

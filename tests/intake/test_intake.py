@@ -549,10 +549,3 @@ def test_what_the_teacher_tried_in_canvas_is_nobodys(classroom):
     with open_class(classroom) as intake:
         assert intake.names == ["doejane_12"] and len(intake.notes) == 2
         assert intake.notes[0].endswith("is left out: the teacher's own trial")
-
-
-@pytest.mark.parametrize("empty", [",,", " , ,\t"])
-def test_a_blank_row_of_a_class_list_is_nobody(tmp_path, empty):
-    path = tmp_path / "list.csv"
-    path.write_text(f"Email address,First name,Last name\n{empty}\na@x,A,L\n{empty}\n")
-    assert [row["Email address"] for row in read_roster(path).rows] == ["a@x"]
