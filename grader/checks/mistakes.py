@@ -3,12 +3,22 @@
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
+from typing import Protocol, TypeVar
 
 from grader.judge.misconceptions import Model, mistake
 
 MEANINGS: dict[str, dict[str, str]] = tomllib.loads(
     Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")
 )
+Decorated = TypeVar("Decorated", bound=Model)
+
+
+class Known(Protocol):
+    """Register the models of a mistake, or the function that this decorates."""
+
+    def __call__(
+        self, name: str, *models: Model, meaning: str = "", apart: bool = ...
+    ) -> Callable[[Decorated], Decorated]: ...
 
 
 def meaning_of(todo: str, name: str) -> str:
@@ -19,15 +29,23 @@ def meaning_of(todo: str, name: str) -> str:
     return " Also: ".join(meanings[each] for each in name.split("+"))
 
 
-def known_in(todos: str, about: str, apart: bool = True) -> Callable[..., None]:
+def known_in(todos: str, about: str, apart: bool = True) -> Known:
     """Return a function that registers mistakes of these TODOs, in observations called `about`.
 
-    Call it with the name of a mistake and its models. Of several TODOs, the first one's table has
-    the sentences. See `mistake` for `apart`.
+    The first TODO's table has the sentences. See `mistake` for `apart`.
     """
 
-    def known(name: str, *models: Model, meaning: str = "", apart: bool = apart) -> None:
+    def known(
+        name: str, *models: Model, meaning: str = "", apart: bool = apart
+    ) -> Callable[[Decorated], Decorated]:
         meaning = meaning or meaning_of(todos.split()[0], name)
-        mistake(todos, about, name, meaning, *models, apart=apart)
+
+        def register(model: Decorated) -> Decorated:
+            mistake(todos, about, name, meaning, model, apart=apart)
+            return model
+
+        for model in models:
+            register(model)
+        return register
 
     return known

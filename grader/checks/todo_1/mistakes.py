@@ -118,12 +118,12 @@ def on_an_edge(disc: Disc, edge: Rect) -> Answer:
 known_in("1", "order")("the-box-comes-first", lambda disc, rect: (False, False))
 
 
+@known("normal-points-out-of-the-box")
 def normal_points_out(disc: Disc, rect: Rect) -> Answer:
     answer = right(disc, rect)
     return answer and turned(answer)
 
 
-known("normal-points-out-of-the-box", normal_points_out)
 known(
     "inside-is-forgotten", lambda disc, rect: None if is_inside(disc, rect) else right(disc, rect)
 )
@@ -148,6 +148,7 @@ known(
 )
 
 
+@known("inside-leaves-by-the-farthest-face")
 def farthest_face(disc: Disc, rect: Rect) -> Answer:
     if not is_inside(disc, rect):
         return right(disc, rect)
@@ -157,16 +158,11 @@ def farthest_face(disc: Disc, rect: Rect) -> Answer:
     return deepest[0]
 
 
-known("inside-leaves-by-the-farthest-face", farthest_face)
-
-
+@known("inside-always-leaves-by-the-top")
 def top_face(disc: Disc, rect: Rect) -> Answer:
     if not is_inside(disc, rect):
         return right(disc, rect)
     return exact.ways_out(disc, rect)[2]
-
-
-known("inside-always-leaves-by-the-top", top_face)
 
 
 def face_by_share(disc: Disc, rect: Rect) -> Answer:
@@ -209,14 +205,15 @@ known(
 )
 
 
+@known("normal-points-at-the-centre-of-the-box")
+@outside
 def normal_to_centre(touch: Touch, disc: Disc, rect: Rect) -> Touch:
     dx, dy = rect.x - disc.x, rect.y - disc.y
     return with_normal(touch, dx / math.hypot(dx, dy), dy / math.hypot(dx, dy))
 
 
-known("normal-points-at-the-centre-of-the-box", outside(normal_to_centre))
-
-
+@known("corner-normal-along-an-axis")
+@outside
 def normal_along_an_axis(touch: Touch, disc: Disc, rect: Rect) -> Touch:
     if abs(touch.nx) == abs(touch.ny):
         raise Undecided
@@ -225,7 +222,6 @@ def normal_along_an_axis(touch: Touch, disc: Disc, rect: Rect) -> Touch:
     return with_normal(touch, 0.0, math.copysign(1.0, touch.ny))
 
 
-known("corner-normal-along-an-axis", outside(normal_along_an_axis))
 known(
     "point-lies-on-the-circle",
     outside(
@@ -248,12 +244,12 @@ known(
 known("apart-is-not-noticed", lambda disc, rect: any_distance(disc, rect))
 
 
+@known("touching-counts-as-overlap")
 def touching(disc: Disc, rect: Rect) -> Answer:
     touch = any_distance(disc, rect)
     return touch if touch.depth >= 0 else None
 
 
-known("touching-counts-as-overlap", touching)
 known(
     "half-is-taken-for-the-full-size", in_another_box(lambda x, y, hx, hy: (x, y, hx / 2, hy / 2))
 )
@@ -287,14 +283,12 @@ known(
 )
 
 
+@known("test-is-turned-round")
 def overlap_turned_round(disc: Disc, rect: Rect) -> Answer:
     answer = any_distance(disc, rect)
     if is_inside(disc, rect) or math.isclose(answer.depth, 0.0, abs_tol=1e-9):
         raise Undecided  # either way
     return None if answer.depth > 0 else answer
-
-
-known("test-is-turned-round", overlap_turned_round)
 
 
 def distance_squared(disc: Disc, rect: Rect) -> Answer:

@@ -89,13 +89,13 @@ known(
 )
 
 
+@known("divides-by-the-inverse")
 def divided(a: Lever, b: Lever, axis: Pair) -> float:
     if not (a.mass and b.mass):
         raise Undecided  # a division by 0
     return with_term(lambda lever, axis: lever_cross(lever, axis) ** 2 * lever.inertia)(a, b, axis)
 
 
-known("divides-by-the-inverse", divided)
 known(
     "inverse-inertia-is-squared",
     with_term(lambda lever, axis: (lever_cross(lever, axis) * inverse(lever.inertia)) ** 2),
@@ -154,12 +154,12 @@ known(
 known("returns-the-inverse", lambda a, b, axis: 1 / exact.effective_mass(a, b, axis))
 
 
+@known("arms-are-crossed")
 def arms_crossed(a: Lever, b: Lever, axis: Pair) -> float:
     both = cross((a.rx, a.ry), (b.rx, b.ry)) ** 2
     return masses(a, b) + both * (inverse(a.inertia) + inverse(b.inertia))
 
 
-known("arms-are-crossed", arms_crossed)
 known(
     "mass-counts-twice",
     with_term(

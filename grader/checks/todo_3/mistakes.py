@@ -137,8 +137,6 @@ def impulse_made_anew_for_a(rod: Rod) -> Ends:
 
 
 known("impulse-made-anew", velocities(impulse_made_anew), velocities(impulse_made_anew_for_a))
-
-
 known(
     "nothing-where-bias-is-0",
     velocities(
@@ -151,30 +149,27 @@ known(
 )
 
 
+@known("velocity-changed-in-place")
+@velocities
 def speed_taken_from_b(rod: Rod) -> Ends:
     a, (x, y) = exact.pushed(rod, right_impulse(rod))
     return a, (x - rod.vel_a[0], y - rod.vel_a[1])
 
 
-known("velocity-changed-in-place", velocities(speed_taken_from_b))
-
-
+@known("pushes-both-the-same-way")
+@velocities
 def same_way(rod: Rod) -> Ends:
     by = right_impulse(rod) * exact.inverse(rod.mass_a)
     return moved(rod.vel_a, rod.axis, by), exact.pushed(rod, right_impulse(rod))[1]
 
 
-known("pushes-both-the-same-way", velocities(same_way))
-
-
+@known("static-end-first")
+@velocities
 def static_end_first(rod: Rod) -> Ends:
     if rod.mass_b:
         return exact.pushed(rod, right_impulse(rod))
     by = right_impulse(rod) * exact.inverse(rod.mass_a)
     return moved(rod.vel_a, rod.axis, by), rod.vel_b
-
-
-known("static-end-first", velocities(static_end_first))
 
 
 def without_masses(rod: Rod) -> Ends:
@@ -183,8 +178,6 @@ def without_masses(rod: Rod) -> Ends:
 
 
 known("forgets-the-masses", velocities(without_masses))
-
-
 known(
     "forgets-the-mass-of-a",
     velocities(lambda rod: (without_masses(rod)[0], exact.pushed(rod, right_impulse(rod))[1])),
@@ -196,15 +189,16 @@ known(
 known("half-of-the-impulse", velocities(lambda rod: exact.pushed(rod, right_impulse(rod) / 2)))
 
 
+@known("masses-crossed")
+@velocities
 def masses_crossed(rod: Rod) -> Ends:
     by = right_impulse(rod)
     a, b = by * exact.inverse(rod.mass_b), by * exact.inverse(rod.mass_a)
     return moved(rod.vel_a, rod.axis, -a), moved(rod.vel_b, rod.axis, b)
 
 
-known("masses-crossed", velocities(masses_crossed))
-
-
+@known("axis-is-not-a-unit-vector")
+@velocities
 def axis_too_long(rod: Rod) -> Ends:
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.offset
     impulse = (rod.bias - ((bx - ax) * x + (by - ay) * y)) / rod.k
@@ -212,25 +206,22 @@ def axis_too_long(rod: Rod) -> Ends:
     return moved(rod.vel_a, rod.offset, -a), moved(rod.vel_b, rod.offset, b)
 
 
-known("axis-is-not-a-unit-vector", velocities(axis_too_long))
-
-
+@known("velocities-are-replaced")
+@velocities
 def replaced(rod: Rod) -> Ends:
     still = rod._replace(vel_a=(0.0, 0.0), vel_b=(0.0, 0.0))
     return exact.pushed(still, right_impulse(rod))
 
 
-known("velocities-are-replaced", velocities(replaced))
-
-
+@known("shares-equally")
+@velocities
 def halves(rod: Rod) -> Ends:
     by = (rod.bias - rod.speed) / 2
     return moved(rod.vel_a, rod.axis, -by), moved(rod.vel_b, rod.axis, by)
 
 
-known("shares-equally", velocities(halves))
-
-
+@known("stops-the-sideways-speed")
+@velocities
 def whole_velocity(rod: Rod) -> Ends:
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
     wanted = rod.bias * x - (bx - ax), rod.bias * y - (by - ay)
@@ -242,24 +233,18 @@ def whole_velocity(rod: Rod) -> Ends:
     return moved(rod.vel_a, direction, -a), moved(rod.vel_b, direction, b)
 
 
-known("stops-the-sideways-speed", velocities(whole_velocity))
-
-
+@known("moves-positions-instead")
 def placed(rod: Rod) -> Answer:
     if not rod.k:
         raise Undecided
     return rod.vel_a, rod.vel_b, (rod.axis[0] * rod.length, rod.axis[1] * rod.length)
 
 
-known("moves-positions-instead", placed)
-
-
+@known("speed-in-every-direction")
+@velocities
 def by_whole_speed(rod: Rod) -> Ends:
     (ax, ay), (bx, by) = rod.vel_a, rod.vel_b
     return exact.pushed(rod, (rod.bias - math.hypot(bx - ax, by - ay)) / rod.k)
-
-
-known("speed-in-every-direction", velocities(by_whole_speed))
 
 
 def by_one_mass(rod: Rod, mass: float) -> Ends:

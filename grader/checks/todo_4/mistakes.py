@@ -82,30 +82,28 @@ known(
     "clamps-the-increment",
     with_clamp(lambda total, wanted, limit: total + clamped(wanted - total, limit)),
 )
-
-
 known(
     "total-for-the-lower-bound",
     with_clamp(lambda total, wanted, limit: max(-wanted, min(wanted, limit))),
 )
 
 
+@known("always-at-the-limit")
+@with_clamp
 def at_the_limit(total: float, wanted: float, limit: float) -> float:
     if abs(wanted) < 1e-9:
         raise Undecided  # either way
     return math.copysign(limit, wanted)
 
 
-known("always-at-the-limit", with_clamp(at_the_limit))
-
-
+@known("against-the-slip")
+@with_clamp
 def against_the_slip(total: float, wanted: float, limit: float) -> float:
     if math.isclose(wanted, total, rel_tol=1e-9, abs_tol=1e-9):
         raise Undecided  # no slip: either way
     return math.copysign(min(abs(wanted), limit), wanted - total)
 
 
-known("against-the-slip", with_clamp(against_the_slip))
 known(
     "lets-go-beyond-the-limit",
     with_clamp(lambda total, wanted, limit: wanted if abs(wanted) <= limit else 0.0),
@@ -131,6 +129,7 @@ known("half-the-limit", with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1]) * jn 
 known("twice-the-limit", with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1]) * jn * 2))
 
 
+@known("limit-grows-with-the-slip")
 def limit_by_the_slip(mu: Pair, k: float, closing: float, slip: float) -> float:
     if not (mu[0] and mu[1]):
         raise Undecided
@@ -139,9 +138,6 @@ def limit_by_the_slip(mu: Pair, k: float, closing: float, slip: float) -> float:
         now = slip + k * total
         total = max(-limit * now, min(limit * now, total - now / k))
     return total
-
-
-known("limit-grows-with-the-slip", limit_by_the_slip)
 
 
 def kept_as_wanted(applied: Rule) -> Model:

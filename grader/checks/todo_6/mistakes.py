@@ -58,7 +58,6 @@ def right(frames: Frames) -> Answer:
 
 
 truth("frames", right)
-
 known("one-step-per-frame", lambda frames: counted([1 for _ in frames[:-1]]))
 known("one-step-per-frame-at-most", lambda frames: counted(accumulated(frames, capped, most=1)))
 known("assumes-sixty-frames", lambda frames: counted([2 for _ in frames[:-1]]))
@@ -123,6 +122,7 @@ known(
 )
 
 
+@known("accumulator-never-shrinks")
 def never_shrinks(frames: Frames) -> Answer:
     steps: list[int] = []
     for number in range(1, len(frames)):
@@ -132,15 +132,12 @@ def never_shrinks(frames: Frames) -> Answer:
     return counted(steps)
 
 
-known("accumulator-never-shrinks", never_shrinks)
-
-
+@known("steps-of-another-size")
 def steps_of_a_sixtieth(frames: Frames) -> Answer:
     steps, sizes = right(frames)
     return steps, [2 * size for size in sizes]
 
 
-known("steps-of-another-size", steps_of_a_sixtieth)
 known(
     "steps-with-the-frame-time",
     lambda frames: ([1 for _ in frames[:-1]], different([capped(frame) for frame in frames])),
@@ -151,6 +148,7 @@ known(
 )
 
 
+@known("steps-with-all-that-is-left")
 def steps_with_all_that_is_left(frames: Frames) -> Answer:
     steps: list[int] = []
     sizes: list[int] = []
@@ -164,14 +162,12 @@ def steps_with_all_that_is_left(frames: Frames) -> Answer:
     return steps, different(sizes)
 
 
-known("steps-with-all-that-is-left", steps_with_all_that_is_left)
-
-
 def different(sizes: list[int]) -> list[float]:
     """Return each size once, in seconds."""
     return [size / SECOND for size in dict.fromkeys(sizes)][:MAX_STEP_SIZES]
 
 
+@known("emptied-by-a-step")
 def emptied(frames: Frames) -> Answer:
     steps, held = [], 0
     for frame in frames[:-1]:
@@ -181,13 +177,13 @@ def emptied(frames: Frames) -> Answer:
     return counted(steps)
 
 
-known("emptied-by-a-step", emptied)
 known(
     "drops-the-remainder+no-cap",
     lambda frames: counted([whole_steps(uncapped(frame)) for frame in frames[:-1]]),
 )
 
 
+@known("sixtieths-for-steps")
 def sixtieths(frames: Frames) -> Answer:
     """Whole sixtieths, as two steps of the right size would be."""
     steps, held = [], 0
@@ -200,9 +196,7 @@ def sixtieths(frames: Frames) -> Answer:
     return steps, [2 * STEP_SECONDS] if any(steps) else []
 
 
-known("sixtieths-for-steps", sixtieths)
-
-
+@known("steps-with-the-accumulator")
 def steps_with_the_accumulator(frames: Frames) -> Answer:
     steps, sizes, held = [], [], 0
     for frame in frames[:-1]:
@@ -214,18 +208,14 @@ def steps_with_the_accumulator(frames: Frames) -> Answer:
     return steps, different(sizes)
 
 
-known("steps-with-the-accumulator", steps_with_the_accumulator)
-
-
+@known("steps-with-the-frame-in-the-loop")
 def steps_with_the_frame(frames: Frames) -> Answer:
     steps, _ = right(frames)
     pairs = zip(steps, frames, strict=False)
     return steps, different([uncapped(frame) for count, frame in pairs if count])
 
 
-known("steps-with-the-frame-in-the-loop", steps_with_the_frame)
-
-
+@known("pair-the-wrong-way-round")
 def pair_swapped(frames: Frames) -> Answer:
     """Return the number of steps as the seconds that wait: the mistake swaps the two."""
     steps = [0]
@@ -236,16 +226,13 @@ def pair_swapped(frames: Frames) -> Answer:
     return counted(steps[1:])
 
 
-known("pair-the-wrong-way-round", pair_swapped)
-
-
+@known("a-step-more-each-frame")
 def one_more(frames: Frames) -> Answer:
     if max(frames) <= 34:
         raise Undecided  # steps may be slow there: more of them make the last frames longer
     return counted([1 + steps for steps in accumulated(frames, capped)])
 
 
-known("a-step-more-each-frame", one_more)
 known(
     "a-step-less-each-frame",
     lambda frames: counted([max(steps - 1, 0) for steps in accumulated(frames, capped)]),
@@ -271,8 +258,6 @@ known(
     second_taken_out,
 )
 known("no-step-runs", lambda frames: counted([0 for _ in frames[:-1]]))
-
 truth("said", lambda ran: ran)
-
 known_in("6 7d", "said")("steps-are-not-counted", lambda ran: 0)
 known_in("6 7d", "said")("steps-are-counted-down", lambda ran: -ran)

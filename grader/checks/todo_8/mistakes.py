@@ -156,75 +156,65 @@ def weighed(
 # ---------------------------------------------------------------- 8a
 
 
+@known_8a("explicit-euler-again")
 def explicit_euler(x: float, v: float, dt: float, force: Force) -> State:
     return x + v * dt, v + polynomial(force)(x) * dt
 
 
-known_8a("explicit-euler-again", explicit_euler)
 known_8b("explicit-euler-again", explicit_euler)
 known_8c("explicit-euler-again", explicit_euler)
 
 
+@known_8a("position-first")
 def position_first(x: float, v: float, dt: float, force: Force) -> State:
     x += v * dt
     return x, v + polynomial(force)(x) * dt
 
 
-known_8a("position-first", position_first)
 known_8b("position-first", position_first)
-
-
 known_8a("velocity-without-the-step", semi_implicit_with(lambda a, dt: a, times(1.0)))
 known_8a(
     "old-velocity-returned", lambda x, v, dt, force: (right_semi_implicit(x, v, dt, force)[0], v)
 )
 
 
+@known_8a("velocity-is-replaced")
 def velocity_replaced(x: float, v: float, dt: float, force: Force) -> State:
     v = polynomial(force)(x) * dt
     return x + v * dt, v
 
 
-known_8a("velocity-is-replaced", velocity_replaced)
-
-
 known_8a("pair-swapped-and-both-old", lambda x, v, dt, force: explicit_euler(x, v, dt, force)[::-1])
 
 
+@known_8a("mean-of-both-velocities")
 def mean_velocity(x: float, v: float, dt: float, force: Force) -> State:
     new_v = v + polynomial(force)(x) * dt
     return x + (v + new_v) / 2 * dt, new_v
 
 
-known_8a("mean-of-both-velocities", mean_velocity)
-
-
+@known_8a("acceleration-of-the-velocity")
 def acceleration_of_v(x: float, v: float, dt: float, force: Force) -> State:
     v += polynomial(force)(v) * dt
     return x + v * dt, v
 
 
-known_8a("acceleration-of-the-velocity", acceleration_of_v)
-
-
+@known_8a("position-is-replaced")
 def moved_alone(x: float, v: float, dt: float, force: Force) -> State:
     _, v = right_semi_implicit(x, v, dt, force)
     return v * dt, v
 
 
-known_8a("position-is-replaced", moved_alone)
 known_8a(
     "changes-alone-are-returned",
     lambda x, v, dt, force: ((v + polynomial(force)(x) * dt) * dt, polynomial(force)(x) * dt),
 )
 
 
+@known_8a("parabola-with-the-new-velocity")
 def bent_as_well(x: float, v: float, dt: float, force: Force) -> State:
     end, new_v = right_semi_implicit(x, v, dt, force)
     return end + polynomial(force)(x) * dt**2 / 2, new_v
-
-
-known_8a("parabola-with-the-new-velocity", bent_as_well)
 
 
 known_8a(
@@ -277,12 +267,12 @@ def acceleration_at_the_mean_place(x: float, v: float, dt: float, force: Force) 
     return end, v + accel((x + end) / 2) * dt
 
 
+@known_8b("end-on-a-straight-line")
 def end_on_a_straight_line(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     return parabola(x, v, dt, accel), v + (accel(x) + accel(x + v * dt)) / 2 * dt
 
 
-known_8b("end-on-a-straight-line", end_on_a_straight_line)
 known_8b("force-at-the-mean-place", acceleration_at_the_mean_place)
 
 
@@ -291,8 +281,6 @@ midpoint = weighed(USUAL, (0, 1, 0, 0))
 
 known_8b("midpoint-method", midpoint)
 known_8c("midpoint-method", midpoint)
-
-
 known_8b("old-half-alone", verlet_with(bent(1.0), lambda old, new, dt: old * dt / 2))
 known_8b("new-half-alone", verlet_with(bent(1.0), lambda old, new, dt: new * dt / 2))
 known_8b(
@@ -310,27 +298,24 @@ known_8b(
 )
 
 
+@known_8b("acceleration-for-velocity")
 def acceleration_returned(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     end = parabola(x, v, dt, accel)
     return end, accel(end)
 
 
-known_8b("acceleration-for-velocity", acceleration_returned)
-
-
+@known_8b("acceleration-of-the-velocity")
 def old_acceleration_of_v(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     end = x + v * dt + accel(v) * dt**2 / 2
     return end, v + (accel(v) + accel(end)) / 2 * dt
 
 
-known_8b("acceleration-of-the-velocity", old_acceleration_of_v)
-
-
 # ---------------------------------------------------------------- 8c
 
 
+@known_8c("samples-lead-on")
 def samples_that_lead_on(x: float, v: float, dt: float, force: Force) -> State:
     accel, place, speed = polynomial(force), x, v
     for share, weight in ((0.5, 1), (0.5, 2), (1.0, 2), (0.0, 1)):
@@ -340,15 +325,12 @@ def samples_that_lead_on(x: float, v: float, dt: float, force: Force) -> State:
     return x, v
 
 
-known_8c("samples-lead-on", samples_that_lead_on)
-
-
+@known_8c("new-velocity-in-x")
 def euler_in_x(x: float, v: float, dt: float, force: Force) -> State:
     _, end = right_models[RK4](x, v, dt, force)
     return x + end * dt, end
 
 
-known_8c("new-velocity-in-x", euler_in_x)
 known_8c("weights-are-swapped", weighed(USUAL, (2 / 6, 1 / 6, 1 / 6, 2 / 6)), apart=True)
 known_8c("mean-of-both-ends", weighed(WHOLE_STEPS, (1 / 2, 1 / 2, 0, 0)))
 known_8c(
@@ -361,6 +343,7 @@ known_8c(
 )
 
 
+@known_8c("three-eighths")
 def three_eighths(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     v1, a1 = v, accel(x)
@@ -368,9 +351,6 @@ def three_eighths(x: float, v: float, dt: float, force: Force) -> State:
     v3, a3 = v + dt * (a2 - a1 / 3), accel(x + dt * (v2 - v1 / 3))
     v4, a4 = v + dt * (a1 - a2 + a3), accel(x + dt * (v1 - v2 + v3))
     return x + dt / 8 * (v1 + 3 * v2 + 3 * v3 + v4), v + dt / 8 * (a1 + 3 * a2 + 3 * a3 + a4)
-
-
-known_8c("three-eighths", three_eighths)
 
 
 # ---------------------------------------------------------------- a part left out, or typed in
@@ -409,14 +389,13 @@ known_8a(
     semi_implicit_with(lambda a, dt: -a * dt, lambda v, dt: v * dt),
 )
 known_8a("velocity-is-not-used", semi_implicit_with(lambda a, dt: 0.0, lambda v, dt: v * dt))
-
-
 known_bend("square-is-missing-in-x")
 known_kick("step-is-missing-in-v")
 for (bend_name, bend), (kick_name, kick) in product(BENDS.items(), KICKS.items()):
     known_8b(f"{bend_name}+{kick_name}", verlet_with(bend, kick))
 
 
+@known_8b("velocity-changes-twice")
 def changed_twice(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     begin = accel(x)
@@ -425,28 +404,20 @@ def changed_twice(x: float, v: float, dt: float, force: Force) -> State:
     return x, v + (begin + accel(x)) / 2 * dt
 
 
-known_8b("velocity-changes-twice", changed_twice)
-
-
+@known_8b("speed-is-missing-in-x")
 def speed_left_out(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     end = x + accel(x) * dt**2 / 2
     return end, v + (accel(x) + accel(end)) / 2 * dt
 
 
-known_8b("speed-is-missing-in-x", speed_left_out)
-
-
+@known_8b(
+    "acceleration-of-the-velocity",
+    meaning="The second acceleration is that at v; accel is asked about the new x.",
+)
 def second_at_v(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     return parabola(x, v, dt, accel), v + (accel(x) + accel(v)) / 2 * dt
-
-
-known_8b(
-    "acceleration-of-the-velocity",
-    second_at_v,
-    meaning="The second acceleration is that at v; accel is asked about the new x.",
-)
 
 
 # ---------------------------------------------------------------- 8c: other samples, other weights
@@ -517,11 +488,9 @@ for number, (before, reach) in enumerate(USUAL, 1):
     )
 
 
+@known_8c("pairs-are-joined")
 def pairs_joined(x: float, v: float, dt: float, force: Force) -> State:
     return x + dt / 6 * v, v + dt / 6 * polynomial(force)(x)
-
-
-known_8c("pairs-are-joined", pairs_joined)
 
 
 def led_by_acceleration(x: float, v: float, dt: float, force: Force) -> tuple[float, ...]:
@@ -568,11 +537,9 @@ for name, words, factor in FACTORS:
         )
 
 
+@known_8c("sum-without-the-step", apart=True)
 def sum_without_dt(x: float, v: float, dt: float, force: Force) -> State:
     samples = sampled(x, v, dt, force, USUAL)[0]
     for weight, (dx, dv) in zip(RIGHT_WEIGHTS, samples, strict=True):
         x, v = x + weight * dx, v + weight * dv
     return x, v
-
-
-known_8c("sum-without-the-step", sum_without_dt, apart=True)

@@ -38,6 +38,7 @@ known(
 )
 
 
+@known("damps-sideways-as-well")
 def brakes_all(spring: Spring) -> Ends:
     """Return the velocity of B as seen from A is braked, and not its part along the spring."""
     rod = spring.rod
@@ -49,13 +50,13 @@ def brakes_all(spring: Spring) -> Ends:
     return (ax + a * fx, ay + a * fy), (bx - b * fx, by - b * fy)
 
 
-known("damps-sideways-as-well", brakes_all)
 known(
     "forgets-the-step",
     lambda spring: exact.pushed(spring.rod, -spring.stiffness * spring.stretch - brake(spring)),
 )
 
 
+@known("forgets-the-masses")
 def without_masses(spring: Spring) -> Ends:
     rod = spring.rod
     change = (spring.stiffness * spring.stretch + brake(spring)) * rod.dt  # px/s
@@ -63,9 +64,7 @@ def without_masses(spring: Spring) -> Ends:
     return (ax + change * x, ay + change * y), (bx - change * x, by - change * y)
 
 
-known("forgets-the-masses", without_masses)
-
-
+@known("divides-by-the-inverse-mass")
 def times_masses(spring: Spring) -> Ends:
     rod = spring.rod
     change = (spring.stiffness * spring.stretch + brake(spring)) * rod.dt  # kg px/s
@@ -76,7 +75,6 @@ def times_masses(spring: Spring) -> Ends:
     return (ax + a * x, ay + a * y), (bx - b * x, by - b * y)
 
 
-known("divides-by-the-inverse-mass", times_masses)
 known(
     "offset-for-the-axis",
     lambda s: pulled(s, (s.stiffness * s.stretch + brake(s)) * math.hypot(*s.rod.offset)),

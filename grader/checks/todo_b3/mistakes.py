@@ -71,14 +71,13 @@ known("only-the-cell-of-the-centre", grid(cell_of_the_centre))
 known("only-the-cells-of-the-corners", grid(cells_of_the_corners), grid(cells_of_two_corners))
 
 
+@known("a-pair-once-per-cell")
 def once_per_cell(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
     within = [cells(each) for each in all_bounds(balls, boxes)]
     return [(a, b) for a, b in touching for _ in within[a] & within[b]]
 
 
-known("a-pair-once-per-cell", once_per_cell)
-
-
+@known("only-the-nearest")
 def nearest(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
     places = [(each[0], each[1]) for each in (*balls, *boxes)]
     numbers = range(len(places))
@@ -88,9 +87,6 @@ def nearest(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pa
         if len(places) > 1
     ]
     return [(a, b) for a, b in touching if nearest_of[a] == b or nearest_of[b] == a]
-
-
-known("only-the-nearest", nearest)
 
 
 known("a-pair-in-both-orders", lambda balls, boxes, touching: sorted([*touching, *touching]))

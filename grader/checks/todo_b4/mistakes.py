@@ -25,13 +25,13 @@ known_others("counts-between-balls", always([1, 0, 0]))
 known_hits("counts-nothing", always(0))
 
 
+@known_hits("counts-every-step")
 def every_step(what: str, steps: int) -> int:
     if what == "throw":  # the touch may last a step or two
         raise Undecided
     return steps if what == "touch" else 0
 
 
-known_hits("counts-every-step", every_step)
 known_hits("counts-when-they-part", lambda what, steps: int(what != "touch"))
 known_hits("soft-touches-are-left-out", lambda what, steps: int(what == "throw"))
 known_in("B4", "afresh")("one-counter-for-all-spaces", lambda before: before)

@@ -21,12 +21,12 @@ known("share-turned-round", lambda before, now, share: place(now, before, share)
 known("always-one-step-behind", lambda before, now, share: before[:2])
 
 
+@known("looks-ahead")
 def looks_ahead(before: Place, now: Place, share: float) -> Pair:
     (x, y), (then_x, then_y) = now[:2], place(before, now, share)
     return x + then_x - before[0], y + then_y - before[1]
 
 
-known("looks-ahead", looks_ahead)
 known("always-half-way", lambda before, now, share: place(before, now, 0.5))
 known(
     "way-without-its-begin",
