@@ -30,7 +30,9 @@ A right member must get every point. Where it differs from the solution in one T
   programs as printed, `right/lesson-as-printed/`, and these before all others.
 - `right/NAME/` and `hostile/NAME/` hold files to add or replace, beside or without a NAME.toml. A
   mini_engine.py there replaces the package.
-- `bank.toml` has the marks of members without a NAME.toml.
+- `hostile/8a.toml` holds attacks in TODO 8a: `code`, or `tries` where the answer is right unless
+  the attack raises OSError. They get 98 points, all but those of one check, or their `points`.
+- `bank.toml` has the marks of members without a TOML.
 - `ladders/TODO.toml` holds the rungs of a ladder, lowest first (see ladders.py).
 """
 
@@ -68,6 +70,14 @@ BESIDES = ("__pycache__", "notebooks", ".*", *LAID_IN)  # of a tree: no submissi
 CLEAN = shutil.ignore_patterns(*BESIDES)
 TREES = ("solution", "starter")
 IS_TODO = re.compile(r"[0-9]+[a-z]?|B[0-9]+|whole")
+ATTACKED = "8a"  # the TODO of the attacks
+TRIED = """{imports}
+
+try:
+{deed}
+except OSError:
+    return x, v  # refused: no points
+{usual}"""
 SKIPPED_LINES = r"\n(?:.*\n)*?"  # for a line `...`
 
 
@@ -113,6 +123,19 @@ class Wrong(Entry, frozen=True):
     never: list[str] = []
 
 
+class Attack(Entry, frozen=True):
+    """A hostile member that attacks in the region of TODO 8a."""
+
+    points: int | None = 98
+    tries: str = ""  # imports, an empty line, and what must raise OSError
+
+    def rewrite(self, usual: str) -> str:
+        if not self.tries:
+            return super().rewrite(usual)
+        imports, deed = self.tries.split("\n\n", 1)
+        return TRIED.format(imports=imports, deed=textwrap.indent(deed, "    "), usual=usual)
+
+
 class Rung(Variant, frozen=True):
     """A rung of a ladder; the solution's code if nothing else is said."""
 
@@ -145,6 +168,8 @@ class Member:
         """Return the TODOs whose regions it replaces, whether its edits fit the solution or not."""
         if self.source is not None and self.source.suffix == ".py":
             return frozenset(regions_of(self.source))
+        if isinstance(self.entry, Attack):
+            return frozenset({ATTACKED})
         by_edits = self.entry.code or self.entry.change or self.is_rung
         return frozenset({self.name.partition("-")[0]} if by_edits else ())
 
@@ -292,6 +317,7 @@ def every_member(kit: Path) -> Iterator[Member]:
     yield from right_variants(bank)
     yield from (each for each in submissions(bank, "right") if not is_of_lesson(each.name))
     yield from submissions(bank, "hostile")
+    yield from attacks(bank)
     yield Member("right", "single-file", "single file", Entry(), None)
     yield from rungs(bank)
     if any(constants(kit)):
@@ -345,6 +371,14 @@ def submissions(bank: Path, kind: Literal["right", "hostile"]) -> Iterator[Membe
     for name in sorted(names):
         if not IS_TODO.fullmatch(name):
             yield read_submission(bank, kind, name)
+
+
+def attacks(bank: Path) -> Iterator[Member]:
+    """Yield the hostile members that attack in the region of one TODO."""
+    sheet = bank / "hostile" / f"{ATTACKED}.toml"
+    entries = msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Attack])
+    for name, entry in entries.items():
+        yield Member("hostile", name, "package", entry, sheet)
 
 
 def read_submission(bank: Path, kind: Literal["right", "hostile"], name: str) -> Member:

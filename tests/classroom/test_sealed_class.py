@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
+from grader.bank.members import attacks
 from grader.classroom import dashboard, similarity
 from grader.classroom.dashboard import read_class, write_dashboard
 from grader.classroom.grading import ClassOptions, run_class
@@ -78,8 +79,8 @@ def film_without_end(folder: Path) -> None:
 
 
 def answer_by_the_megabyte(folder: Path) -> None:
-    member = KIT / "tests" / "bank" / "hostile" / "answers-by-the-megabyte.py"
-    write(folder, member.read_text(encoding="utf-8"))
+    found = {each.name: each for each in attacks(KIT / "tests" / "bank")}
+    write(folder, "\n".join(found["answers-by-the-megabyte"].regions["8a"]))
 
 
 def resemble_everything(folder: Path) -> None:

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from test_security import SWITCHES, expected_layers
 
-from grader.bank.members import patch
+from grader.bank.members import attacks, put_regions
 from grader.judge.children import Worker, start_worker
 from grader.judge.grade import KIT, Options, sandbox_for
 from grader.judge.submission import Submission
@@ -28,9 +28,9 @@ pytestmark = pytest.mark.skipif(
 
 STOPPED_BY = tomllib.loads(Path(__file__).with_name("walls.toml").read_text("utf-8"))["stopped_by"]
 MEMBERS = {
-    path.stem: path
-    for path in sorted((KIT / "tests" / "bank" / "hostile").glob("*.py"))
-    if "refused: no points" in path.read_text(encoding="utf-8")
+    each.name: each
+    for each in attacks(KIT / "tests" / "bank")
+    if "refused: no points" in "\n".join(each.regions["8a"])
 }
 NAMESPACES = {"user-namespace", "network-namespace", "pid-namespace"}
 ALONE = {  # a name for each layer, and what its world has
@@ -64,7 +64,7 @@ def goes_through(member: str, worker: Worker, work: Path) -> bool:
     tree = work / "tree"
     tree.mkdir(parents=True)
     shutil.copy(KIT / "solution" / "integrators.py", tree)
-    patch(MEMBERS[member], tree)
+    put_regions(MEMBERS[member].regions, tree)
     sandbox = sandbox_for(Submission(member, tree), work, worker, Options(trusted=True))
     reply: object = None
     for _ in range(2):
