@@ -34,8 +34,7 @@ from grader.judge.course import Course, read_course
 from grader.judge.result import TodoResult
 from grader.judge.rubric import load_rubric
 from grader.judge.wording import command
-from grader.report.screen import Screen, choose_failure, choose_todo
-from grader.report.tasks import Tasks, load_tasks
+from grader.report.screen import Screen, Tasks, choose_failure, choose_todo, load_tasks
 from grader.report.terminal import find_replay, say, wrap, write
 from grader.text import clean
 

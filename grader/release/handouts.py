@@ -15,7 +15,7 @@ from jinja2 import Environment, StrictUndefined
 
 from grader.judge.course import Course
 from grader.judge.rubric import Todo, load_rubric
-from grader.report.tasks import Tasks
+from grader.report.screen import Tasks
 from grader.source.regions import TODO_ID
 from grader.text import listed, moment, number
 

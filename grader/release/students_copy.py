@@ -32,7 +32,7 @@ from grader.release.handed_out import make_students_tree
 from grader.release.handouts import make_handouts, make_tasks
 from grader.release.practice import make_practice
 from grader.release.recordings import Record, record_anew
-from grader.report.tasks import FILE as TASKS
+from grader.report.screen import TASKS
 from grader.source.cut import prune_modules, with_bodies
 from grader.source.regions import read_source
 

@@ -1,4 +1,4 @@
-"""Write what a CI system keeps of a result, and what it shows beside the code."""
+"""Write the files of a result for a CI system, and annotations beside the code."""
 
 import os
 from collections.abc import Mapping
@@ -17,21 +17,21 @@ REPOSITORY = ("GITHUB_REPOSITORY", "CI_PROJECT_PATH")  # on GitHub and on GitLab
 
 
 def name_after_repository(result: Result, environment: Mapping[str, str]) -> Result:
-    """Name a result after the repository: the folder of a checkout may have any name."""
+    """Name a result after the repository: a checkout's folder may have any name."""
     path = next((environment[name] for name in REPOSITORY if environment.get(name)), "")
     name = path.rpartition("/")[2] or result.submission
     return msgspec.structs.replace(result, submission=name)
 
 
 def is_free_folder(folder: Path) -> bool:
-    """Tell whether reports may go there: nothing that a submission brought may be among them."""
+    """Return whether a folder is new or empty, so that a submission has no files in it."""
     if folder.is_symlink():
         return False
     return not folder.exists() or (folder.is_dir() and not any(folder.iterdir()))
 
 
 def write_reports(result: Result, folder: Path) -> None:
-    """Write the files that a CI system keeps of a run; replays are there already."""
+    """Write the files of a run for a CI system; the replays are there already."""
     write_report(result, folder / "report.html")
     write_json(result, folder / "result.json")
     write_whole(write_junit(result), folder / "junit.xml")
@@ -39,7 +39,7 @@ def write_reports(result: Result, folder: Path) -> None:
 
 
 def tell_github(result: Result, path: Path, environment: Mapping[str, str]) -> None:
-    """Print annotations, and write the summary and the outputs of the step, on GitHub alone."""
+    """On GitHub, print annotations and write the summary and the outputs of the step."""
     if environment.get("GITHUB_ACTIONS") == "true":
         folder = locate_in_repository(path, environment)
         print(write_annotations(result, folder), end="", flush=True)

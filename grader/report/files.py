@@ -9,7 +9,7 @@ import msgspec
 from grader.errors import Stop
 from grader.judge.result import Result
 
-DAY_ONE = (1980, 1, 1, 0, 0, 0)  # an archive knows no earlier one
+DAY_ONE = (1980, 1, 1, 0, 0, 0)  # the earliest time in an archive
 PLAIN, SCRIPT = 0o100644, 0o100755  # modes of a file
 
 
@@ -23,7 +23,7 @@ def write_json(result: Result, path: Path) -> None:
 
 
 def read_result(path: Path) -> Result:
-    """Read a result; raises Stop where the file is none."""
+    """Read a result. Raises Stop if there is none in the file."""
     try:
         return msgspec.json.decode(path.read_bytes(), type=Result)
     except OSError as error:
@@ -33,7 +33,7 @@ def read_result(path: Path) -> Result:
 
 
 def write_whole(content: bytes, path: Path) -> None:
-    """Write a file whole or not at all: nobody reads half a file, and no link is followed."""
+    """Write a file whole or not at all, and never through a link."""
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{os.urandom(8).hex()}")
     try:
@@ -52,7 +52,7 @@ def put_in(
     mode: int = PLAIN,
     method: int = zipfile.ZIP_DEFLATED,
 ) -> None:
-    """Put a file into an archive, so that the same files make the same archive on any day."""
+    """Put a file into an archive; the same files make the same archive on any day."""
     member = zipfile.ZipInfo(name, DAY_ONE)
     member.compress_type = method
     member.external_attr = mode << 16

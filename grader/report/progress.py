@@ -16,7 +16,7 @@ NOW_AND_THEN = 30.0  # s
 
 
 class Counter:
-    """A counter up to `total` that shows the time left; a context manager."""
+    """A counter up to `total` that shows the remaining time; a context manager."""
 
     def __init__(self, what: str, total: int, console: Console) -> None:
         self.what, self.total, self.console = what, total, console
@@ -35,7 +35,7 @@ class Counter:
         self.bar.stop()
 
     def reached(self, count: int, more: str = "") -> None:
-        """Show how many are done; `more` says what became of them."""
+        """Show a count; `more` describes the results."""
         self.bar.update(self.task, completed=count, more=more)
         if not self.console.is_terminal and time.monotonic() - self.printed >= NOW_AND_THEN:
             self.printed = time.monotonic()
@@ -44,7 +44,7 @@ class Counter:
 
 
 class CheckProgress:
-    """Show how a check of one's own work goes on: a bar, and at once a loop without end.
+    """Shows a bar while one's own work is checked, and names an endless loop at once.
 
     Checks end in the order of the rubric.
     """
@@ -55,7 +55,7 @@ class CheckProgress:
         self.counter = Counter("Checking", len(self.todos), console)
         self.console = console
         self.done = 0
-        self.told: set[str] = set()  # TODOs with a loop without end
+        self.endless: set[str] = set()  # TODOs
 
     def __enter__(self) -> Self:
         self.counter.__enter__()
@@ -65,12 +65,12 @@ class CheckProgress:
         self.counter.__exit__()
 
     def count(self, check: CheckResult) -> None:
-        """Count a check that has ended."""
+        """Count a finished check."""
         todo = self.todos[self.done]
         self.done += 1
         self.counter.reached(self.done, name_task(todo))
-        if is_endless(check) and todo not in self.told:
-            self.told.add(todo)
+        if is_endless(check) and todo not in self.endless:
+            self.endless.add(todo)
             place = f" Look at {place_of(check)}." if check.where else ""
             say(f"{name_task(todo)}: {clean(check.got)}{place} Others still run.", self.console)
 

@@ -1,4 +1,4 @@
-"""Print the first screen of `check`: one TODO in full, on the lines that a terminal shows."""
+"""Print the first screen of `check`: one TODO in full, on 16 lines."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
@@ -10,8 +10,8 @@ import msgspec
 from rich.console import Console
 
 from grader.judge.result import FAILED, CheckResult, Result, State, TodoResult
+from grader.judge.rubric import CHECKS
 from grader.judge.wording import NAMES, command, named_reasons, task_of, total
-from grader.report.tasks import Tasks
 from grader.report.terminal import (
     FIRST,
     MARGIN,
@@ -26,17 +26,20 @@ from grader.report.terminal import (
     suggest_todo,
     wrap,
     write,
-    write_rerun,
     write_todo,
 )
 from grader.text import clean
 
 LINES = 16  # before the prompt
 USUAL = 13  # lines that the names of further failures may fill
-SAID_ELSEWHERE = {"an answer", "code that Python accepts"}  # what is expected where Got is an error
-READING = "reading "  # a file, as Got says
+OBVIOUS = {"an answer", "code that Python accepts"}  # expected where Got is an error
+READING = "reading "  # how We ran begins for a file
 MOST_REMARKS = 2  # on TODOs without code that counts
-WIDTH = 76  # columns of a TODO's own line, at the end of which the points stand
+WIDTH = 76  # columns of a TODO's own line, with the points at its end
+TASKS = "tasks.json"  # only in a release, which makes it from its pages
+
+Tasks = dict[str, list[str]]  # paragraphs of the lab sheet, by TODO
+
 STATE_LINES: list[list[State]] = [["passed"], ["error"], ["not yet"], ["not started", "waiting"]]
 # In the order in which they get lines.
 CAUSES = ("Meaning", "Got", "Expected", "Look at", "Printed", "We ran")
@@ -54,26 +57,26 @@ class Screen:
     console: Console
     replays: Path | None = None  # where they are, if there are any
     lines: int = LINES
-    tasks: Tasks | None = None  # what to do in each TODO, shown in place of commands to type
+    tasks: Tasks | None = None  # shown in place of commands to type
 
     def show(
         self, result: Result, touched: Collection[str] = (), notes: Sequence[str] = ()
     ) -> None:
-        """Print it. A TODO that was `touched` is shown before others; `notes` stand at the end."""
+        """Print a result: `touched` TODOs before others, and `notes` at the end."""
         for line in self.lay_out(result, touched, notes):
             write(line.text, self.console, line.style)
 
     def lay_out(
         self, result: Result, touched: Collection[str] = (), notes: Sequence[str] = ()
     ) -> list[Line]:
-        """Return the lines: how all TODOs stand, what fails in one, and what to do next."""
+        """Return the lines: the states of all TODOs, the failures of one, and what to do next."""
         todo = choose_todo(result, touched)
         notes = [*list_remarks(result), *notes]
         end = [Line(each) for note in notes for each in wrap(note, self.console, 2)]
-        if todo is None or not todo.failed:  # nothing that was begun fails
+        if todo is None or not todo.failed:  # nothing fails
             next_one = self.suggest(todo, result) if todo else []
             return [*self.list_states(result, None), *end, *next_one]
-        shown = choose_failure(todo)[0].state  # what follows explains this one
+        shown = choose_failure(todo)[0].state  # the lines below explain this failure
         head = self.shorten(write_todo(msgspec.structs.replace(todo, state=shown)))
         states = [*self.list_states(result, todo), Line(head, STYLES[shown])]
         end += self.suggest_commands(todo)
@@ -85,23 +88,23 @@ class Screen:
         return min(self.console.width, MAX_COLUMNS)
 
     def shorten(self, line: str) -> str:
-        """Return a TODO's own line, without its columns where it is too long."""
+        """Return a TODO's own line, without columns if it is too long."""
         return line if len(line) <= self.width else self.cut(" ".join(line.split()))
 
     def set_bold(self, words: str) -> list[Line]:
         return [Line(each, "bold") for each in wrap(words, self.console, 6)]
 
-    # ------------------------------------------------------------ how it stands
+    # ------------------------------------------------------------ states
 
     def list_states(self, result: Result, apart: TodoResult | None) -> list[Line]:
-        """Return the points and the TODOs by state, without the one with lines of its own."""
+        """Return the points and the TODOs by state, without `apart`, which has its own lines."""
         rows: list[Line] = []
         for states in STATE_LINES:
             parts = [list_ids(result, state, apart) for state in states]
             words = "   ".join(filter(None, parts))
             style = STYLES[states[0]]
             rows += [Line(each, style) for each in wrap(words, self.console, STATES)]
-        if apart is not None and result.todos == [apart]:  # its own line says all
+        if apart is not None and result.todos == [apart]:  # its own line has the points
             return []
         points = total(result)
         free = WIDTH - len(rows[0].text) if rows else 0
@@ -110,7 +113,7 @@ class Screen:
         return [Line(rows[0].text + points.rjust(free), rows[0].style), *rows[1:]]
 
     def suggest(self, todo: TodoResult, result: Result) -> list[Line]:
-        """Return the TODO to go on with, and what to type for it or its text of the lab sheet."""
+        """Return the next TODO, with commands to type or its text from the lab sheet."""
         headline, *below = suggest_todo(todo, result)
         if self.tasks is not None:
             below = [each for words in self.tasks.get(todo.id, []) for each in self.indent(words)]
@@ -120,7 +123,7 @@ class Screen:
         return wrap(f"  {words}", self.console, 4 if words.startswith("- ") else 2)
 
     def suggest_commands(self, todo: TodoResult) -> list[Line]:
-        """Return what to type, or what must be corrected before anything else."""
+        """Return commands to type, or what must be corrected first."""
         all_of_it = f"All: {command('check', all_of_it=True)}"
         if words := describe_obstacle(todo):
             return self.set_bold(words)
@@ -132,10 +135,10 @@ class Screen:
         lines = [both] if len(both) <= self.width else both.split("   ")
         return [Line(each) for each in lines]
 
-    # ------------------------------------------------------------ what fails
+    # ------------------------------------------------------------ failures
 
     def list_failures(self, todo: TodoResult, room: int) -> list[Line]:
-        """Return the first failure in full, and the others a line each, as far as they fit."""
+        """Return the first failure in full, and a line for each other one that fits."""
         groups, first = group_checks(todo.failed), choose_failure(todo)
         titles = [self.title(each, count_points(each)) for each in groups if each != first]
         waiting = group_checks(check for check in todo.checks if check.state == "waiting")
@@ -150,11 +153,11 @@ class Screen:
         return [*lines, *(Line(title, "bright_black") for title in titles)]
 
     def title(self, group: list[CheckResult], behind: str) -> str:
-        """Name checks on one line, with something behind the name."""
+        """Name checks on one line, with `behind` at its end."""
         return self.cut(f"  {name_checks(group)}", len(behind) + 2) + f"  {behind}"
 
     def cut(self, words: str, less: int = 0) -> str:
-        """Return words on one line, which ends with dots where they are longer."""
+        """Cut words to one line, with … at its end."""
         most = self.width - less
         if len(words) <= most:
             return words
@@ -162,18 +165,16 @@ class Screen:
         return f"{kept[: kept.rfind(' ')] if ' ' in kept.strip() else kept} …"
 
     def explain(self, todo: TodoResult, check: CheckResult, room: int) -> list[str]:
-        """Return why a check failed: a line for each text, and the rest of `room` for the cause."""
+        """Explain why a check failed: a line for each text; the rest of `room` is for the cause."""
         texts = {
             name: wrap(f"{' ' * MARGIN}{name:<{NAMES}}{clean(text)}", self.console, MARGIN + NAMES)
             for name, text in named_reasons(check, task_of(todo))
-            if text not in SAID_ELSEWHERE and not text.startswith(READING)
+            if text not in OBVIOUS and not text.startswith(READING)
         }
-        free = room - len(texts)
-        again = write_rerun(check, self.replays, self.console)
-        free -= len(again)
-        replay = locate_replay(check, self.replays, self.console)
+        rerun, replay = locate_replay(check, self.replays, self.console)
+        free = room - len(texts) - len(rerun)
         cause = sum(len(texts[name]) - 1 for name in CAUSES[:2] if name in texts)
-        if len(replay) + cause > free:  # the cause is worth more than a picture of it
+        if len(replay) + cause > free:  # the cause is more important
             replay = []
         free -= len(replay)
         shown = {}
@@ -183,13 +184,13 @@ class Screen:
             free -= len(kept) - 1
             whole = len(kept) == len(text)
             shown[name] = kept if whole else [*kept[:-1], self.cut(kept[-1], 2) + " …"]
-        return [*(line for name in texts for line in shown[name]), *again, *replay]
+        return [*(line for name in texts for line in shown[name]), *rerun, *replay]
 
 
 def choose_todo(result: Result, touched: Collection[str] = ()) -> TodoResult | None:
-    """Return the TODO to go on with: the first that fails, or else the first not begun.
+    """Return the next TODO: the first that fails, or else the first that is not started.
 
-    It is no bonus task, unless nothing else is left.
+    Bonus tasks come last.
     """
     states = (*FAILED, "not started")
     left = [todo for todo in result.counted or result.todos if todo.state in states]
@@ -204,7 +205,7 @@ def choose_todo(result: Result, touched: Collection[str] = ()) -> TodoResult | N
 
 
 def list_remarks(result: Result) -> list[str]:
-    """Return why TODOs count as not started although there is code for them, each text once."""
+    """Return, once each, the reasons why TODOs with code count as not started."""
     found = dict.fromkeys(todo.remark for todo in result.shown if todo.remark)
     return [*islice(found, MOST_REMARKS)]
 
@@ -212,20 +213,26 @@ def list_remarks(result: Result) -> list[str]:
 def list_ids(result: Result, state: State, apart: TodoResult | None) -> str:
     ids = [todo.id for todo in result.shown if todo.state == state and todo is not apart]
     if apart is not None and state in FAILED:
-        ids = [id for id in ids if id != "whole"]  # it cannot be right where another one fails
+        ids = [id for id in ids if id != "whole"]  # it cannot pass while another TODO fails
     return f"{state.upper():<{STATES}}{' '.join(ids)}" if ids else ""
 
 
 def choose_failure(todo: TodoResult) -> list[CheckResult]:
-    """Return the checks to be explained: of those that fail for one reason, the first to mend."""
+    """Return the checks to explain: those that fail for the most important reason."""
     return min(group_checks(todo.failed), key=rank_failure)
 
 
 def rank_failure(group: list[CheckResult]) -> tuple[bool, bool, bool]:
-    """Rank failures: changed given code, an endless loop, and a mistake that has a name."""
+    """Rank failures: changed given code first, then an endless loop, then a known mistake."""
     given = any(check.where is not None and check.where.given for check in group)
     return not given, not is_endless(group[0]), not any(check.meaning for check in group)
 
 
 def count_points(group: list[CheckResult]) -> str:
     return f"(0 / {sum(check.max_points for check in group)})"
+
+
+def load_tasks() -> Tasks:
+    """Load the texts of the tasks; the kit itself, without a release, has none."""
+    path = CHECKS / TASKS
+    return msgspec.json.decode(path.read_bytes(), type=Tasks) if path.is_file() else {}

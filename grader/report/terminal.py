@@ -1,9 +1,10 @@
-"""Print a result in a terminal: one line per TODO, and a few for each check that failed."""
+"""Print a result in a terminal: a line per TODO, and a few lines per failed check."""
 
 import os
 import textwrap
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 
 import msgspec
@@ -35,7 +36,7 @@ STYLES: dict[State, str] = {
 }
 SPENT = (ENDLESS, "not run: the checks before it used up")  # processor time
 STATES = 12  # columns of the states
-MARGIN = 4  # columns left of why a check failed
+MARGIN = 4  # columns before the reasons of a failure
 FIRST = "8a"  # the TODO that the lab sheet begins with
 MAX_COLUMNS = 80
 
@@ -49,11 +50,11 @@ def show_isolation(result: Result, console: Console) -> None:
 
 @dataclass
 class Printer:
-    """A printer of results, which gives a reason once that many checks share."""
+    """A printer of results, which prints a reason that several checks share only once."""
 
     console: Console
-    replays: Path | None = None  # where they are, if there are any
-    given: set[tuple[str, ...]] = field(default_factory=set)  # reasons so far
+    replays: Path | None = None  # their folder
+    printed: set[tuple[str, ...]] = field(default_factory=set)  # reasons
 
     def print(self, result: Result) -> None:
         for todo in result.shown:
@@ -73,21 +74,20 @@ class Printer:
             say(f"  {name_checks(checks)}: {clean(checks[0].got)}", self.console, indent=4)
 
     def print_failed(self, todo: TodoResult, checks: list[CheckResult]) -> None:
-        """Print why checks failed that all failed for the same reason."""
+        """Print the reason that these failed checks share."""
         first, max_points = checks[0], sum(check.max_points for check in checks)
-        is_given = find_reason(first) in self.given
-        words = f"  {name_checks(checks)}  (0 / {max_points})" + "  as above" * is_given
+        is_repeated = find_reason(first) in self.printed
+        words = f"  {name_checks(checks)}  (0 / {max_points})" + "  as above" * is_repeated
         say(words, self.console, indent=4, style="bold")
-        if is_given:
+        if is_repeated:
             return
-        if ("meaning", first.meaning) in self.given:
+        if ("meaning", first.meaning) in self.printed:
             first = msgspec.structs.replace(first, meaning="")
-        self.given |= {find_reason(first), ("meaning", first.meaning)}
+        self.printed |= {find_reason(first), ("meaning", first.meaning)}
         for line in reasons(first, task_of(todo)):
             say(f"{' ' * MARGIN}{line}", self.console, indent=MARGIN + NAMES)
-        for locate in (write_rerun, locate_replay):
-            for line in locate(first, self.replays, self.console):
-                write(line, self.console)
+        for line in chain(*locate_replay(first, self.replays, self.console)):
+            write(line, self.console)
 
 
 def write_todo(todo: TodoResult) -> str:
@@ -97,28 +97,28 @@ def write_todo(todo: TodoResult) -> str:
     return f"{todo.state.upper():<{STATES}}{todo.id:<6}{todo.title:<48}{points}"
 
 
-def locate_replay(check: CheckResult, replays: Path | None, console: Console) -> list[str]:
-    """Return the lines that name the replay of a check, if it has one; a path is not broken."""
+def locate_replay(
+    check: CheckResult, replays: Path | None, console: Console
+) -> tuple[list[str], list[str]]:
+    """Return the lines with the command of a check's script, and those with its replay's path."""
     path = find_replay(check, replays)
     if path is None:
-        return []
-    return wrap(f"{' ' * MARGIN}{'See it':<{NAMES}}{path}", console, indent=2, whole=True)
+        return [], []
+    rerun, replay = (
+        wrap(f"{' ' * MARGIN}{name:<{NAMES}}{words}", console, indent=2, whole=True)
+        for name, words in (
+            ("Run it", f"{python_command()} {path.removesuffix('.html')}.py"),
+            ("See it", path),
+        )
+    )
+    return rerun, replay
 
 
 def find_replay(check: CheckResult, replays: Path | None) -> str | None:
-    """Return the path of a check's replay from here; None where it has none."""
+    """Return the path of a check's replay, relative to the working folder; None if it has none."""
     if replays is None or check.replay is None:
         return None
     return os.path.relpath(replays.parent / check.replay).replace(os.sep, "/")
-
-
-def write_rerun(check: CheckResult, replays: Path | None, console: Console) -> list[str]:
-    """Return the lines with the command that runs a failed check's calls alone."""
-    path = find_replay(check, replays)
-    if path is None:
-        return []
-    words = f"{python_command()} {path.removesuffix('.html')}.py"
-    return wrap(f"{' ' * MARGIN}{'Run it':<{NAMES}}{words}", console, indent=2, whole=True)
 
 
 def group_checks(checks: Iterable[CheckResult]) -> list[list[CheckResult]]:
@@ -129,9 +129,9 @@ def group_checks(checks: Iterable[CheckResult]) -> list[list[CheckResult]]:
 
 
 def find_reason(check: CheckResult) -> tuple[str, ...]:
-    """Return what two checks share that failed for one reason: an error, whatever was run.
+    """Return the reason of a failure; of an error it does not depend on what was run.
 
-    A loop that never ends is one reason, however much time a check had left for it.
+    All endless loops are one reason, whatever time was left.
     """
     if check.state != "error":
         return check.ran, check.expected, check.got
@@ -148,7 +148,7 @@ def name_checks(checks: list[CheckResult]) -> str:
 
 
 def show_all(result: Result, console: Console, replays: Path | None = None) -> None:
-    """Print all of a result for its student, what the states mean, and what to do next."""
+    """Print a whole result for its student, the meaning of the states, and what to do next."""
     Printer(console, replays).print(result)
     if words := hidden_points_note(result):
         say(words, console)
@@ -160,9 +160,9 @@ def show_all(result: Result, console: Console, replays: Path | None = None) -> N
 
 
 def show_next(result: Result, console: Console) -> None:
-    """Print the one thing to do next: the first TODO that was begun, or else the first of all.
+    """Print what to do next: the first TODO that was begun, or else the first of all.
 
-    It is no bonus task, unless there is nothing else.
+    Bonus tasks come last.
     """
     todos = result.counted or result.todos
     left = [todo for todo in todos if todo.state in (*FAILED, "not started")]
@@ -181,7 +181,7 @@ def show_next(result: Result, console: Console) -> None:
 
 
 def describe_obstacle(todo: TodoResult) -> str:
-    """Return what must be corrected before a TODO can be checked at all; empty for nothing."""
+    """Return what must be corrected before a TODO can be checked; empty if nothing must."""
     cannot, _, module = todo.checks[0].ran.partition("import ")
     if todo.state != "error" or not module or cannot:
         return ""
@@ -189,7 +189,7 @@ def describe_obstacle(todo: TodoResult) -> str:
 
 
 def suggest_todo(todo: TodoResult, result: Result) -> list[str]:
-    """Return the TODO to go on with, and what to type for it; one checked alone was typed."""
+    """Return the name of the next TODO and the commands to type for it."""
     place = find_place(todo)
     lines = [f"Next: TODO {todo.id}, {todo.title}" + f" ({place})" * bool(place)]
     if len(result.todos) > 1:
@@ -204,13 +204,13 @@ def find_place(todo: TodoResult) -> str:
 
 
 def say(words: str, console: Console, indent: int = 0, style: str = "") -> None:
-    """Print words, wrapped into lines of which all but the first are indented."""
+    """Print words, wrapped; all lines but the first are indented."""
     for line in wrap(words, console, indent):
         write(line, console, style)
 
 
 def wrap(words: str, console: Console, indent: int = 0, whole: bool = False) -> list[str]:
-    """Return the lines; a word longer than one is broken, unless it must stay `whole`."""
+    """Wrap words into lines; a word longer than a line is broken unless it must stay `whole`."""
     return textwrap.wrap(
         words,
         min(console.width, MAX_COLUMNS),
@@ -221,7 +221,7 @@ def wrap(words: str, console: Console, indent: int = 0, whole: bool = False) -> 
 
 
 def write(line: str, console: Console, style: str = "") -> None:
-    """Print a line, in the letters that the terminal knows."""
+    """Print a line in the terminal's encoding."""
     if not console.encoding.startswith("utf"):  # such as a Windows file or pipe
         for letter, plain in (("→", "->"), ("…", "...")):
             line = line.replace(letter, plain)

@@ -116,25 +116,15 @@ def test_the_solution_succeeds(tmp_path: Path):
     assert (run.checkout / "report.html").stat().st_size > 1000
 
 
-@pytest.mark.soak
-def test_no_marks_are_no_error_and_a_folder_named_as_the_report_makes_room(tmp_path: Path):
-    checkout = checkout_of("starter", tmp_path)
-    (checkout / "report.html").mkdir()
-    (checkout / "report.html" / "inside.txt").write_text("mine", encoding="utf-8")
-    run = without_download(checkout)
-    assert run.status == 0, run.log
-    assert run.marks["score"] == 0 and len(run.marks["tests"]) == 14
-    assert run.outputs == {"status": "failure", "summary": "0 of 100 points"}
-    assert (checkout / "report.html").is_file()
-
-
-def test_the_page_says_how_many_points_there_are_to_have():
+def test_the_pages_name_the_points_of_hidden_checks():
     most = visible(load_rubric()).max_points
-    page = (KIT / "handouts" / "instructor" / "ci.md").read_text(encoding="utf-8")
-    assert f"out of {most}: the other {100 - most} come" in " ".join(page.split())
-    guide = (KIT / "handouts" / "instructor" / "guide.md").read_text(encoding="utf-8")
-    hidden = list_hidden_checks(load_rubric())
-    assert len(hidden) == 6 and f"Six checks, {100 - most} points, ask" in guide
+    folder = KIT / "handouts" / "instructor"
+    page, guide = (
+        " ".join((folder / f"{name}.md").read_text(encoding="utf-8").split())
+        for name in ("ci", "guide")
+    )
+    assert len(list_hidden_checks(load_rubric())) == 6
+    assert f"out of {most}" in page and f"checks, {100 - most} points" in guide
 
 
 @pytest.mark.soak
@@ -151,13 +141,6 @@ def test_a_mistake_costs_its_todo_and_is_told(tmp_path: Path):
     assert "TODO 8c" in run.body and "integrators.py:" in run.body
     told = {held["title"][:7]: held for _, held, _ in ci_readers.commands_in(run.log)}
     assert told["TODO 8c"]["file"] == "integrators.py"
-
-
-@pytest.mark.soak
-def test_without_the_runners_variables_it_is_no_grade(tmp_path: Path):
-    checkout = checkout_of("starter", tmp_path)
-    run = without_download(checkout, SUBMISSION_TAG="", COURSE_FILE=SHORT)
-    assert run.status != 0 and not (run.checkout / "result.json").exists()
 
 
 # ---------------------------------------------------------------- hostile submissions
@@ -194,7 +177,8 @@ def test_marks_cannot_be_written_by_who_gets_them(tmp_path: Path):
     outside.mkdir()
     (checkout / "result.json").symlink_to(outside / "result.json")
     (checkout / "release-body.md").symlink_to(outside / "release-body.md")
-    (checkout / "report.html").symlink_to(outside / "report.html")
+    (checkout / "report.html").mkdir()
+    (checkout / "report.html" / "inside.txt").write_text("mine", encoding="utf-8")
     places = [str(checkout), str(tmp_path / "runner")]
     (checkout / "integrators.py").write_text(ATTACK % places, encoding="utf-8")
     for name in ("grader", "pip", "venv", "json", "subprocess", "tempfile", "sitecustomize"):
@@ -226,12 +210,6 @@ def test_the_bundle_has_what_it_needs_and_nothing_else(tmp_path: Path):
         *("autograder.py", "requirements.txt", "physics_grader-1-py3-none-any.whl")
     }
     assert (folder / "autograder.py").read_bytes() == (BUNDLE / "autograder.py").read_bytes()
-
-
-def test_the_autograder_needs_nothing_but_python(tmp_path: Path):
-    code = f"import sys; sys.path.insert(0, {str(BUNDLE)!r}); import autograder"
-    done = subprocess.run([sys.executable, "-I", "-S", "-c", code], cwd=tmp_path)
-    assert done.returncode == 0
 
 
 @pytest.mark.soak

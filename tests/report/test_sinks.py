@@ -1,6 +1,8 @@
-"""Each form says the same as the result, and no word of a submission changes its build."""
+"""Test each form of a result: it has the same marks, and no word of a submission changes it."""
 
 import base64
+import csv
+import io
 import json
 from pathlib import Path
 from typing import Any
@@ -19,6 +21,7 @@ from grader.report.sinks.gradescope import write_gradescope
 from grader.report.sinks.junit import write_junit
 from grader.report.sinks.markdown import write_markdown
 from grader.report.sinks.reporter import write_reporter
+from grader.report.sinks.tables import write_csv, write_json_lines
 from grader.text import clean
 
 RUNNER = {
@@ -49,6 +52,7 @@ HOSTILE = [
     "\x1b[2J\x1b]0;title\x07 \u202e \u2028 \x00 \ufffe \ud800",
     "a,line=1,title=b::c",
     "long " * 100_000,
+    *("=1+1", "+1", "-1*2", "@SUM(A1)", "\uff1d1", "a\r\nb,c"),
 ]
 
 
@@ -83,16 +87,18 @@ def result(
 
 
 EVERY: tuple[State, ...] = ("passed", "not yet", "not started", "waiting", "error")
-hostile = pytest.mark.parametrize("words", HOSTILE, ids=range(len(HOSTILE)))
 
 
-# ---------------------------------------------------------------- GitHub
+# ---------------------------------------------------------------- words of a submission
 
 
-@hostile
-def test_annotations_are_the_graders_own(words: str):
-    log = write_annotations(result(words, todos=2))
-    found = ci_readers.commands_in(log)
+@pytest.fixture(params=HOSTILE, ids=range(len(HOSTILE)))
+def words(request: pytest.FixtureRequest) -> str:
+    return str(request.param)
+
+
+def test_github_obeys_no_words(words: str, capfd: Any):
+    found = ci_readers.commands_in(write_annotations(result(words, todos=2)))
     assert [(name, set(held)) for name, held, _ in found] == [
         ("error", {"file", "line", "title"})
     ] * 2
@@ -100,6 +106,56 @@ def test_annotations_are_the_graders_own(words: str):
         assert held["line"] == "71" and held["title"].endswith(": Damping per second")
         assert held["file"] == clean(words)
         assert clean(words) in message
+    outputs = ci_readers.outputs_in(write_outputs(result(words)))
+    encoded = json.loads(base64.b64decode(outputs.pop("result")))
+    assert outputs == {"points": "3", "max-points": "9"}
+    assert encoded == json.loads(write_reporter(result(words)))
+    with stop_commands({"GITHUB_ACTIONS": "true"}):
+        print(words.encode("utf-8", "replace").decode())
+    print("::notice::afterwards")
+    assert ci_readers.commands_in(capfd.readouterr().out) == [("notice", {}, "afterwards")]
+    log = ci_readers.reporter_log(json.loads(write_reporter(result(words, EVERY))))
+    assert ci_readers.commands_in(log) == [] and len(log.splitlines()) == len(EVERY)
+
+
+def test_words_change_no_markdown(words: str):
+    plain, forged = (
+        ci_readers.markdown_tokens(write_markdown(result(each, EVERY))) for each in ("words", words)
+    )
+    assert [token.type for token in plain if token.type != "text_special"] == [
+        token.type for token in forged if token.type not in ("text_special", "softbreak")
+    ]
+    fences = [token.content for token in forged if token.type == "fence"]
+    assert len(fences) == 2 and all(clean(words) in each for each in fences)
+    heading = next(token for token in forged if token.type == "inline")
+    assert "".join(each.content for each in heading.children).startswith(clean(words).strip())
+
+
+def test_words_change_no_other_form(words: str):
+    plain, forged = (
+        ci_readers.junit_cases(write_junit(result(w, EVERY))) for w in ("words", words)
+    )
+    assert [[each.tag for each in case.iter()] for case in forged] == [
+        [each.tag for each in case.iter()] for case in plain
+    ]
+    error = forged[-1].find("error")
+    assert error is not None and error.attrib["message"] == (clean(words) or "error")
+    assert error.text is not None and clean(words) in error.text
+    tests = ci_readers.gradescope_tests(json.loads(write_gradescope(result(words, EVERY))))
+    assert [test["status"] for test in tests] == ["passed", *["failed"] * 4]
+    assert clean(words) in tests[1]["output"] and len(tests[1]["output"]) < 2500
+    marks = json.loads(write_classroom50(result(words, EVERY, todos=2), RUNNER))
+    assert ci_readers.classroom50_marks(marks) == 6
+    assert [test["passed"] for test in marks["tests"]] == [False, False]
+    assert words.strip() == "" or clean(words) not in json.dumps(marks)
+    rows = read_csv(write_csv([result(words)]))
+    assert len(rows) == 3 and all(None not in row for row in rows)
+    assert rows[1]["got"].removeprefix("'").replace("'", "") == clean(words).replace("'", "")
+    assert not any(cell.startswith(("=", "+", "-", "@")) for row in rows for cell in row.values())
+    assert json.loads(write_json_lines([result(words)]).splitlines()[1])["got"] == clean(words)
+
+
+# ---------------------------------------------------------------- GitHub
 
 
 def test_an_annotation_says_where_the_line_is_in_the_repository():
@@ -120,24 +176,6 @@ def test_more_errors_than_github_shows_go_on_as_warnings():
     assert names == ["error"] * SHOWN + ["warning"] * 4
 
 
-@hostile
-def test_outputs_are_three_whatever_the_words(words: str):
-    found = ci_readers.outputs_in(write_outputs(result(words)))
-    assert set(found) == {"points", "max-points", "result"}
-    assert (found["points"], found["max-points"]) == ("3", "9")
-    assert json.loads(base64.b64decode(found["result"])) == json.loads(
-        write_reporter(result(words))
-    )
-
-
-@hostile
-def test_what_is_printed_for_people_is_no_command(words: str, capfd: Any):
-    with stop_commands({"GITHUB_ACTIONS": "true"}):
-        print(words.encode("utf-8", "replace").decode())
-    print("::notice::afterwards")
-    assert ci_readers.commands_in(capfd.readouterr().out) == [("notice", {}, "afterwards")]
-
-
 def test_the_word_that_lets_commands_through_again_cannot_be_known(capfd: Any):
     for _ in range(2):
         with stop_commands({"GITHUB_ACTIONS": "true"}):
@@ -146,20 +184,7 @@ def test_the_word_that_lets_commands_through_again_cannot_be_known(capfd: Any):
     assert len(set(tokens)) == 2 and all(len(token) >= 32 for token in tokens)
 
 
-def test_elsewhere_nothing_is_wrapped(capfd: Any):
-    with stop_commands({}):
-        print("words")
-    assert capfd.readouterr().out == "words\n"
-
-
 # ---------------------------------------------------------------- the reporter
-
-
-@hostile
-def test_the_reporter_prints_no_command(words: str):
-    results = json.loads(write_reporter(result(words, EVERY)))
-    log = ci_readers.reporter_log(results)
-    assert ci_readers.commands_in(log) == [] and len(log.splitlines()) == len(EVERY)
 
 
 def test_the_reporter_adds_up_to_the_points():
@@ -182,20 +207,6 @@ def test_the_reporter_is_told_how_it_went(states: tuple[State, ...], status: str
 # ---------------------------------------------------------------- Markdown
 
 
-@hostile
-def test_words_change_no_markdown(words: str):
-    plain, forged = (
-        ci_readers.markdown_tokens(write_markdown(result(each, EVERY))) for each in ("words", words)
-    )
-    assert [token.type for token in plain if token.type != "text_special"] == [
-        token.type for token in forged if token.type not in ("text_special", "softbreak")
-    ]
-    fences = [token.content for token in forged if token.type == "fence"]
-    assert len(fences) == 2 and all(clean(words) in each for each in fences)
-    heading = next(token for token in forged if token.type == "inline")
-    assert "".join(each.content for each in heading.children).startswith(clean(words).strip())
-
-
 def test_the_summary_has_every_todo_with_its_points():
     text = write_markdown(result(states=EVERY, todos=3))
     rows = [line for line in text.splitlines() if line.endswith("| not yet | 3 / 15 |")]
@@ -208,23 +219,10 @@ def test_the_longest_summary_is_short_enough_for_github():
     assert len(longest.encode("utf-8")) < 1024 * 1024  # a job's summary
     assert len(longest) < 125_000  # a release's text
     told = sum(token.type == "fence" for token in ci_readers.markdown_tokens(longest))
-    assert told > 40 and f"And {8 * 14 - told} failed checks more." in longest
+    assert told > 40 and f"Further failed checks: {8 * 14 - told}." in longest
 
 
 # ---------------------------------------------------------------- the others
-
-
-@hostile
-def test_words_change_no_junit(words: str):
-    plain, forged = (
-        ci_readers.junit_cases(write_junit(result(w, EVERY))) for w in ("words", words)
-    )
-    assert [[each.tag for each in case.iter()] for case in forged] == [
-        [each.tag for each in case.iter()] for case in plain
-    ]
-    error = forged[-1].find("error")
-    assert error is not None and error.attrib["message"] == (clean(words) or "error")
-    assert error.text is not None and clean(words) in error.text
 
 
 def test_junit_names_what_passed_failed_and_did_not_run():
@@ -235,27 +233,52 @@ def test_junit_names_what_passed_failed_and_did_not_run():
     assert cases[0].attrib["classname"] == "TODO 0: Damping per second"
 
 
-@hostile
-def test_gradescope_gets_whole_points_and_plain_text(words: str):
-    tests = ci_readers.gradescope_tests(json.loads(write_gradescope(result(words, EVERY))))
-    assert [test["status"] for test in tests] == ["passed", *["failed"] * 4]
-    assert clean(words) in tests[1]["output"] and len(tests[1]["output"]) < 2500
-
-
-@hostile
-def test_classroom50_gets_whole_points(words: str):
-    marks = json.loads(write_classroom50(result(words, EVERY, todos=2), RUNNER))
-    assert ci_readers.classroom50_marks(marks) == 6
-    assert [test["passed"] for test in marks["tests"]] == [False, False]
-    assert words.strip() == "" or clean(words) not in json.dumps(marks)
-
-
 def test_classroom50_needs_its_runner():
     with pytest.raises(Stop, match="SUBMISSION_TAG, COMMIT_URL, RELEASE_URL not set"):
         write_classroom50(result(), {"CLASSROOM": "physics", "ASSIGNMENT": "engine"})
 
 
+# ---------------------------------------------------------------- tables
+
+
+def read_csv(content: bytes) -> list[dict[str, str]]:
+    text = content.decode("utf-8-sig")
+    return list(csv.DictReader(io.StringIO(text, newline="")))
+
+
+def test_both_tables_have_a_line_per_check():
+    made = [result(), result("Zoë")]
+    rows = [json.loads(line) for line in write_json_lines(made).splitlines()]
+    assert [tuple(row) for row in rows] == [tuple(rows[0])] * 6
+    content = write_csv(made)
+    assert [{name: str(value) for name, value in row.items()} for row in rows] == read_csv(content)
+    assert content.startswith(b"\xef\xbb\xbf")  # as Excel reads it
+    assert content.count(b"\r\n") == content.count(b"\n") == 7
+    assert rows[1] == {
+        "submission": "words",
+        "todo": "0",
+        "check": "check_1",
+        "kind": "unit",
+        "state": "not yet",
+        "points": 0,
+        "max_points": 3,
+        "misconception": "",
+        "expected": "words",
+        "got": "words",
+        "where": "words:71",
+    }
+
+
 # ---------------------------------------------------------------- the command
+
+
+def test_export_makes_tables_of_a_whole_folder(tmp_path: Path):
+    for name in ("ann", "ben"):
+        write_json(result(name), tmp_path / f"{name}.json")
+    out = tmp_path / "all.csv"
+    done = run_grader("export", "csv", tmp_path, "--out", out)
+    assert done.exit_code == 0, done.output
+    assert {row["submission"] for row in read_csv(out.read_bytes())} == {"ann", "ben"}
 
 
 def test_export_writes_what_it_prints(tmp_path: Path):

@@ -12,41 +12,41 @@ from grader.report.files import write_whole
 from grader.text import harmless
 
 TEMPLATES = Path(__file__).with_name("templates")
-MAX_EMBEDDED = 8_000_000  # characters of replays in one page; the others are linked to
+MAX_EMBEDDED = 8_000_000  # characters of replays in one page; further ones become links
 
 
 @dataclass(frozen=True)
 class Comment:
-    """Hold what a person says to a student, beside the lines of code that it is about."""
+    """A teacher's comment to a student, with the lines of code that it is about."""
 
     words: str
     place: str = ""  # the file and the line
-    line: int = 0  # the one that is meant
+    line: int = 0  # the number of the line
     code: list[tuple[int, str]] = field(default_factory=list)  # numbered lines around it
     note: str = ""
 
 
 @dataclass(frozen=True)
 class Standing:
-    """The points that count for a student in the end, and why, in named lines."""
+    """A student's final mark, and its reasons in named lines."""
 
     name: str
     mark: int | None  # None: it needs manual review
     max_points: int
     bonus: int = 0  # beside the mark, if it does not count in it
-    scaled: str = ""  # the mark as the gradebook has it, if that counts otherwise
+    scaled: str = ""  # the mark on the gradebook's scale, if that differs
     lines: list[tuple[str, str]] = field(default_factory=list)
     comments: list[Comment] = field(default_factory=list)
 
 
 def write_report(result: Result, path: Path, standing: Standing | None = None) -> None:
-    """Write the page with the replays that are beside it."""
+    """Write the page, with the replays from its folder."""
     page = render(result, find_replays(result, path.parent), standing)
     write_whole(page.encode("utf-8"), path)
 
 
 def write_standing(standing: Standing, path: Path) -> None:
-    """Write the page of a student of whom there is no result."""
+    """Write the page of a student without a result."""
     template = TEMPLATES / "standing.html"
     page = fill_template(
         template, "report.css", standing=standing, clean=clean_line, harmless=harmless
@@ -55,7 +55,7 @@ def write_standing(standing: Standing, path: Path) -> None:
 
 
 def render(result: Result, replays: Mapping[str, str], standing: Standing | None = None) -> str:
-    """Return the page; `replays` are the pages to embed, by their paths in the result."""
+    """Return the page, with these `replays` embedded; they are named by path."""
     return fill_template(
         TEMPLATES / "report.html",
         "report.css",
@@ -72,12 +72,12 @@ def render(result: Result, replays: Mapping[str, str], standing: Standing | None
 
 
 def list_failed_first(result: Result) -> list[TodoResult]:
-    """Return what people are shown: what is to be done before what is done."""
+    """Return the TODOs, those that passed last."""
     return sorted(result.shown, key=lambda todo: todo.state == "passed")
 
 
 def find_replays(result: Result, folder: Path) -> dict[str, str]:
-    """Return the replays that are there, as far as they fit into one page."""
+    """Return the existing replays that fit into one page, by path."""
     found: dict[str, str] = {}
     room = MAX_EMBEDDED
     for name in (check.replay for todo in result.todos for check in todo.checks):

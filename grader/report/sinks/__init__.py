@@ -1,1 +1,1 @@
-"""Write the forms that other systems read: a function each, from one result, every word escaped."""
+"""Write a result in the forms of other systems; each module has one form."""

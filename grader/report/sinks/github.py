@@ -1,4 +1,4 @@
-"""Write annotations for GitHub Actions, and keep text from being a command to it."""
+"""Write annotations for GitHub Actions, and stop other text from being a command."""
 
 import base64
 import os
@@ -10,14 +10,13 @@ from grader.judge.wording import named, reasons
 from grader.report.sinks.reporter import write_reporter
 from grader.text import clean
 
-SHOWN = 10  # errors, and as many warnings: GitHub shows no more of one step
+SHOWN = 10  # errors, and as many warnings, that GitHub shows of one step
 
 
 def write_annotations(result: Result, inside: str = "") -> str:
     """Return a workflow command for each TODO with a failed check, at the student's line.
 
-    A bonus task is no error: nothing is missing without it.
-    `inside` is the folder of the submission in the repository, empty for its root.
+    A bonus task is a warning. `inside` is the submission's folder in the repository.
     """
     todos = [todo for todo in result.shown if todo.failed]
     lines = [
@@ -28,7 +27,7 @@ def write_annotations(result: Result, inside: str = "") -> str:
 
 
 def write_annotation(kind: str, todo: TodoResult, inside: str) -> str:
-    """Return the command for the first failed check of a TODO; the others are counted."""
+    """Return the command for a TODO: its first failed check, and the number of others."""
     check, *others = todo.failed
     place = ""
     if check.where:
@@ -56,7 +55,7 @@ def write_outputs(result: Result) -> str:
 
 @contextmanager
 def stop_commands(environment: Mapping[str, str]) -> Iterator[None]:
-    """Make all that is printed meanwhile text to GitHub Actions, whatever it looks like."""
+    """Stop GitHub Actions from reading commands in the text printed meanwhile."""
     if environment.get("GITHUB_ACTIONS") != "true":
         yield
         return

@@ -13,7 +13,7 @@ SHOWN = {"output_format": "text", "visibility": "visible"}  # to the student
 def write_gradescope(result: Result, course: Course = FULL) -> bytes:
     """Return a test per check, all visible: one hidden test would hide the student's total.
 
-    The score is without bonus, unless the course adds it; what was earned there is said beside it.
+    The score includes the bonus only if the course adds it; the output names the bonus.
     """
     score: float = result.points + course.added(result.bonus, result.points)
     output = points_in_words(result)
@@ -53,7 +53,7 @@ def make_test(todo: TodoResult, check: CheckResult, number: int) -> dict[str, ob
 
 
 def make_points(todo: TodoResult, check: CheckResult) -> dict[str, object]:
-    """Return the name and the points; a bonus has them in its name, so that sums hold."""
+    """Return the name and the points; a bonus has points in its name, so that sums are right."""
     name = named(todo, check.title)
     if todo.bonus:
         return {"name": f"{name} (bonus: {check.points} of {check.max_points})"}

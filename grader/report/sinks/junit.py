@@ -40,7 +40,7 @@ def count(todos: list[TodoResult], tag: str) -> int:
 
 
 def add_case(suite: ET.Element, check: CheckResult) -> None:
-    """Add a check under the same name in every run, to compare runs; GitLab shows classnames."""
+    """Add a check, with the same name in every run; GitLab shows the class name."""
     case = ET.SubElement(suite, "testcase", classname=suite.attrib["name"])
     case.set("name", f"{check.title} ({plural(check.max_points, 'point')})")
     if tag := TAGS.get(check.state):

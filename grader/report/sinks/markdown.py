@@ -12,10 +12,10 @@ ROOM = 100_000  # characters: a release may have 125,000, a job's summary 1024 K
 
 
 def write_markdown(result: Result) -> str:
-    """Return a table of the TODOs, then why checks failed.
+    """Return a table of the TODOs and the reasons of failures.
 
-    A submission's words are in fenced lines that begin with a word of ours, so that none of them
-    can end the fence.
+    A submission's words stand in fenced lines that begin with a word of ours, so none can end the
+    fence.
     """
     elsewhere = hidden_points_note(result)
     lines = [
@@ -41,18 +41,18 @@ def write_row(todo: TodoResult) -> str:
 
 
 def explain(todo: TodoResult, check: CheckResult) -> str:
-    """Return a heading and a fenced text, set apart by empty lines."""
+    """Return a heading and a fenced text, with empty lines around."""
     heading = f"#### {named(todo, escape_markdown(check.title))}"
     text = "\n".join(reasons(check, task_of(todo)))
     return f"\n{heading}\n\n```text\n{text}\n```"
 
 
 def limit(parts: list[str]) -> list[str]:
-    """Return as many parts as there is room for, and how many were left out."""
+    """Return the parts that fit, and the number of the others."""
     ends = accumulate(map(len, parts))
     kept = [part for part, end in zip(parts, ends, strict=True) if end <= ROOM]
     left = len(parts) - len(kept)
-    return [*kept, f"\nAnd {left} failed checks more."] if left else kept
+    return [*kept, f"\nFurther failed checks: {left}."] if left else kept
 
 
 def escape_markdown(words: str) -> str:

@@ -10,10 +10,7 @@ STATUS: dict[State, str] = {"passed": "pass", "error": "error"}  # everything el
 
 
 def write_reporter(result: Result) -> bytes:
-    """Return one test per check; their points add up to those of the result.
-
-    Bonus tasks are left out: the action adds up whatever it gets.
-    """
+    """Return one test per check, without bonus tasks: the action adds up all points."""
     tests = [make_test(todo, check) for todo in result.counted for check in todo.checks]
     statuses = {each["status"] for each in tests}
     status = next((each for each in ("fail", "error") if each in statuses), "pass")
@@ -23,7 +20,7 @@ def write_reporter(result: Result) -> bytes:
 
 
 def make_test(todo: TodoResult, check: CheckResult) -> dict[str, object]:
-    """Return a test whose name and message are no commands in the log of the job."""
+    """Return a test whose name and message are no commands in a job's log."""
     name = named(todo, check.title)
     why = escape_commands(f"{name}: {check.got or check.state}")
     return {

@@ -1,4 +1,4 @@
-"""Write plain tables: CSV for spreadsheets and JSON Lines for programs, a line per check."""
+"""Write tables with a line per check: CSV for spreadsheets, JSON Lines for programs."""
 
 from collections.abc import Iterable, Iterator
 
@@ -10,18 +10,18 @@ from grader.text import clean, format_csv
 
 
 def write_csv(results: Iterable[Result]) -> bytes:
-    """Return a line per check, as Excel and all others read it: UTF-8 with its mark, CRLF."""
+    """Return a line per check, as Excel reads it: UTF-8 with its mark, CRLF."""
     rows = list(make_rows(results))
     return format_csv([rows[0], *(row.values() for row in rows)]).encode("utf-8-sig")
 
 
 def write_json_lines(results: Iterable[Result]) -> bytes:
-    """Return an object per check, with no value changed for spreadsheets."""
+    """Return an object per check, without the escapes for spreadsheets."""
     return b"".join(msgspec.json.encode(row) + b"\n" for row in make_rows(results))
 
 
 def make_rows(results: Iterable[Result]) -> Iterator[dict[str, str | int]]:
-    """Return a row per check, also of bonus TODOs, whose ids begin with a B."""
+    """Yield a row per check, also of bonus tasks."""
     for result in results:
         for todo in result.todos:
             for check in todo.checks:

@@ -24,10 +24,7 @@ STAMPED = {"assignment_type": "ASSIGNMENT_TYPE", "owner": "OWNER"}  # by the run
 
 
 def write_classroom50(result: Result, environment: Mapping[str, str]) -> bytes:
-    """Return its result.json: a test per TODO, whole points that add up.
-
-    The runner's environment says whose marks these are.
-    """
+    """Return its result.json: a test per TODO. The runner's environment names the student."""
     missing = [name for name in NEEDED.values() if not environment.get(name)]
     if missing:
         raise Stop(
@@ -48,7 +45,7 @@ def write_classroom50(result: Result, environment: Mapping[str, str]) -> bytes:
 
 
 def make_test(todo: TodoResult) -> dict[str, str | bool | int]:
-    """Return one TODO; a bonus is in its name, so that the points add up."""
+    """Return the test of a TODO; a bonus has points in its name, so that sums are right."""
     name = named(todo, clean(todo.title))
     if todo.bonus:
         name += f" (bonus: {todo.points} of {todo.max_points})"
@@ -63,8 +60,8 @@ def make_test(todo: TodoResult) -> dict[str, str | bool | int]:
 def write_bundle(folder: Path, wheel: Path, requirements: Path) -> None:
     """Make the folder CLASSROOM/autograders/ASSIGNMENT of a Classroom 50 repository.
 
-    `wheel` is the package that students get; `requirements` names it as a file beside itself, and
-    all that it needs. Everyone can read what is in the folder.
+    `wheel` is the students' package; `requirements` names it and the packages that it needs.
+    Everybody can read this folder.
     """
     folder.mkdir(parents=True, exist_ok=True)
     for source in (BUNDLE / "autograder.py", wheel, requirements):

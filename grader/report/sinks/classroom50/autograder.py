@@ -1,7 +1,7 @@
 """Grade one submission for Classroom 50, whose runner starts this in the student's checkout.
 
-The grader is installed from the files beside this one into a folder of its own, and nothing is
-imported from the checkout. The exit status is 0 when grading came to its end, whatever the marks.
+It installs the grader from the files beside this one and imports nothing from the checkout. The
+exit status is 0 if the submission was graded, whatever its marks.
 """
 
 import json
@@ -22,7 +22,7 @@ def main() -> int:
     checkout = Path.cwd()
     with tempfile.TemporaryDirectory(prefix="classroom50-") as temporary:
         work = Path(temporary)
-        os.chdir(work)  # the checkout must not be where Python looks for modules
+        os.chdir(work)  # Python must not look for modules in the checkout
         python = install(work / "python")
         if python is None:
             return 2
@@ -30,7 +30,7 @@ def main() -> int:
 
 
 def install(folder: Path) -> Path | None:
-    """Install the grader and return its Python; None where that failed."""
+    """Install the grader; return its Python, or None if that failed."""
     venv.create(folder, with_pip=True)
     python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
     pip = [str(python), "-I", "-m", "pip", "--quiet", "--disable-pip-version-check", "install"]
@@ -39,7 +39,7 @@ def install(folder: Path) -> Path | None:
 
 
 def grade(python: Path, checkout: Path, report: Path) -> int:
-    """Grade, and leave in the checkout what the runner takes from there."""
+    """Grade, and write into the checkout the files that the runner takes."""
     grader = [str(python), "-I", "-m", "grader"]
     elsewhere = {name: os.environ[name] for name in os.environ if name not in THE_RUNNERS}
     graded = subprocess.run(
@@ -59,7 +59,7 @@ def grade(python: Path, checkout: Path, report: Path) -> int:
 
 
 def make_room(place: Path) -> None:
-    """Remove what the submission brought under this name; a link is not followed."""
+    """Remove a file, folder or link that the submission has under this name."""
     if place.is_dir() and not place.is_symlink():
         shutil.rmtree(place)
     else:
@@ -67,7 +67,7 @@ def make_room(place: Path) -> None:
 
 
 def write_status(result: dict[str, int]) -> None:
-    """Write what Classroom 50 shows beside the student's commit."""
+    """Write the status that Classroom 50 shows beside the student's commit."""
     points, most = result["points"], result["max_points"]
     status = "success" if points == most else "failure"
     if file := os.environ.get("GITHUB_OUTPUT"):
