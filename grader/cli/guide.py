@@ -1,7 +1,7 @@
 """Guide a student from task to task: `python -m grader` alone, and `make`.
 
-It is `check --watch`, with what the lab sheet says of the next task, and with a key for each thing
-that helps. At full marks there are keys for what comes next.
+It is `check --watch` with the lab sheet's text of the next task, and keys for hints, replays and
+the program's window. At full marks there are keys for what comes next.
 """
 
 import os
@@ -46,11 +46,11 @@ KEYS_AT_THE_END = "f film   b bonus task   t test yourself   w window   q quit"
 
 
 class Quit(Exception):
-    """The student has seen enough."""
+    """Raised to end the guide."""
 
 
 def guide_command(context: typer.Context) -> None:
-    """Your lab. Without a command: the guide, which shows the next task and checks each save."""
+    """Start the guide where no command is named."""
     if context.invoked_subcommand is None:
         lead(Path("."), read_course(None))
 
@@ -71,18 +71,18 @@ def lead(path: Path, course: Course) -> None:
             for _ in wait_for_saves(folder, TICK):
                 guide.look()
                 guide.press(read_key())
-                guide.tell_of_program()
+                guide.show_output()
             raise Stop(f"{folder} no longer exists")
 
 
 @dataclass
 class Guide(Watch):
-    """A watch that shows the next task, and does what keys ask for."""
+    """A watch that shows the next task and obeys keys."""
 
     tasks: Tasks = field(default_factory=load_tasks)
-    todo: TodoResult | None = None  # the one on the screen
-    hints: dict[str, int] = field(default_factory=dict)  # given so far, by TODO
-    running: "Running | None" = None  # the program that was started last
+    todo: TodoResult | None = None  # on the screen
+    hints: dict[str, int] = field(default_factory=dict)  # the number given so far, by TODO
+    running: "Running | None" = None  # the program started last
 
     def show(self, lines: int, touched: Collection[str]) -> None:
         """Print the result, the text of the next task, and the keys."""
@@ -99,7 +99,7 @@ class Guide(Watch):
         say(KEYS_AT_THE_END if at_end else KEYS, self.console, style="bright_black")
 
     def press(self, key: str) -> None:
-        """Do what a key is for; others do nothing."""
+        """Obey a key; ignore others."""
         at_end = {"f": self.show_film, "b": self.show_bonus, "t": self.ask_questions}
         keys = {
             "h": self.give_hint,
@@ -119,10 +119,10 @@ class Guide(Watch):
     def say(self, words: str, indent: int = 2) -> None:
         say(words, self.console, indent)
 
-    # ------------------------------------------------------------ what helps
+    # ------------------------------------------------------------ keys
 
     def give_hint(self) -> None:
-        """Give the next hint to the TODO on the screen; the last one stays."""
+        """Give the next hint to the TODO on the screen, or the last one again."""
         name = self.todo.id if self.todo else ""
         hints = load_hints().get(name, [])
         if not hints:
@@ -142,7 +142,7 @@ class Guide(Watch):
         self.open_page(self.replays.parent / str(check.replay))
 
     def open_page(self, path: Path) -> None:
-        """Open a page in the browser, and name it: there may be no browser here."""
+        """Open a page in the browser, and print its path in case there is no browser."""
         for line in wrap(f"Opening {clean(os.path.relpath(path))}", self.console, 2, whole=True):
             write(line, self.console)
         with suppress(webbrowser.Error, OSError):
@@ -159,8 +159,8 @@ class Guide(Watch):
         self.running = Running.start(self.folder, module)
         self.say(f"Started {self.running.name}")
 
-    def tell_of_program(self) -> None:
-        """Show what a program printed that has ended."""
+    def show_output(self) -> None:
+        """Show the last lines that an ended program printed."""
         if self.running is not None and self.running.has_ended():
             for line in self.running.read_output():
                 self.say(clean(line))
@@ -168,13 +168,13 @@ class Guide(Watch):
             self.show_keys()
 
     def show_printed(self) -> None:
-        """Show what the checks of the TODO on the screen printed."""
+        """Show what the program printed in the checks of this TODO."""
         checks = self.todo.checks if self.todo else []
         printed = dict.fromkeys(check.printed for check in checks if check.printed)
         for words in printed:
             self.say(f"Printed: {clean(str(words))}")
         if not printed:
-            self.say("Nothing was printed in these checks: print() in your code shows here.")
+            self.say("These checks printed nothing. Output of print() appears here.")
 
     # ------------------------------------------------------------ at full marks
 
@@ -190,7 +190,7 @@ class Guide(Watch):
         self.open_page(path)
 
     def show_bonus(self) -> None:
-        """Show the next bonus task that is not done."""
+        """Show the first unfinished bonus task."""
         left = [todo for todo in self.result.todos if todo.bonus and todo.state != "passed"]
         if not left:
             self.say("There is no bonus task left.")
@@ -201,7 +201,7 @@ class Guide(Watch):
         self.show_keys()
 
     def ask_questions(self) -> None:
-        """Make a page of practice questions about the program, and open it."""
+        """Make a page of practice questions and open it."""
         from grader.cli.practice import make_questions
 
         try:
@@ -215,7 +215,7 @@ class Guide(Watch):
 
 @dataclass
 class Running:
-    """A program that was started, and what it printed so far."""
+    """A running program and its output so far."""
 
     name: str
     process: "subprocess.Popen[bytes]"

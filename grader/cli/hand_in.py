@@ -5,6 +5,7 @@ import io
 import json
 import re
 import zipfile
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from datetime import datetime
 from pathlib import Path
@@ -16,12 +17,12 @@ from grader.judge.submission import MAX_BYTES, MAX_FILES, plain_files
 from grader.report.files import put_in, write_whole
 from grader.source.flaws import find_flaw
 from grader.source.regions import read_source
-from grader.text import listed, moment
+from grader.text import listed, moment, plural
 
 PACKED = "hand-in.zip"
 PROGRAMS = ("mini_engine", "pymunk_scene", "integrators")  # those without a TODO are given, too
-GIVEN = {  # what the folder handed out holds besides, and nobody works on
-    *("Makefile", "README.md", "requirements.txt", "MANIFEST.txt"),
+GIVEN = {  # the other files of the folder, which no student works on
+    *("Makefile", "README.md", "requirements.txt", "MANIFEST.txt", "pyproject.toml", "uv.lock"),
     *("accuracy.py", "experiments", "stable_engine", "handouts", "report"),
 }
 COPY = re.compile(r"(?: \(\d+\)| copy| - Copy)(?=\.\w+$)")  # as browsers and systems name them
@@ -38,10 +39,10 @@ def pack_tree(tree: Path, course: Course = FULL, out: Path | None = None) -> tup
     if len(files) > MAX_FILES or size > MAX_BYTES:
         largest = max(files, key=lambda name: files[name].stat().st_size)
         if target.is_file() and not target.is_symlink():
-            target.unlink()  # nobody should hand in what was packed before
+            target.unlink()  # an older zip must not be handed in
         raise Stop(
-            f"{len(files)} files of {size >> 20} MB are more than will be read, {MAX_FILES} files "
-            f"of {MAX_BYTES >> 20} MB: move what does not belong to the work out of {tree}. The "
+            f"{len(files)} files of {size >> 20} MB are too many: the limit is {MAX_FILES} files "
+            f"of {MAX_BYTES >> 20} MB. Move what does not belong to the work out of {tree}. The "
             f"largest file is {largest}, {files[largest].stat().st_size >> 20} MB"
         )
     packed = io.BytesIO()
@@ -64,12 +65,18 @@ def choose_files(tree: Path, course: Course) -> dict[str, Path]:
     }
 
 
+def list_tops(names: Sequence[str]) -> Iterator[str]:
+    """Yield what is packed, a folder with the number of its files."""
+    for top, count in Counter(name.partition("/")[0] for name in names).items():
+        yield top if top in names else f"{top}: {plural(count, 'file')}"
+
+
 def list_warnings(tree: Path, names: Sequence[str]) -> Iterator[str]:
-    """Yield what a student may not have meant to hand in as it is."""
+    """Yield warnings of files that a student may not want to hand in as they are."""
     for name in names:
         copy = COPY.sub("", name)
         if copy != name and copy in names:
-            yield f"{name} is packed too, and only {copy} counts. Delete the one that is not meant."
+            yield f"{name} is packed too, but only {copy} counts. Delete one of the two."
         if name.endswith(".py") and (flaw := find_flaw(read_source(tree / name))):
             yield f"{name}, line {flaw.line}: Python cannot read this ({flaw.message})."
     empty = [name for name in names if name.endswith(".ipynb") and has_no_answer(tree / name)]
@@ -78,7 +85,7 @@ def list_warnings(tree: Path, names: Sequence[str]) -> Iterator[str]:
 
 
 def has_no_answer(path: Path) -> bool:
-    """Return whether a notebook has cells to be answered, and none of them was."""
+    """Return whether a notebook has cells to answer, and none has an answer."""
     try:
         cells = json.loads(path.read_bytes())["cells"]
         asked = [each for each in cells if each["metadata"].get("nbgrader", {}).get("solution")]

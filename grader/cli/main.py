@@ -261,14 +261,15 @@ def end_like_ctrl_c() -> None:
 
 
 def make_app() -> typer.Typer:
+    is_kit = find_spec("grader.classroom") is not None  # students have no such folder
     whole = typer.Typer(
         cls=Commands,
-        help="Grades submissions of the physics-engine assignment.",
-        no_args_is_help=find_spec("grader.classroom") is not None,  # students get the guide
+        help="Grade the physics-engine lab." if is_kit else "Check your physics lab.",
+        no_args_is_help=is_kit,  # students get the guide
         add_completion=False,
         pretty_exceptions_enable=False,
     )
-    if find_spec("grader.classroom"):  # students get none of these folders
+    if is_kit:
         from grader.cli import classes, classroom, dev, questions
 
         apps = [app, export.app, classroom.app, dev.app, questions.app]
@@ -282,8 +283,11 @@ def make_app() -> typer.Typer:
         from grader.cli import guide, practice
 
         whole.callback(invoke_without_command=True)(guide.guide_command)
-        for each in [app, student.app, export.app, practice.app]:
+        for each in [app, export.app]:  # for CI
+            whole.add_typer(hide_commands(each, ()))
+        for each in [student.app, practice.app]:
             whole.add_typer(each)
+        whole.info.epilog = "Without a command, the guide shows the next task and checks each save."
     return whole
 
 

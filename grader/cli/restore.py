@@ -1,4 +1,4 @@
-"""Put given code back as it was handed out: `check --restore`."""
+"""Restore given code: `check --restore`."""
 
 import os
 from collections.abc import Iterable
@@ -22,9 +22,9 @@ def find_changes(tree: Path) -> list[Changed]:
 
 
 def list_notes(tree: Path, result: Result) -> list[str]:
-    """Return lines on given code that was changed, unless a check has said it.
+    """Return lines on changed given code, unless a check names it.
 
-    A TODO's own function counts as changed only while the TODO fails, and is not to be put back.
+    The function around a TODO counts as changed only while the TODO fails; it cannot be restored.
     """
     checks = [check for todo in result.todos for check in todo.checks]
     if any(check.failed and check.where is not None and check.where.given for check in checks):
@@ -55,7 +55,7 @@ def restore(tree: Path, name: str) -> list[str]:
     """
     texts = make_texts(tree, name)
     if not texts:
-        return [f"{name} is as it was handed out: nothing to put back."]
+        return [f"{name} is unchanged: there is nothing to put back."]
     for file, text in texts.items():  # of two files both or none
         if flaw := find_flaw(text):
             raise Stop(

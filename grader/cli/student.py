@@ -8,7 +8,7 @@ from typing import Annotated
 import msgspec
 import typer
 
-from grader.cli.hand_in import find_missing, list_warnings, pack_tree, write_receipt
+from grader.cli.hand_in import find_missing, list_tops, list_warnings, pack_tree, write_receipt
 from grader.cli.restore import list_notes, restore
 from grader.cli.shared import (
     CourseFile,
@@ -40,10 +40,10 @@ IS_TODO = re.compile(rf"(?:{TODO_ID}|whole)", re.IGNORECASE)
 def check_command(
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
     what: Annotated[
-        list[str] | None, typer.Argument(help="TODOs, such as 4 or 7a, or a folder of your tree.")
+        list[str] | None, typer.Argument(help="TODOs, such as 4 or 7a; or your folder.")
     ] = None,
     watch: Annotated[bool, typer.Option("--watch", help="Check again after each save.")] = False,
-    whole: Annotated[bool, typer.Option("--all", help="Everything that failed, in full.")] = False,
+    whole: Annotated[bool, typer.Option("--all", help="Explain every failure.")] = False,
     status: Annotated[bool, typer.Option(hidden=True)] = True,
     undo: Annotated[
         list[str] | None,
@@ -51,9 +51,10 @@ def check_command(
     ] = None,
     course: CourseFile = None,
 ) -> None:
-    """Show how far your own tree is, and what to do next. Exit status as for `grade`.
+    """Check your programs, and show what to do next.
 
-    One TODO at a time is shown in full; `--all` shows everything.
+    One TODO at a time is explained, with --all every failure. Exit status 0: all checks pass,
+    1: some fail, 2: the checks could not run.
     """
     taken = read_course(course)
     ids, path = split_words(what or [])
@@ -124,16 +125,16 @@ def hand_in_command(
     ] = True,
     course: CourseFile = None,
 ) -> None:
-    """Pack your work, and nothing else, into hand-in.zip. Exit status 1: a program is missing."""
+    """Pack your work into hand-in.zip. Exit status 1: a program is missing."""
     require_file_target(out, "--out")
     taken = read_course(course)
     folder = find_tree(path, taken)
     packed, names = pack_tree(folder, taken, out)
-    for name in names:
-        console.print(f"  {clean(name)}", soft_wrap=True)
+    for words in list_tops(names):
+        console.print(f"  {clean(words)}", soft_wrap=True)
     missing = find_missing(names, taken)
     for name in missing:
-        say(f"There is no {name} here: hand in once all programs are there.", console)
+        say(f"There is no {name} here: hand in when all programs are there.", console)
     for words in list_warnings(folder, names):
         say(clean(words), console, indent=2, style="yellow")
     if checks and not missing:
@@ -169,20 +170,20 @@ def make_replay_folder(tree: Path) -> Path | None:
 
 @app.command("hint")
 def hint_command(
-    name: Annotated[str, typer.Argument(help="The TODO you are at.")] = "",
+    name: Annotated[str, typer.Argument(help="The TODO, such as 4.")] = "",
     todo: Annotated[str, typer.Option(help="The same, as an option.")] = "",
     level: Annotated[int, typer.Option(min=1, max=3, help="How much to tell.")] = 1,
     course: CourseFile = None,
 ) -> None:
-    """Give a hint: first a question, then the idea, then nearly the code."""
+    """Give a hint: a question, with --level 2 the idea, with 3 nearly the code."""
     if not (name or todo):
-        raise Stop(f"name the TODO you are at, as in {command('hint', '4')}")
+        raise Stop(f"name a TODO, as in {command('hint', '4')}")
     todo, *others = find_parts(name or todo, read_course(course))
     if others:
         raise Stop(f"there are {', '.join([todo, *others])}: name one")
     hints = load_hints()
     if todo not in hints:
-        say(f"There is no hint for {todo}. What its checks say leads to the TODO.", console)
+        say(f"There is no hint for {todo}: its checks name the TODO to look at.", console)
         return
     for number, words in enumerate(hints[todo][:level], 1):
         say(f"{number}  {words}", console, indent=3)

@@ -1,7 +1,7 @@
-"""Check the tree again after each save, first what the save touched: `check --watch`.
+"""Check the tree again after each save, first the TODOs that the save changed: `check --watch`.
 
-Events only wake us up. The sources themselves show what changed, so it does not matter how an
-editor saves, nor whether the file system reports it.
+Events only wake the watch. It compares the sources themselves, so it does not matter how an editor
+saves or whether the file system reports it.
 """
 
 import time
@@ -43,35 +43,35 @@ class SavedAgain(Exception):
 
 @dataclass
 class Watch:
-    """A tree, its result, and what is to be checked again."""
+    """A tree, its result, and the TODOs to check again."""
 
     folder: Path
     options: Options
     console: Console
     worker: Worker
     replays: Path | None = None
-    seen: Sources = field(default_factory=dict)  # as they were when last looked at
-    checked: Sources = field(default_factory=dict)  # as they were when last checked
-    touched: set[str] = field(default_factory=set)  # TODO ids to be checked, and shown
-    others: set[str] = field(default_factory=set)  # to be checked, and shown if anything is new
-    looked: float = 0.0  # s, when that was
-    news: list[str] = field(default_factory=list)  # what is new since the last save
+    latest: Sources = field(default_factory=dict)  # at the last look
+    checked: Sources = field(default_factory=dict)  # at the last check
+    touched: set[str] = field(default_factory=set)  # ids of TODOs to check and show
+    others: set[str] = field(default_factory=set)  # to check, and to show if the result differs
+    looked: float = 0.0  # s, time of the last look during checks
+    news: list[str] = field(default_factory=list)  # lines on the last save
     result: Result = field(init=False)
 
     def start(self) -> None:
-        self.seen = self.checked = read_sources(self.folder)
+        self.latest = self.checked = read_sources(self.folder)
         with CheckProgress(self.options, self.console) as shown:
             self.result = self.grade(replace(self.options, progress=shown.count))
         self.draw()
 
     def look(self) -> None:
-        """Check again whatever was saved since the last look."""
+        """Check again what was saved since the last look."""
         again = False
-        while (now := read_sources(self.folder)) != self.seen or again:
-            if changed := sorted(find_differences(self.seen, now)):
+        while (now := read_sources(self.folder)) != self.latest or again:
+            if changed := sorted(find_differences(self.latest, now)):
                 self.news = [f"saved: {clean(', '.join(changed))}"]
                 self.tell(self.news, clear=True)
-            self.seen, again = now, False
+            self.latest, again = now, False
             new = sorted(find_differences(self.checked, now))
             if trouble := next(filter(None, map(self.find_trouble, new)), ""):
                 self.tell([trouble])
@@ -89,21 +89,21 @@ class Watch:
         modules = {todo.module for todo in load_rubric().todos}
         if module_of(Path(file)) not in modules:
             return ""
-        flaw = find_flaw(self.seen.get(file, ""))
+        flaw = find_flaw(self.latest.get(file, ""))
         return f"{file}:{flaw.line} is not valid Python yet: {clean(flaw.message)}" if flaw else ""
 
     def plan(self) -> None:
-        """Note what to check, first what the saves since the last check touched."""
+        """Choose the TODOs to check: changed ones, and others that run a changed file."""
         wanted = self.options.only or {todo.id for todo in self.options.course.rubric.todos}
-        for file in find_differences(self.checked, self.seen):
+        for file in find_differences(self.checked, self.latest):
             before = read_functions(file, self.checked.get(file, ""))
-            after = read_functions(file, self.seen.get(file, ""))
+            after = read_functions(file, self.latest.get(file, ""))
             self.touched |= {todo for todo in wanted if before.get(todo) != after.get(todo)}
             self.others |= wanted & find_users(file)
-        self.checked = self.seen
+        self.checked = self.latest
 
     def check_again(self) -> None:
-        """Check and show what is noted, unless a save comes in between."""
+        """Check the chosen TODOs and show them, unless a save comes in between."""
         touched = set(self.touched)
         news = self.check(self.touched, always_tell=True)
         if touched:
@@ -120,7 +120,7 @@ class Watch:
             show([f"nothing new: {total} points"])
 
     def check(self, todos: set[str], always_tell: bool) -> list[str]:
-        """Check these again; return what is new, or with `always_tell` a line on each."""
+        """Check TODOs again; return a line on each that changed, or with `always_tell` on each."""
         if not todos:
             return []
         options = replace(self.options, only=frozenset(todos), progress=self.stop_if_saved)
@@ -137,7 +137,7 @@ class Watch:
         return grade_with_replays(self.folder, options, self.replays, self.worker)
 
     def draw(self, news: Sequence[str] = (), touched: Collection[str] = ()) -> None:
-        """Print one screen: the save and what it changed, and below it the result."""
+        """Print one screen: the save, its effect, and the result below."""
         more = len(news) - MOST_NEWS
         head = [*self.news, *news[:MOST_NEWS], *([f"and {more} more"] if more > 0 else [])]
         if self.console.is_terminal:
@@ -147,11 +147,11 @@ class Watch:
         self.show(LINES - len(head) - 1, touched)
 
     def show(self, lines: int, touched: Collection[str]) -> None:
-        """Print the result on at most so many lines."""
+        """Print the result on at most this many lines."""
         Screen(self.console, self.replays, lines).show(self.result, touched)
 
     def tell(self, lines: Sequence[str], clear: bool = False) -> None:
-        """Print what is new, after clearing a terminal if asked to."""
+        """Print lines in bold, on a cleared terminal if `clear`."""
         if clear:
             self.console.clear()
         for line in lines:
@@ -160,7 +160,7 @@ class Watch:
     def stop_if_saved(self, _: CheckResult) -> None:
         if time.monotonic() - self.looked > LOOK_EVERY:
             self.looked = time.monotonic()
-            if read_sources(self.folder) != self.seen:
+            if read_sources(self.folder) != self.latest:
                 raise SavedAgain
 
     def replace(self, todo: TodoResult) -> TodoResult:
@@ -171,7 +171,7 @@ class Watch:
         return before
 
     def compare(self, before: TodoResult, todo: TodoResult) -> str:
-        """Return what became of a TODO, in a line."""
+        """Return a line that compares the points of a TODO with those before."""
         if before.points == todo.points:
             return f"TODO {todo.id}: {todo.points} of {todo.max_points} as before"
         words = f"TODO {todo.id}: {before.points} → {todo.points} of {todo.max_points}"
@@ -198,7 +198,7 @@ def read_functions(file: str, text: str) -> dict[str, str]:
 
 
 def find_users(file: str) -> set[str]:
-    """Return the TODOs whose checks run a file; all may use a helper of the student's own."""
+    """Return the TODOs whose checks run a file: all, if it is a file the student added."""
     todos, module = load_rubric().todos, module_of(Path(file))
     users = {
         todo.id
@@ -209,13 +209,13 @@ def find_users(file: str) -> set[str]:
 
 
 def drop_lines(todo: TodoResult) -> TodoResult:
-    """Return a result without lines, which move whenever something is written above them."""
+    """Return a result without line numbers, which change with every line added above."""
     checks = [msgspec.structs.replace(check, where=None) for check in todo.checks]
     return msgspec.structs.replace(todo, checks=checks)
 
 
 def read_sources(folder: Path) -> Sources:
-    """Read the Python files that would be handed in; skip one that goes away meanwhile."""
+    """Read the Python files that would be handed in; skip a file that disappears meanwhile."""
     found = {}
     for path in plain_files(folder):
         if path.suffix == ".py":
@@ -230,7 +230,7 @@ def list_folders(folder: Path) -> list[Path]:
 
 
 def wait_for_saves(folder: Path, most: int = 0) -> Iterator[None]:
-    """Wait for each event in the tree; come back after `most` ms without one."""
+    """Yield after each event in the tree, and after `most` ms without one."""
     while folder.is_dir():
         folders = list_folders(folder)
         try:

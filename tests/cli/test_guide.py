@@ -108,7 +108,7 @@ def test_hints_come_one_by_one_and_the_last_one_stays(open_guide):
 
 def test_a_failure_has_a_replay_and_what_was_printed(open_guide, opened: list[str]):
     guide = open_guide()
-    assert "no replay" in press(guide, "r") and "Nothing was printed" in press(guide, "p")
+    assert "no replay" in press(guide, "r") and "printed nothing" in press(guide, "p")
     save(guide, put(STUB, "    print('here it is')\n    return x, v\n    # END TODO 8a"))
     assert "here it is" in press(guide, "p")
     assert "Opening" in press(guide, "r")
@@ -121,9 +121,9 @@ def test_a_program_runs_beside_the_guide_and_its_last_words_are_shown(open_guide
     assert "Started python integrators.py" in press(guide, "w")
     assert "is running" in press(guide, "w")
     guide.running.process.wait()
-    guide.tell_of_program()
+    guide.show_output()
     assert "semi_implicit_euler 39151.23" in shown(guide) and guide.running is None
-    guide.tell_of_program()
+    guide.show_output()
     assert shown(guide) == ""
 
 

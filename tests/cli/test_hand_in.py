@@ -30,13 +30,8 @@ def tree(tmp_path: Path) -> Path:
     for name in ("helper.py", "data/level.json", "notebooks/quiz.ipynb", "handouts/lesson.html"):
         (tmp_path / "lab" / name).parent.mkdir(exist_ok=True)
         (tmp_path / "lab" / name).write_text("mine")
-    for name in (
-        ".venv/pyvenv.cfg",
-        ".venv/lib.py",
-        "build/replays/a.html",
-        "grader-1.whl",
-        "old.zip",
-    ):
+    made = (".venv/pyvenv.cfg", ".venv/lib.py", "build/replays/a.html", "pyproject.toml", "uv.lock")
+    for name in (*made, "grader-1.whl", "old.zip"):
         (tmp_path / "lab" / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / "lab" / name).write_text("not mine")
     return tmp_path / "lab"
@@ -100,7 +95,7 @@ def test_more_than_will_be_read_is_refused(tree, monkeypatch):
     monkeypatch.setattr(packing, "MAX_FILES", 3)
     (tree / PACKED).write_bytes(b"of yesterday")
     (tree / "film.dat").write_bytes(bytes(2 << 20))
-    with pytest.raises(Stop, match=r"more than will be read.* largest file is film\.dat, 2 MB"):
+    with pytest.raises(Stop, match=r"are too many: .* largest file is film\.dat, 2 MB"):
         pack_tree(tree)
     assert not (tree / PACKED).exists()
 
@@ -115,7 +110,7 @@ def test_what_may_not_be_meant_is_said_before_it_is_handed_in(tree):
     mine = text.replace("*Write your answer here.*", "One step, one moment.", 1)
     (tree / "notebooks" / "journal.ipynb").write_text(mine, encoding="utf-8")
     out = " ".join(run_grader("hand-in", tree, "--no-check").output.split())
-    assert "integrators (1).py is packed too, and only integrators.py counts" in out
+    assert "integrators (1).py is packed too, but only integrators.py counts" in out
     assert "helper.py, line 1: Python cannot read this" in out
     assert "No answers yet in notebooks/quiz.ipynb." in out
     digest = sha256((tree / PACKED).read_bytes()).hexdigest()

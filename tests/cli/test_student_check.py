@@ -14,7 +14,7 @@ from pathlib import Path
 
 import psutil
 import pytest
-from command_line import run_grader
+from command_line import run_grader, start_grader
 from rich.console import Console
 from samples import sample
 
@@ -27,24 +27,6 @@ from grader.source.definitions import statements
 from grader.source.regions import replaced, shape_of
 
 WORLD, INTEGRATORS = "mini_engine/world.py", "integrators.py"
-
-
-def grader(
-    *args: object, cwd: Path, columns: int = 80, **variables: str
-) -> subprocess.CompletedProcess[str]:
-    environment = {
-        name: value
-        for name, value in os.environ.items()
-        if name not in ("MAKELEVEL", "NO_COLOR", "FORCE_COLOR", "PYTHONIOENCODING")
-    }
-    environment |= {"PYTHONPATH": str(KIT), "COLUMNS": str(columns), **variables}
-    return subprocess.run(
-        [sys.executable, "-m", "grader", *map(str, args)],
-        cwd=cwd,
-        env=environment,
-        capture_output=True,
-        encoding="utf-8",
-    )
 
 
 def check(tree: Path, *todos: str, options: tuple[str, ...] = ()) -> str:
@@ -65,7 +47,7 @@ def fill_in(tree: Path, file: str, **regions: str) -> None:
 
 def test_a_fresh_tree_shows_every_todo_and_where_to_begin(hand_in):
     tree = hand_in("starter")
-    done = grader("check", cwd=tree)
+    done = start_grader("check", cwd=tree)
     assert done.returncode == 1 and done.stderr == "" and "\x1b" not in done.stdout
     todos = " ".join(todo.id for todo in load_rubric().counted)
     assert done.stdout.startswith(f"NOT STARTED {todos} ") and len(done.stdout.splitlines()) == 4
@@ -133,10 +115,6 @@ def test_commands_are_shown_as_they_are_typed_here(monkeypatch, typed: list[str]
     assert command("hint", "3", 2) == "make hint TODO=3 LEVEL=2"
 
 
-def test_a_hint_for_the_whole_is_to_read_its_checks():
-    assert "no hint" in run_grader("hint", "--todo=whole").output
-
-
 # ---------------------------------------------------------------- what is next
 
 
@@ -192,7 +170,7 @@ def test_a_students_words_are_bounded_and_move_no_cursor(hand_in):
 def test_a_terminal_that_knows_few_letters_gets_question_marks(hand_in):
     tree = hand_in("starter")
     fill_in(tree, INTEGRATORS, _8a="    " + HOSTILE)
-    done = grader("check", "--todo", "8a", cwd=tree, PYTHONIOENCODING="ascii")
+    done = start_grader("check", "--todo", "8a", cwd=tree, PYTHONIOENCODING="ascii")
     assert done.returncode == 1 and done.stderr == ""
     assert "ValueError" in done.stdout and "????" in done.stdout
 
@@ -372,14 +350,19 @@ def test_two_folders_and_unknown_todos_are_refused(hand_in):
     assert "there is no TODO 9" in run_grader("check", "9", tree).output
 
 
-@pytest.mark.parametrize("words", [["4"], ["--todo", "4"]])
-def test_a_hint_is_asked_for_by_word_or_option(words: list[str]):
-    assert run_grader("hint", *words).output.startswith("1  How large may friction be")
-
-
-def test_a_hint_needs_one_todo():
-    assert "7a, 7b, 7c, 7d: name one" in run_grader("hint", "7").output
-    assert "name the TODO" in run_grader("hint").output
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("4", "1  How large may friction be"),
+        ("--todo 4", "hint --todo 4 --level 2"),
+        ("4 --level 3", "friction_limit(c) is the limit"),
+        ("7", "7a, 7b, 7c, 7d: name one"),
+        ("whole", "no hint"),
+        ("", "name a TODO"),
+    ],
+)
+def test_a_hint_is_for_one_todo_and_says_more_by_level(words: str, said: str):
+    assert said in run_grader("hint", *words.split()).output
 
 
 def test_what_was_printed_and_what_runs_it_again_are_shown(hand_in):

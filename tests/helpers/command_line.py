@@ -1,6 +1,9 @@
 """Run commands of the grader in this process, as the command line runs them."""
 
 import json
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -8,11 +11,26 @@ from typer.testing import CliRunner
 
 from grader.classroom import folder
 from grader.cli.main import make_app
+from grader.judge.grade import KIT
+
+OTHERS = ("MAKELEVEL", "NO_COLOR", "FORCE_COLOR", "PYTHONIOENCODING", "GITHUB_")  # of this process
 
 
 def run_grader(*words: object, **options: object):
     """Run one command; the result has its output and exit status."""
     return CliRunner().invoke(make_app(), [str(each) for each in words], **options)
+
+
+def start_grader(*words: object, cwd: Path = KIT, **variables: str):
+    """Run a command in a process of its own, in a folder, with these variables besides."""
+    kept = {name: each for name, each in os.environ.items() if not name.startswith(OTHERS)}
+    return subprocess.run(
+        [sys.executable, "-m", "grader", *map(str, words)],
+        cwd=cwd,
+        env=kept | {"PYTHONPATH": str(KIT), "COLUMNS": "80"} | variables,
+        capture_output=True,
+        encoding="utf-8",
+    )
 
 
 def call_class(*words: object) -> str:

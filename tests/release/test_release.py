@@ -34,7 +34,6 @@ from grader.release import students_copy
 from grader.release.build import (
     Refused,
     build,
-    build_wheel,
     look_for_leaks,
     prove,
     strip_build_packages,
@@ -294,30 +293,6 @@ def test_a_release_is_proved_by_the_course_in_it_and_refused_if_it_marks_wrongly
     monkeypatch.setattr(releases, "grade_with", lambda *_: none)
     with pytest.raises(Refused, match=rf"the solution 0 / \d+ instead of {none.max_points} / "):
         prove(released.installed)
-
-
-@SOAK  # a quarter of a minute; test_questions asks the same without a release
-def test_students_can_practise_questions_about_their_own_program(
-    released: Released, tmp_path: Path
-):
-    own = tmp_path / "own"
-    shutil.copytree(KIT / "solution", own, ignore=shutil.ignore_patterns("stable_engine"))
-    code = "sys.argv = ['grader', 'questions', *{!r}]; from grader.cli.main import main; main()"
-
-    def asked(*words: str) -> subprocess.CompletedProcess[str]:
-        command = releases.make_command(released.installed, code.format(words))
-        return subprocess.run(command, cwd=own, capture_output=True, text=True)
-
-    done = asked("--seed", "3")
-    assert not done.returncode, done.stdout + done.stderr
-    page = (own / "build" / "questions.html").read_text(encoding="utf-8")
-    assert page.count("<details><summary>The answer") == page.count('class="question"') >= 4
-    assert all(f". {kind} <" in page for kind in ("Predict a number", "Say why"))
-    assert not asked("--seed", "3", "--out", "again.html").returncode
-    assert (own / "again.html").read_text(encoding="utf-8") == page
-    assert not asked("--seed", "4", "--out", "other.html").returncode
-    assert (own / "other.html").read_text(encoding="utf-8") != page
-    assert asked("--class", "x").returncode == 2, "what is for a class is not in it"
 
 
 # ---------------------------------------------------------------- nothing is given away
@@ -602,31 +577,6 @@ def test_the_manifest_knows_every_file(released: Released):
     files = dict(releases.list_files(released.tree))
     assert set(sums) == set(files) - {"MANIFEST.txt"}
     assert all(releases.sha256(files[name].read_bytes()) == sums[name] for name in sums)
-
-
-@SOAK
-def test_the_same_content_makes_the_same_bytes(
-    released: Released, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-):
-    """Also elsewhere, where files are made for nobody else, in another zone and language."""
-    monkeypatch.setenv("TZ", "Asia/Kathmandu")
-    monkeypatch.setenv("LC_ALL", "POSIX")
-    copy = tmp_path / "copy"
-    shutil.copytree(released.installed / "grader", copy / "grader")
-    (copy / "grader" / "__init__.py").write_bytes((KIT / "grader" / "__init__.py").read_bytes())
-    shutil.rmtree(copy / "grader" / "__pycache__", ignore_errors=True)
-    for path in list(copy.rglob("__pycache__")):
-        shutil.rmtree(path)
-    version = released.wheel.name.split("-")[1]
-    (tmp_path / "wheel").mkdir()
-    usual = os.umask(0o077)
-    try:
-        again = build_wheel(copy, version, tmp_path / "wheel")
-    finally:
-        os.umask(usual)
-    assert again.read_bytes() == released.wheel.read_bytes()
-    releases.write_zip(released.tree, tmp_path / "again.zip")
-    assert (tmp_path / "again.zip").read_bytes() == released.archive.read_bytes()
 
 
 BUILD = """
