@@ -46,25 +46,25 @@ from grader.source.regions import python_files, read_source
 NAME = "physics-engine"
 MEASURING = "accuracy.ipynb"  # runs the engines to explore
 UNPROVEN = (
-    "{count} submissions of the bank have not been graded by this version of the kit here. "
-    "`grader verify` grades them, once for all courses; the release goes on."
+    "This version of the kit has not graded {count} submissions of the bank yet: run "
+    "`grader verify`, once for all courses. The release goes on."
 )
 EXTRA = ("engines", "ci")  # archives to be unpacked over the lab
 SECOND_ONE = "315532800"  # the same, in s
 
 
 class Refused(Stop):
-    """Raised where nothing may be handed out; the message says why."""
+    """Raised to refuse a release; the message says why."""
 
     cannot = "release"
 
 
 def release(out: Path, console: Console, fresh: bool = False, course: Course = FULL) -> list[Path]:
-    """Build the release of a course into `out`; returns what was written.
+    """Build the release of a course into `out`; return the files and folders written.
 
-    What the checks are worth is proven once for a version, by `verify`; where build/verify does not
-    have all of it, that is said. What a course leaves out is proven by its own copy of the grader,
-    see `prove`. All is recorded and proven again only if `fresh`.
+    `verify` proves the marks of the bank once for each version; `release` only says how many of its
+    results are missing. `prove` checks the course's copy of the grader. Recordings and proofs are
+    made again only if their sources changed, or if `fresh`.
     """
     if complaints := list(check_kit()):
         raise Refused("; ".join(complaints))
@@ -72,16 +72,14 @@ def release(out: Path, console: Console, fresh: bool = False, course: Course = F
         console.print(UNPROVEN.format(count=unproven))
     with tempfile.TemporaryDirectory(prefix="release-") as folder:
         work = Path(folder)
-        with console.status(
-            "building the release (minutes, or half of one where all is as before)"
-        ):
+        with console.status("building the release (minutes; half a minute if nothing changed)"):
             wrong = build_wrong_members(work / "wrong", course)
             built = build(work, wrong, course, Recordings(course, fresh=fresh))
         return [move_into(each, out) for each in sorted(built.iterdir())]
 
 
 def build_wrong_members(folder: Path, course: Course) -> Iterator[Tree]:
-    """Build the bank's wrong members of a course, each when it is its turn."""
+    """Build the bank's wrong members of a course one after the other."""
     for member in members(KIT, course):
         if member.kind == "wrong" and member.form == "package" and member.is_patch:
             member.build(KIT, folder / member.name)
@@ -89,7 +87,7 @@ def build_wrong_members(folder: Path, course: Course) -> Iterator[Tree]:
 
 
 def move_into(made: Path, out: Path) -> Path:
-    """Move a file or folder into `out`, in place of an older one."""
+    """Move a file or folder into `out`, and replace an older one."""
     out.mkdir(parents=True, exist_ok=True)
     target = out / made.name
     if target.is_dir():
@@ -102,7 +100,7 @@ def move_into(made: Path, out: Path) -> Path:
 def build(
     work: Path, wrong: Iterable[Tree], course: Course = FULL, record: Record = record_anew
 ) -> Path:
-    """Build all of a course's release below `work`; returns the folder that holds it, checked."""
+    """Build the release of a course below `work`, and check it; return its folder."""
     copy, tree, built = work / "copy", work / NAME, work / "built"
     built.mkdir(parents=True)
     write_copy(copy, wrong, course, record)
@@ -135,7 +133,7 @@ def build(
 def prove_built(
     built: Path, package: Path, tree: Path, course: Course = FULL, record: Record = record_anew
 ) -> None:
-    """Check all that students get, unless the very same bytes are proven already."""
+    """Check what students get, unless the same bytes were checked before."""
 
     def check() -> bytes:
         prove(package, tree, course)
@@ -147,7 +145,7 @@ def prove_built(
 
 
 def write_right_runs(copy: Path, course: Course, record: Record) -> None:
-    """Write into a copy of the grader what its replays show beside a run: it has no reference."""
+    """Write the reference's runs into a copy of the grader, for its replays."""
     runs = copy / "grader" / "checks" / "expected_runs.json"
     runs.write_bytes(record("runs", lambda: record_right_runs(course)))
 
@@ -158,7 +156,7 @@ def record_right_runs(course: Course) -> bytes:
 
 
 def lay_out(tree: Path, course: Course) -> None:
-    """Write the student's folder, except what is made last: wheel, requirements and manifest."""
+    """Write the student's folder without wheel, requirements and manifest."""
     files = make_students_tree(KIT, course)
     left = {"requirements.txt", *FOR_CI, *filter(is_laid_in, files)}
     write_tree({name: files[name] for name in files.keys() - left}, tree)
@@ -184,7 +182,7 @@ def lay_out_ci(tree: Path, course: Course) -> None:
 
 
 def strip_build_packages(lock: str) -> str:
-    """Keep the locked packages that the grader needs to run, without what only builds it."""
+    """Remove the packages that only build the grader from a lock file."""
     blocks = re.split(r"\n(?=\S)", lock.strip())
     needed = [block for block in blocks if not re.search(r"# via [^\n]*:build\)\s*$", block)]
     lines = "\n".join(needed).splitlines()
@@ -192,7 +190,7 @@ def strip_build_packages(lock: str) -> str:
 
 
 def build_wheel(copy: Path, version: str, folder: Path) -> Path:
-    """Build the grader's wheel, of this version, in `folder`."""
+    """Build the grader's wheel with this version in `folder`."""
     init = copy / "grader" / "__init__.py"
     text = init.read_text(encoding="utf-8")
     text = text.replace(f'"{__version__}"', f'"{version}"')
@@ -226,7 +224,7 @@ def write_zip(tree: Path, target: Path, top: str = NAME) -> None:
 
 
 def list_files(folder: Path) -> list[tuple[str, Path]]:
-    """List the files below a folder by name, in an order that is the same everywhere."""
+    """List the files below a folder, sorted by name."""
     found = [(p.relative_to(folder).as_posix(), p) for p in folder.rglob("*") if p.is_file()]
     return sorted(found)
 
@@ -243,7 +241,7 @@ def sha256(data: bytes) -> str:
 
 
 def prove(package: Path, tree: Path = KIT / "starter", course: Course = FULL) -> None:
-    """Check that the students' copy gives the solution all of its points, and the starter none.
+    """Check that the students' copy gives the solution all points, and the starter none.
 
     `package` is the folder that the copy lies in.
     """
@@ -256,9 +254,9 @@ def prove(package: Path, tree: Path = KIT / "starter", course: Course = FULL) ->
 
 
 def prove_cut(course: Course, proven: Path = KIT / "build" / "course-check") -> None:
-    """Check in seconds what a release of a course checks last, without what it records before.
+    """Check the students' copy for a course in seconds, without recording anything.
 
-    What is proven is noted by its hash as an empty file in `proven`, and then not graded again.
+    A copy that passes leaves an empty file, named by its hash, in `proven` and is not graded again.
     """
     with tempfile.TemporaryDirectory(prefix="cut-") as folder:
         work = Path(folder)
@@ -276,7 +274,7 @@ def prove_cut(course: Course, proven: Path = KIT / "build" / "course-check") -> 
 
 
 def grade_with(package: Path, tree: Path) -> Result:
-    """Grade a submission with the grader in another folder, by the course that it holds."""
+    """Grade a submission with the grader in another folder, and with its course."""
     target = package / "result.json"
     target.unlink(missing_ok=True)
     words = ["grader", "grade", str(tree), "--json", str(target)]
@@ -290,7 +288,7 @@ def grade_with(package: Path, tree: Path) -> Result:
 
 
 def make_command(package: Path, code: str) -> list[str]:
-    """Make the command for code that imports this copy of the grader, and not the kit's."""
+    """Make a command that runs code with this copy of the grader instead of the kit's."""
     folders = [str(package), sysconfig.get_path("purelib"), sysconfig.get_path("platlib")]
     return [sys.executable, "-I", "-S", "-c", f"import sys; sys.path[:0] = {folders!r}; {code}"]
 
@@ -304,7 +302,7 @@ def look_for_leaks(built: Path, course: Course = FULL) -> None:
 def run_command(
     command: list[str], folder: Path, environment: dict[str, str], statuses: tuple[int, ...] = (0,)
 ) -> str:
-    """Return what the command printed; other exit statuses stop the release."""
+    """Run a command and return its output; raise Refused at another exit status."""
     done = subprocess.run(
         command, cwd=folder, env=environment, capture_output=True, text=True, umask=0o022
     )

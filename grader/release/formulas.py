@@ -17,6 +17,6 @@ def typeset(text: str) -> str:
 
 
 def make_html(latex: str) -> str:
-    """Return one formula, with the LaTeX for people who cannot see it drawn."""
+    """Return one formula as HTML."""
     formula = convert(" ".join(latex.split()), display="block")
     return f'<div class="formula" tabindex="0">{formula}</div>'

@@ -1,4 +1,4 @@
-"""Make the student's tree of a course: the starter, with what the course leaves out done."""
+"""Make the student's tree of a course: the starter, with the TODOs of other courses done."""
 
 import textwrap
 from pathlib import Path

@@ -80,7 +80,7 @@ def make_handouts(folder: Path, course: Course) -> dict[str, str]:
 
 
 def make_tasks(texts: Mapping[str, str]) -> Tasks:
-    """Return what the pages say is to be done in each TODO, as paragraphs in plain words."""
+    """Return the task of each TODO as paragraphs without markup."""
     return {todo: list(find_paragraphs(body)) for todo, body in find_sections(texts).items()}
 
 
@@ -97,7 +97,7 @@ def find_sections(texts: Mapping[str, str]) -> dict[str, str]:
 
 
 def find_paragraphs(body: str) -> Iterable[str]:
-    """Yield the paragraphs that say what to do; without any so marked, those that come first."""
+    """Yield the paragraphs marked as the task, or else those up to the first warning."""
     parts = [" ".join(part.split()) for part in re.split(r"\n\n|\n(?=- )", body.strip())]
     marked = [part for part in parts if part.startswith(WHAT)]
     for part in marked or takewhile(lambda part: not part.startswith(NOT_YET), parts):

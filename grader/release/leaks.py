@@ -58,7 +58,7 @@ class Leak:
 
 
 def find_leaks(folder: Path, secrets: list[Secret]) -> Iterator[Leak]:
-    """Yield every place below a folder where a secret is; a copy of a file is reported once."""
+    """Yield every place below a folder with a secret; copies of a file are reported once."""
     seen = set()
     for path in sorted(folder.rglob("*")):
         if path.is_file():
@@ -77,7 +77,7 @@ def find_leaks_in_text(file: str, text: str, secrets: list[Secret]) -> Iterator[
 
 
 class Row:
-    """A text as one row of words and signs, a space between any two."""
+    """A text as one row of words and signs, separated by spaces."""
 
     def __init__(self, text: str) -> None:
         self.words = f" {' '.join(WORD.findall(text))} "
@@ -91,7 +91,7 @@ class Row:
 
 
 def read_texts(name: str, data: bytes) -> Iterator[tuple[str, str]]:
-    """Yield what a person can read in a file; in an archive, of each of its files."""
+    """Yield the readable text of a file, or of each file in an archive."""
     suffix = Path(name).suffix.lower()
     if suffix in ARCHIVES:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
@@ -107,7 +107,7 @@ def read_texts(name: str, data: bytes) -> Iterator[tuple[str, str]]:
 
 
 def read_strings(document: Any) -> Iterator[str]:
-    """Yield the texts of a JSON document; the lines of a notebook's cell follow one another."""
+    """Yield the strings of a JSON document in order."""
     match document:
         case str():
             yield document.removesuffix("\n")
@@ -124,7 +124,7 @@ def read_strings(document: Any) -> Iterator[str]:
 
 
 def find_secrets(kit: Path, course: Course = FULL) -> list[Secret]:
-    """Find all that must not be in the release of a course."""
+    """Find the statements that the release of a course must not contain."""
     solution = kit / "solution"
     asked = {todo.id for todo in course.rubric.todos}
     given = read_given(solution, asked)
@@ -148,7 +148,7 @@ def find_secrets(kit: Path, course: Course = FULL) -> list[Secret]:
 
 
 def find_given_answers(kit: Path, course: Course) -> Iterator[str]:
-    """Yield the lines of asked TODOs that stand in given ones too: a teacher should know."""
+    """Yield warnings of given TODOs that contain a line of an asked TODO."""
     asked = {todo.id for todo in course.rubric.todos}
     for secret in find_secrets(kit):
         shared = [each for each in secret.what.split(" and ") if each.startswith("TODO ")]
@@ -162,7 +162,7 @@ def find_given_answers(kit: Path, course: Course) -> Iterator[str]:
 
 
 def read_given(solution: Path, asked: set[str]) -> list[tuple[str, str]]:
-    """Return what students get anyway: files without the asked regions, notebooks, stubs."""
+    """Return the sources that students get: files without the asked regions, notebooks, stubs."""
     found = []
     for path in python_files(solution):
         text = read_source(path)
@@ -175,7 +175,7 @@ def read_given(solution: Path, asked: set[str]) -> list[tuple[str, str]]:
 
 
 def find_region_secrets(solution: Path, asked: set[str]) -> Iterator[list[Secret]]:
-    """Yield for each statement in the regions what to look for, the widest first."""
+    """Yield the secrets of each statement in the regions, the most general first."""
     for path in python_files(solution):
         text = read_source(path)
         functions = list(find_functions(text))
@@ -217,7 +217,7 @@ def find_notebook_secrets(folder: Path, course: Course) -> Iterator[list[Secret]
 def find_statement_secrets(
     what: str, source: str, scope: ast.FunctionDef | ast.Module, within: range
 ) -> Iterator[list[Secret]]:
-    """Yield for each statement its value and itself, and itself with its own names."""
+    """Yield the secrets of each statement: its value, itself, and itself with its own names."""
     chosen = find_chosen_names(scope)
     for node in ast.walk(scope):
         if isinstance(node, ast.stmt) and node.lineno in within:
@@ -231,7 +231,7 @@ def find_statement_secrets(
 
 
 def is_telling(text: str, chosen: set[str]) -> bool:
-    """Return whether a piece of code is recognizable, also without the chosen names."""
+    """Return whether code is long enough to be recognized when the chosen names change."""
     words = WORD.findall(text)
     if not chosen:
         return len(words) >= TELLING
@@ -240,7 +240,7 @@ def is_telling(text: str, chosen: set[str]) -> bool:
 
 
 def find_telling_parts(node: ast.stmt) -> list[ast.AST]:
-    """Return the parts to look for: the value and all of it; of a compound one the head."""
+    """Return the value of a statement and the statement; of a compound statement its head."""
     match node:
         case ast.Expr(value=ast.Constant()):  # a docstring
             return []
@@ -256,7 +256,7 @@ def find_telling_parts(node: ast.stmt) -> list[ast.AST]:
 
 
 def find_chosen_names(scope: ast.FunctionDef | ast.Module) -> set[str]:
-    """Return the names that somebody else may choose: those of parameters and variables."""
+    """Return the names of parameters and variables, which a student may choose."""
     names = {each.arg for each in ast.walk(scope) if isinstance(each, ast.arg)}
     for each in ast.walk(scope):
         if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Store):
@@ -265,7 +265,7 @@ def find_chosen_names(scope: ast.FunctionDef | ast.Module) -> set[str]:
 
 
 def make_secret(what: str, text: str, chosen: set[str]) -> Secret:
-    """Return the pattern of a piece of code in a row of words, whatever the chosen names are."""
+    """Return a secret that matches code with any names in place of the chosen ones."""
     groups: dict[str, str] = {}
     parts, fixed, before = [], [""], ""
     for word in WORD.findall(text):
@@ -283,7 +283,7 @@ def make_secret(what: str, text: str, chosen: set[str]) -> Secret:
 
 
 def find_hidden_secrets(rubric: Rubric) -> Iterator[Secret]:
-    """Yield the names of the hidden checks, and the lines that are cut out with them."""
+    """Yield the names of the hidden checks, and the lines only they use."""
     for name in list_hidden_checks(rubric):
         yield make_secret("a hidden check", name, set())
     whole = cut_checks(rubric, read_checks())

@@ -27,7 +27,7 @@ def make_script(results: Mapping[str, Mapping[str, Any]]) -> str:
 
 
 def read_prices(lines: Mapping[str, float]) -> dict[str, dict[str, float]]:
-    """Return what each piece of a step costs, in opcodes, by the number of balls in the pile."""
+    """Return the cost of each piece of a step in opcodes, by the number of balls in the pile."""
     return {
         str(balls): {piece: lines[f"{balls} balls, {piece}: price in opcodes"] for piece in PIECES}
         for balls in BALLS

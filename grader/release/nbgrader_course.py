@@ -23,7 +23,7 @@ MANIFEST = "MANIFEST.txt"  # of a release: a hash and a name on each line
 def make_course(
     course: Path, renew: bool = False, release: Path | None = None, taken: Course = FULL
 ) -> list[str]:
-    """Make the folder in which nbgrader's commands run; returns the assignment's files.
+    """Make the folder in which nbgrader's commands run; return the assignment's files.
 
     The source holds the students' Python files, no TODO of them done: nbgrader releases every file
     beside the notebooks. The archive of a `release` adds the checks, so that `make check` works.
@@ -57,7 +57,7 @@ def make_course(
 
 
 def read_release(release: Path, taken: Course) -> dict[str, bytes]:
-    """Read what students get from an archive of `release`, except its notebooks.
+    """Read the files of an archive of `release`, except its notebooks.
 
     Raises Stop where it is none, or one that asks for other TODOs.
     """
@@ -86,7 +86,7 @@ def read_release(release: Path, taken: Course) -> dict[str, bytes]:
 
 
 def cut_manifest(manifest: bytes, files: dict[str, bytes]) -> bytes:
-    """Keep the lines of a manifest that are about these files, so that comparing finds them all."""
+    """Keep the lines of a manifest that name these files."""
     rows = manifest.decode().splitlines(keepends=True)
     kept = (row for row in rows if row.startswith("#") or row.rstrip().split("  ", 1)[-1] in files)
     return "".join(kept).encode()

@@ -19,7 +19,7 @@ from grader.release.notebooks import QUIZ, add_practice, make_engine_notebook, r
 
 
 def renew_notebooks(kit: Path) -> list[str]:
-    """Tidy the solution's notebooks and let nbgrader make the starter's; returns what changed."""
+    """Tidy the solution's notebooks, let nbgrader make the starter's; return what changed."""
     solution, starter = kit / "solution" / "notebooks", kit / "starter" / "notebooks"
     changed = []
     if write(solution / "engine.ipynb", make_engine_notebook(load_rubric())):

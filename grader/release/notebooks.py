@@ -78,7 +78,7 @@ def make_engine_notebook(rubric: Rubric) -> Cell:
 
 
 def add_practice(notebook: Cell, page: str) -> Cell:
-    """Add the questions of a page to the quiz, each with its TODOs, after the words about them."""
+    """Add the practice questions of a page to the quiz, each with its TODOs."""
     cells = [cell for cell in notebook["cells"] if not cell["id"].startswith(PRACTICE)]
     at = 1 + next(n for n, cell in enumerate(cells) if cell["id"] == "about-practice")
     asked = [
@@ -89,7 +89,7 @@ def add_practice(notebook: Cell, page: str) -> Cell:
 
 
 def tidy(notebook: Cell) -> Cell:
-    """Remove from a notebook what running it leaves behind."""
+    """Remove the traces of a run from a notebook."""
     for cell in notebook["cells"]:
         if cell["cell_type"] == "code":
             cell.update(execution_count=None, outputs=[])
@@ -115,7 +115,7 @@ def write(path: Path, notebook: Cell) -> bool:
 
 
 def make_notebooks(folder: Path, course: Course) -> dict[str, bytes]:
-    """Return the notebooks of this folder by name, as far as they belong to the course."""
+    """Return the notebooks of a course by name."""
     found = {}
     for path in sorted(folder.glob("*.ipynb")):
         notebook = read(path)
@@ -132,7 +132,7 @@ def make_notebooks(folder: Path, course: Course) -> dict[str, bytes]:
 
 
 def choose_cells(notebook: Cell, solved: Cell, course: Course) -> list[Cell]:
-    """Return a notebook's cells for a course: what it asks for, and what that needs, answered."""
+    """Return a notebook's cells for a course; given cells have their answers."""
     answers = {cell["id"]: cell for cell in solved["cells"]}
     if not is_in_course(notebook, course):
         return []
@@ -144,7 +144,7 @@ def choose_cells(notebook: Cell, solved: Cell, course: Course) -> list[Cell]:
 
 
 def make_given(cell: Cell) -> Cell:
-    """Return a cell of the solution as one that nobody is asked to fill in."""
+    """Return a cell of the solution as a given cell."""
     text = GIVEN + re.sub(r" *### (BEGIN|END) SOLUTION\n?", "", "".join(cell["source"]))
     return make_marked(cell["id"], cell["cell_type"], text, PLAIN)
 

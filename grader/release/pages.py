@@ -39,14 +39,14 @@ def write_pages(handouts: Path, folder: Path, course: Course = FULL) -> None:
 
 
 def write_measured_pages(handouts: Path, folder: Path, course: Course = FULL) -> None:
-    """Write the pages about engines; they also lead to those that come with the lab."""
+    """Write the pages about engines, with links to the pages of the lab."""
     write_files(handouts, folder, sort_pages(make_handouts(handouts, course)), MEASURED)
 
 
 def write_files(
     handouts: Path, folder: Path, texts: Mapping[str, str], names: Iterable[str] | None = None
 ) -> None:
-    """Write the pages of these names, or all; a link to a text that is not there is plain words."""
+    """Write the pages of these names, or all; links to missing texts become plain words."""
     folder.mkdir(parents=True, exist_ok=True)
     for name in texts if names is None else names:
         page = embed_figures(make_page(name, texts, read_scripts(texts[name], handouts)), handouts)
@@ -54,7 +54,7 @@ def write_files(
 
 
 def embed_figures(page: str, handouts: Path) -> str:
-    """Put the figures of a page into it; scripts and style know each by its name."""
+    """Embed the figures of a page, each with its name for scripts and style."""
 
     def embed(found: re.Match[str]) -> str:
         path = handouts / found[1]
@@ -66,7 +66,7 @@ def embed_figures(page: str, handouts: Path) -> str:
 
 
 def read_scripts(text: str, handouts: Path) -> dict[str, str]:
-    """Return what the movable figures of a page need: the style, the scripts, and their films."""
+    """Return the style, scripts and films of a page's movable figures."""
     names = list_scripts(text, handouts)
     if not names:
         return {}
@@ -95,7 +95,7 @@ def find_figures(text: str) -> list[str]:
 
 
 def list_scripts(text: str, handouts: Path) -> list[str]:
-    """Return the scripts in touch/ of those figures of a page that are movable."""
+    """Return the scripts in touch/ for the movable figures of a page."""
     names = [Path(figure).stem for figure in find_figures(text)]
     kinds = dict.fromkeys(each for name in names for each in (name, name.partition("-")[0]))
     movable = [name for name in kinds if (handouts / "touch" / f"{name}.js").is_file()]
@@ -103,14 +103,14 @@ def list_scripts(text: str, handouts: Path) -> list[str]:
 
 
 def sort_pages(texts: Mapping[str, str]) -> dict[str, str]:
-    """Sort the pages as the first one links to them, without what only the site needs."""
+    """Sort the pages in the order of the first page's links, without the site's front matter."""
     linked = re.findall(r"\]\(([\w-]+\.md)\)", texts.get(START, ""))
     names = [name for name in dict.fromkeys([START, *linked, *texts]) if name in texts]
     return {name: SITE_ONLY.sub("", texts[name]) for name in names}
 
 
 def make_page(name: str, texts: Mapping[str, str], scripts: Mapping[str, str] = EMPTY) -> str:
-    """Make one page; a link to a handout that is not among the pages becomes plain words."""
+    """Make one page; links to missing handouts become plain words."""
     reader = MarkdownIt("commonmark").enable("table")
     tokens = reader.parse(typeset(texts[name].replace("- [ ] ", "- \N{BALLOT BOX} ")))
     sections = []
@@ -153,7 +153,7 @@ def list_ways(name: str, names: list[str]) -> list[tuple[str, str, str]]:
 
 
 def make_scrollable(body: str) -> str:
-    """Let keys reach and scroll whatever may be wider than the window."""
+    """Make wide tables and code reachable and scrollable by keyboard."""
     body = body.replace("<table>", '<div class="wide" tabindex="0">\n<table>')
     return body.replace("</table>", "</table>\n</div>").replace("<pre>", '<pre tabindex="0">')
 

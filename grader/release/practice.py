@@ -1,4 +1,4 @@
-"""Make what a release has for practice: some answered cases of *predict a number*."""
+"""Make the practice file of a release: answered cases of *predict a number*."""
 
 import msgspec
 
@@ -15,7 +15,7 @@ SEED = "practice at home"  # no sheet is drawn from it: its seeds are numbers
 
 
 def make_practice(course: Course) -> bytes:
-    """Return the file for a course's release: always the same for the same kit."""
+    """Return the practice file of a course; the same kit makes the same file."""
     options = Options(shipped_reference(), trusted=True, course=course)
     with open_program(KIT / "solution", options) as program:
         cases = tuple(draw_cases(each, program) for each in take_turns(MAKERS, program))
@@ -24,7 +24,7 @@ def make_practice(course: Course) -> bytes:
 
 
 def draw_cases(maker: Asks, program: Program) -> Cases:
-    """Draw some questions of one maker, no two the same; each holds in closed form and by a run."""
+    """Draw different questions of one maker."""
     found: dict[str, Question] = {}
     for number in range(EACH):
         try:

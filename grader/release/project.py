@@ -24,7 +24,7 @@ physics-grader = {{ path = "{wheel}" }}
 
 
 def make_project(requirements: str, wheel: str) -> str:
-    """Return the file; `wheel` is the name of the grader's wheel in the same folder.
+    """Return the file; `wheel` is the name of the grader's wheel beside it.
 
     It pins what `requirements` pins, and records no address: uv makes its own lock from it.
     """

@@ -1,6 +1,6 @@
-"""Keep what takes long to record or to prove, in build/recorded, until something else decides it.
+"""Keep slow recordings and proofs in build/recorded until their sources change.
 
-What is kept is found by a key, which hashes all that it was made from.
+A recording's key is a hash of everything that it was made from.
 """
 
 from collections.abc import Callable
@@ -22,18 +22,18 @@ Record = Callable[[str, Callable[[], bytes]], bytes]  # by the name of what is r
 
 
 def record_anew(what: str, make: Callable[[], bytes]) -> bytes:
-    """Keep nothing."""
+    """Make a recording and keep nothing."""
     return make()
 
 
 class Recordings:
-    """Keep what was recorded for the release of a course; record all of it again if `fresh`."""
+    """Keep the recordings of a course's release; make all of them again if `fresh`."""
 
     def __init__(self, course: Course, folder: Path = FOLDER, fresh: bool = False) -> None:
         self.folder, self.key, self.fresh = folder, make_record_key(course), fresh
 
     def __call__(self, what: str, make: Callable[[], bytes]) -> bytes:
-        """Return what was recorded under this name, or record it now."""
+        """Return the recording of this name, or make it now."""
         path = self.folder / f"{what}-{self.key}"
         if not self.fresh:
             with suppress(FileNotFoundError):
@@ -44,7 +44,7 @@ class Recordings:
 
 
 def make_record_key(course: Course) -> str:
-    """Hash who is asked what, by which code, with which libraries, and this machine."""
+    """Hash the code, the course, the wrong members, the libraries and this machine."""
     rooms = [KIT / "grader" / room for room in RECORDING]
     code = [row for room in rooms for row in hash_contents(room, "__pycache__")]
     asked = msgspec.json.encode([course, course.rubric]).decode()

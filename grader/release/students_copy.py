@@ -58,7 +58,7 @@ def list_hidden_checks(rubric: Rubric) -> list[str]:
 def write_copy(
     folder: Path, wrong: Iterable[Tree], course: Course = FULL, record: Record = record_anew
 ) -> None:
-    """Write the package into `folder`, with what a course has of the checks.
+    """Write the package into `folder`, with the checks of a course.
 
     The next question of a check may depend on an answer. So wrong submissions are asked as well:
     the more there are, the more often a student's copy can name a mistake.
@@ -76,13 +76,13 @@ def write_copy(
 
 
 def encode_table(table: object) -> bytes:
-    """Return a table as JSON, always the same for the same content."""
+    """Return a table as JSON; the same content gives the same bytes."""
     plain = msgspec.to_builtins(table)
     return json.dumps(plain, separators=(",", ":"), sort_keys=True).encode()
 
 
 def write_code(folder: Path, course: Course = FULL, whole: bool = False) -> Path:
-    """Write the package without what is recorded; `whole`, oracles answer by themselves.
+    """Write the package without recordings; if `whole`, with the oracles' own code.
 
     Returns the folder of its checks.
     """
@@ -102,7 +102,7 @@ def write_file(path: Path, text: str) -> None:
 
 
 def remove_unneeded(checks: Path, needed: Collection[str]) -> None:
-    """Remove the files of checks that are not needed, and folders that then hold none."""
+    """Remove unneeded files of checks, and folders that are then empty."""
     for module in read_checks():
         if (name := write_name(module)) not in {*needed, PLUGIN}:
             (checks / name).unlink()
@@ -138,7 +138,7 @@ def list_unusual_fields(check: Check) -> dict[str, Any]:
 
 
 def write_fields(table: dict[str, Any]) -> list[str]:
-    """Write the fields of a TOML table, whose values JSON writes the same."""
+    """Write the fields of a TOML table; JSON writes their values alike."""
     return [f"{name} = {json.dumps(value)}" for name, value in table.items()]
 
 
@@ -162,7 +162,7 @@ def cut_course_files(course: Course) -> dict[str, str]:
 
 
 def cut_checks(rubric: Rubric, sources: dict[str, str] | None = None) -> dict[str, str]:
-    """Return the files of the checks that a rubric needs, and of each what it leads to."""
+    """Return the files of the checks that a rubric needs, cut to what those use."""
     shown: dict[str, set[str]] = {}
     for todo in rubric.todos:
         module = f"{PACKAGE}.{todo.folder}.checks"
@@ -187,7 +187,7 @@ def write_name(module: str) -> str:
 
 
 def replace_oracles(sources: dict[str, str]) -> dict[str, str]:
-    """Keep the names and inputs of the oracles; let each look its answer up."""
+    """Replace the oracles' code by a look-up of recorded answers."""
     bodies = {}
     for name in oracles:
         code = getattr(exact, name).__code__
@@ -197,7 +197,7 @@ def replace_oracles(sources: dict[str, str]) -> dict[str, str]:
 
 
 def record_answers(wrong: Iterable[Tree], rubric: Rubric) -> Recorded:
-    """Record what the visible checks ask, and what the oracles and all models answer."""
+    """Record the questions of the visible checks, and the answers of the oracles and all models."""
     with closing(start_worker()) as worker, note_oracles() as notes:
         seen = observe((KIT / "solution", frozenset()), rubric, worker)
     for found in run_in_processes(partial(observe, rubric=drop_properties(rubric)), wrong, jobs=0):
@@ -233,7 +233,7 @@ def record_answers(wrong: Iterable[Tree], rubric: Rubric) -> Recorded:
 
 
 def drop_properties(rubric: Rubric) -> Rubric:
-    """Keep the checks that do not ask at random."""
+    """Remove the property checks, which draw their questions."""
     todos = [
         msgspec.structs.replace(todo, checks=[c for c in todo.checks if c.kind != "property"])
         for todo in rubric.todos
@@ -242,7 +242,7 @@ def drop_properties(rubric: Rubric) -> Rubric:
 
 
 def observe(tree: Tree, rubric: Rubric, worker: Worker | None = None) -> list[Observation]:
-    """Return all observations of these checks, run to the end even after a failure."""
+    """Return all observations of these checks, also those after a failure."""
     path, todos = tree
     options = Options(reference=None, only=todos, trusted=True)
     with grading(path, options, worker or shared_worker(), rubric) as run:
@@ -253,7 +253,7 @@ def observe(tree: Tree, rubric: Rubric, worker: Worker | None = None) -> list[Ob
 
 @contextmanager
 def note_oracles() -> Iterator[dict[str, Answers]]:
-    """Note what the oracles answer; those with known values are asked all of them."""
+    """Note the oracles' answers; ask those with a list of inputs all of it."""
     notes: dict[str, Answers] = {name: {} for name in oracles}
     usual = {name: getattr(exact, name) for name in oracles}
     for name, values in oracles.items():
@@ -277,7 +277,7 @@ def note_answers(function: Any, notes: Answers) -> Any:
 
 
 def ask_model(model: misconceptions.Model, about: str, seen: list[Observation]) -> Answers:
-    """Return what a model says to everything that was observed."""
+    """Return a model's answers to all observed inputs."""
     found = {}
     for each in seen:
         if each.about == about:

@@ -104,7 +104,7 @@ def make_tab(out: Path, course: Course = FULL, cffi: Path | None = None) -> list
 
 
 def add_tab(out: Path, course: Course = FULL, cffi: Path | None = None) -> list[str]:
-    """Build the page with a release; return what was made, or a sentence that says why not."""
+    """Build the page with a release; return lines on what was made, or on why not."""
     try:
         fetch_parts(CACHE)
     except Stop as error:
@@ -157,7 +157,7 @@ def build_tab(
 
 
 def leave_out_practice(record: Record) -> Record:
-    """Record all but the numbers for practice, which the page does not show."""
+    """Return a recorder that skips the practice file, which the page does not use."""
     return lambda name, make: b"{}" if name == "practice" else record(name, make)
 
 
@@ -166,7 +166,7 @@ def is_on_page(name: str) -> bool:
 
 
 def look_for_own_leaks(folder: Path, secrets: list[Secret]) -> None:
-    """Raise Refused if a file gives the solution away, unless a package says the same to all."""
+    """Raise Refused if a file gives the solution away; published packages may."""
     found = find_leaks(folder, secrets)
     own = [str(each) for each in found if not each.file.startswith(PUBLISHED)]
     if own:
@@ -177,7 +177,7 @@ def look_for_own_leaks(folder: Path, secrets: list[Secret]) -> None:
 
 
 def fetch_parts(cache: Path) -> None:
-    """Fetch Pyodide, the editor and the wheels with npm and pip, where they are not there yet."""
+    """Fetch Pyodide, the editor and the wheels with npm and pip, unless they are cached."""
     cache.mkdir(parents=True, exist_ok=True)
     if not (cache / "node_modules").is_dir():
         for name in ("package.json", "package-lock.json"):
@@ -202,7 +202,7 @@ def list_missing_wheels(folder: Path) -> list[str]:
 
 
 def find_wheels(folder: Path) -> list[Path]:
-    """Return those of the list in the folder, told by their hashes."""
+    """Return the listed wheels in the folder, identified by their hashes."""
     wanted = {digest for _, digest in read_wheels()}
     return [path for path in sorted(folder.glob("*.whl")) if sha256(path.read_bytes()) in wanted]
 
@@ -235,7 +235,7 @@ def run_tool(command: list[str], folder: Path) -> None:
 def write_lab(
     target: Path, copy: Path, files: Mapping[str, bytes], cache: Path, cffi: Path | None
 ) -> None:
-    """Write all that Python has on the page: wheels, grader, stand-ins and the starter."""
+    """Write the page's Python: wheels, grader, stand-ins and the starter."""
     with zipfile.ZipFile(target, "w") as archive:
         wheels = [
             each for each in find_wheels(cache / "wheels") if cffi or each.stem[:6] != "pymunk"
@@ -268,7 +268,7 @@ def put_tree(archive: zipfile.ZipFile, place: str, folder: Path) -> None:
 
 
 def write_compiled(sources: Path, site: Path, pyodide: Path) -> None:
-    """Write the archives in `sources` into the page: compiled what it loads, and apart the rest."""
+    """Write the archives in `sources` into the page: loaded modules compiled, the rest apart."""
     words = [str(PARTS / "compile.mjs"), str(pyodide), str(PARTS / "compile.py"), str(sources)]
     run_tool(["node", *words], sources)
     lab, compiled, stdlib, booted, loaded = (
@@ -303,7 +303,7 @@ def write_archive(target: Path, files: Files, method: int = zipfile.ZIP_DEFLATED
 
 
 def is_for_later(name: str) -> bool:
-    """Return whether the page is shown before it has this file."""
+    """Return whether the page loads this file after it is shown."""
     ours = not name.startswith("lab/")
     return (ours and name.endswith(".py")) or name in FOR_CHECKS
 
@@ -311,7 +311,7 @@ def is_for_later(name: str) -> bool:
 def write_sheet(
     site: Path, copy: Path, files: Mapping[str, bytes], course: Course, has_pymunk: bool
 ) -> None:
-    """Write what the page shows of each TODO, its text, file, program and hints, and the lesson."""
+    """Write each TODO's text, file, program and hints, and the lesson, for the page."""
     hints = tomllib.loads((copy / "grader/checks/hints.toml").read_text(encoding="utf-8"))
     handouts = make_handouts(KIT / "handouts", course)
     sections = find_texts(handouts)
@@ -340,7 +340,7 @@ def write_sheet(
 
 
 def find_texts(handouts: Mapping[str, str]) -> dict[str, str]:
-    """Return what the handouts say of each TODO, without its films."""
+    """Return the handouts' text of each TODO, without its films."""
     return {id: PREDICTION.sub("", text) for id, text in find_sections(handouts).items()}
 
 
@@ -363,7 +363,7 @@ def render(text: str) -> str:
 
 
 def write_index(site: Path) -> None:
-    """Write the page itself, which lets the player of replays run in its frame."""
+    """Write the page itself, and allow the replay player in its frame."""
     text = (PARTS / "page" / "index.html").read_text(encoding="utf-8")
     allowed = list_sources([read_player()])
     text = text.replace("script-src 'self'", f"script-src 'self' {allowed}")
@@ -381,7 +381,7 @@ def bundle_scripts(site: Path, cache: Path) -> None:
 
 
 def write_service_worker(site: Path) -> None:
-    """Name to the service worker all files, and a version that changes with any of them."""
+    """Write the service worker with the names of all files and a version of their content."""
     text = (PARTS / "page" / "sw.js").read_text(encoding="utf-8")
     names = ["./", *(name for name, _ in list_files(site) if name not in UNSERVED)]
     later = [each for each in names if each.startswith(LATER)]

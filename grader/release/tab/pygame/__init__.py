@@ -51,7 +51,7 @@ missing.install()
 
 
 def init():
-    """Start all of pygame; returns how many parts started, and how many did not."""
+    """Start all of pygame; return the numbers of parts that started and failed."""
     display.init()
     font.init()
     return 4, 0
@@ -70,7 +70,7 @@ def get_init():
 
 
 def get_sdl_version():
-    """Return the version of what shows the window: there is none."""
+    """Return zeros: there is no SDL."""
     return 0, 0, 0
 
 

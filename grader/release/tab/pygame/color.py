@@ -1,4 +1,4 @@
-"""Color, and what pygame takes for a colour, as the text that a canvas takes for one."""
+"""Color, and the conversion of pygame's colours to those of a canvas."""
 
 from .naming import Named, full_name, refuse
 
@@ -51,7 +51,7 @@ class Color(metaclass=Named):
         self.r, self.g, self.b, self.a = read_color(*values)
 
     def update(self, *values):
-        """Set the colour, from what a Color can be made of."""
+        """Set the colour from the arguments of Color()."""
         self.r, self.g, self.b, self.a = read_color(*values)
 
     def __iter__(self):
@@ -80,7 +80,7 @@ class Color(metaclass=Named):
         return Color, tuple(self)
 
     def lerp(self, other, share):
-        """Return the colour at a share, from 0 to 1, of the way to another one."""
+        """Return the colour at a share, from 0 to 1, of the way to another."""
         if not 0 <= share <= 1:
             raise ValueError("Argument 2 must be in range [0, 1]")
         pairs = zip(self, read_color(other), strict=True)
@@ -88,7 +88,7 @@ class Color(metaclass=Named):
 
 
 def read_color(*values):
-    """Return (r, g, b, a) from what pygame takes for a colour; raises ValueError or TypeError."""
+    """Return (r, g, b, a) of any colour that pygame accepts; raise ValueError or TypeError."""
     if len(values) > 1:
         return check_channels(values)
     (value,) = values or ((0, 0, 0, 255),)
@@ -107,7 +107,7 @@ def read_color(*values):
 
 
 def check_channels(values):
-    """Return three or four numbers as (r, g, b, a), or one as it is, all whole."""
+    """Return three or four numbers as whole (r, g, b, a), or one as a whole number."""
     try:
         numbers = tuple(map(int, values))
     except (TypeError, ValueError, OverflowError):
@@ -135,11 +135,11 @@ opaque, translucent = {}, {}  # texts of colours that were used, by what the pro
 
 
 def opaque_css(color):
-    """Return a colour as #RRGGBB: what is drawn on a surface without transparency covers it."""
+    """Return a colour as #RRGGBB, for a surface without transparency."""
     try:
         return opaque[color]
     except (KeyError, TypeError):
-        return keep(opaque, color, "#%02x%02x%02x" % read_color(color)[:3])
+        return cache_text(opaque, color, "#%02x%02x%02x" % read_color(color)[:3])
 
 
 def css(color):
@@ -148,11 +148,11 @@ def css(color):
         return translucent[color]
     except (KeyError, TypeError):
         text = "#%02x%02x%02x%02x" % read_color(color)
-        return keep(translucent, color, text[:7] if text[7:] == "ff" else text)
+        return cache_text(translucent, color, text[:7] if text[7:] == "ff" else text)
 
 
-def keep(texts, color, text):
-    """Return a text, and keep it where the colour can be a key."""
+def cache_text(texts, color, text):
+    """Cache the text of a colour that can be a key; return the text."""
     if len(texts) >= MOST:
         texts.clear()
     if getattr(color, "__hash__", None):

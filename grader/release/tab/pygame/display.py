@@ -33,7 +33,7 @@ def get_init():
 
 
 def set_mode(size=(0, 0), flags=0, depth=0, display=0, vsync=0):
-    """Open the window, of this size in px; returns its surface."""
+    """Open a window of this size in px; return its surface."""
     if not hasattr(size, "__getitem__") or len(size) != 2 or not all(map(is_number, size)):
         raise TypeError("size must be two numbers")
     width, height = map(to_int, size)
@@ -54,7 +54,7 @@ def get_surface():
 
 
 def flip():
-    """Show what is drawn. A program without a Clock lets the page post events here."""
+    """Show the picture. In programs without a Clock, the page posts events here."""
     need_window()
     if state.surface is None:
         raise error("Display mode not set")
@@ -67,7 +67,7 @@ def flip():
 
 
 def update(*rectangles):
-    """Show what is drawn, all of it."""
+    """Show the whole picture."""
     flip()
 
 

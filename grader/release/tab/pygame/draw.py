@@ -11,7 +11,7 @@ from .surface import Surface
 
 
 def check(surface, color):
-    """Return the colour as a text; raises TypeError for what is no surface."""
+    """Return the colour as a text; raise TypeError without a surface."""
     if not isinstance(surface, Surface):
         raise TypeError(f"argument 1 must be pygame.surface.Surface, not {full_name(surface)}")
     return surface.css(color)
@@ -26,7 +26,7 @@ def read_point(point, message):
 
 
 def read_points(points, least, message):
-    """Return at least so many places in whole pixels."""
+    """Return at least this many places in whole pixels."""
     if not hasattr(points, "__getitem__") or not hasattr(points, "__len__"):
         raise TypeError("points argument must be a sequence of number pairs")
     if len(points) < least:
@@ -34,16 +34,16 @@ def read_points(points, least, message):
     return [read_point(each, "points must be number pairs") for each in points]
 
 
-def bounds(surface, points, more=0):
-    """Return the rectangle around some pixels, as far as it is on the surface."""
+def find_bounds(surface, points, more=0):
+    """Return the part of the rectangle around some pixels that is on the surface."""
     xs, ys = [x for x, _ in points], [y for _, y in points]
     left, top = min(xs) - more, min(ys) - more
     box = (left, top, max(xs) + more + 1 - left, max(ys) + more + 1 - top)
-    return clipped(surface, box, points[0])
+    return clip_box(surface, box, points[0])
 
 
-def clipped(surface, box, start):
-    """Return what a clip leaves of a rectangle; one without size at the start where nothing is."""
+def clip_box(surface, box, start):
+    """Return the visible part of a rectangle, or an empty one at `start`."""
     left = surface.get_clip().clip(box)
     return left if left else Rect(*start, 0, 0)
 
@@ -56,7 +56,7 @@ def circle(surface, color, center, radius, width=0):
     if radius < 1 or width < 0:
         return Rect(x, y, 0, 0)
     surface._into.append(("circle", x, y, radius, css, 0 if width >= radius else width))
-    return clipped(surface, (x - radius, y - radius, 2 * radius, 2 * radius), (x, y))
+    return clip_box(surface, (x - radius, y - radius, 2 * radius, 2 * radius), (x, y))
 
 
 def aacircle(surface, color, center, radius, width=0):
@@ -68,7 +68,7 @@ def aacircle(surface, color, center, radius, width=0):
         return Rect(x, y, 0, 0)
     width = 0 if width >= radius else width
     surface._into.append(("circle", x + 0.5, y + 0.5, radius, css, width))
-    return clipped(surface, (x - radius, y - radius, 2 * radius + 1, 2 * radius + 1), (x, y))
+    return clip_box(surface, (x - radius, y - radius, 2 * radius + 1, 2 * radius + 1), (x, y))
 
 
 def read_radius(radius):
@@ -87,11 +87,11 @@ def line(surface, color, start_pos, end_pos, width=1):
         return Rect(x, y, 0, 0)
     shift = 0.5 if width % 2 else 0.0
     add_line(surface, x + shift, y + shift, to_x + shift, to_y + shift, css, int(width))
-    return bounds(surface, [(x, y), (to_x, to_y)], int(width) // 2)
+    return find_bounds(surface, [(x, y), (to_x, to_y)], int(width) // 2)
 
 
 def add_line(surface, x, y, to_x, to_y, css, width):
-    """Add the command of a line, unless no canvas could hold it."""
+    """Add the command of a line, unless it is too long for a canvas."""
     if max(map(abs, (x, y, to_x, to_y))) < 1e6:
         surface._into.append(("line", x, y, to_x, to_y, css, width))
 
@@ -106,7 +106,9 @@ def aaline(surface, color, start_pos, end_pos, width=1):
     if width < 1:
         return Rect(to_int(start[0]), to_int(start[1]), 0, 0)
     add_line(surface, *(each + 0.5 for each in (*start, *end)), css, int(width))
-    return bounds(surface, [tuple(map(to_int, start)), tuple(map(to_int, end))], int(width) // 2)
+    return find_bounds(
+        surface, [tuple(map(to_int, start)), tuple(map(to_int, end))], int(width) // 2
+    )
 
 
 def lines(surface, color, closed, points, width=1):
@@ -118,7 +120,7 @@ def lines(surface, color, closed, points, width=1):
     ends = points[1:] + points[:1] if closed else points[1:]
     for start, end in zip(points, ends, strict=False):
         line(surface, color, start, end, width)
-    return bounds(surface, points, int(width) // 2)
+    return find_bounds(surface, points, int(width) // 2)
 
 
 def aalines(surface, color, closed, points, blend=1):
@@ -135,7 +137,7 @@ def polygon(surface, color, points, width=0):
     numbers = [number + 0.5 for place in places for number in place]
     if max(map(abs, numbers)) < 1e6:
         surface._into.append(("poly", numbers, css, 0))
-    return bounds(surface, places)
+    return find_bounds(surface, places)
 
 
 def rect(surface, color, rect, width=0, border_radius=-1, *_, **__):
@@ -154,7 +156,7 @@ def rect(surface, color, rect, width=0, border_radius=-1, *_, **__):
     if border_radius > 0:
         command = (*command, min(int(border_radius), w // 2, h // 2))
     surface._into.append(command)
-    return clipped(surface, (x, y, w, h), (x, y))
+    return clip_box(surface, (x, y, w, h), (x, y))
 
 
 def need_rect(value):
@@ -173,7 +175,7 @@ def ellipse(surface, color, rect, width=0):
         return Rect(x, y, 0, 0)
     width = 0 if 2 * width >= min(w, h) else int(width)
     surface._into.append(("ellipse", x, y, w, h, css, width))
-    return clipped(surface, (x, y, w, h), (x, y))
+    return clip_box(surface, (x, y, w, h), (x, y))
 
 
 def arc(surface, color, rect, start_angle, stop_angle, width=1):
@@ -187,4 +189,4 @@ def arc(surface, color, rect, start_angle, stop_angle, width=1):
     while stop_angle < start_angle:
         stop_angle += tau
     surface._into.append(("arc", x, y, w, h, start_angle, stop_angle, css, int(width)))
-    return clipped(surface, (x, y, w, h), (x, y))
+    return clip_box(surface, (x, y, w, h), (x, y))

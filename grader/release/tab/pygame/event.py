@@ -51,26 +51,26 @@ class Event(metaclass=Named):
 
 
 def event_name(type):
-    """Return what a type of event is called."""
+    """Return the name of an event type."""
     if c.USEREVENT <= type < c.NUMEVENTS:
         return "UserEvent"
     return c.event_names.get(type, "Unknown")
 
 
 def custom_type():
-    """Return a type of event that nobody uses yet."""
+    """Return an unused event type."""
     return next(custom_types)
 
 
 def pump():
-    """Let the page post what has come."""
+    """Let the page post new events."""
     need_window()
     if pump_hook:
         pump_hook()
 
 
 def post(event):
-    """Add an event to the queue; returns whether its type is allowed.
+    """Add an event to the queue; return whether there was room.
 
     While the page shows a program, events say which keys and buttons are down, and where the mouse
     is.
@@ -79,15 +79,15 @@ def post(event):
         raise TypeError("argument must be an Event object")
     need_window()
     if State.sink:
-        note(event)
+        update_state(event)
     if len(queue) >= MOST:
         return False
     queue.append(event)
     return True
 
 
-def note(event):
-    """Note what an event says of keys and mouse."""
+def update_state(event):
+    """Update the state of keys and mouse from an event."""
     values = vars(event)
     match event.type:
         case c.KEYDOWN | c.KEYUP:
@@ -107,8 +107,8 @@ def note(event):
         State.mouse = x, y
 
 
-def wanted(types):
-    """Return a function that says whether an event is of one of the types; None takes all."""
+def make_filter(types):
+    """Return a test for events of these types; None stands for all."""
     if types is None:
         return lambda event: True
     types = {types} if isinstance(types, int) else set(types)
@@ -116,22 +116,22 @@ def wanted(types):
 
 
 def get(eventtype=None, pump=True, exclude=None):
-    """Return the events in the queue, of these types if any are given, and take them out."""
+    """Remove and return the events in the queue, or those of these types."""
     need_window()
     if pump and pump_hook:
         pump_hook()
     if eventtype is None and exclude is None:
         found, queue[:] = list(queue), []
         return found
-    is_wanted = wanted(eventtype)
-    is_excluded = wanted(exclude if exclude is not None else ())
+    is_wanted = make_filter(eventtype)
+    is_excluded = make_filter(exclude if exclude is not None else ())
     found = [event for event in queue if is_wanted(event) and not is_excluded(event)]
     queue[:] = [event for event in queue if not is_wanted(event) or is_excluded(event)]
     return found
 
 
 def poll():
-    """Return the next event and take it out; one of type NOEVENT where there is none."""
+    """Remove and return the next event, or one of type NOEVENT."""
     need_window()
     if pump_hook:
         pump_hook()
@@ -139,7 +139,7 @@ def poll():
 
 
 def wait(timeout=0):
-    """Wait for an event, for so many ms at most unless that is 0, and take it out."""
+    """Wait for an event, at most `timeout` ms unless that is 0; remove and return it."""
     from .time import get_ticks
 
     need_window()
@@ -155,15 +155,15 @@ def wait(timeout=0):
 
 
 def peek(eventtype=None, pump=True):
-    """Return whether there are events, of these types if any are given."""
+    """Return whether there are events, or events of these types."""
     need_window()
     if pump and pump_hook:
         pump_hook()
-    return any(map(wanted(eventtype), queue))
+    return any(map(make_filter(eventtype), queue))
 
 
 def clear(eventtype=None, pump=True):
-    """Take out all events, of these types if any are given."""
+    """Remove all events, or those of these types."""
     need_window()
-    is_wanted = wanted(eventtype)
+    is_wanted = make_filter(eventtype)
     queue[:] = [event for event in queue if not is_wanted(event)]

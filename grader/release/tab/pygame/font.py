@@ -19,7 +19,7 @@ AVERAGE = 420  # of other characters
 
 
 class Font(metaclass=Named):
-    """A font of a size in px. There is one family; a name of another one is ignored."""
+    """A font of a size in px; there is one family."""
 
     def __init__(self, name=None, size=20, *_, **__):
         if not State.fonts:

@@ -10,7 +10,7 @@ CHANNELS = {"RGB": (0, 1, 2), "RGBA": (0, 1, 2, 3)}
 
 
 def tobytes(surface, format):
-    """Return the pixels of a surface, row by row, in one of a few formats."""
+    """Return the pixels of a surface row by row, as RGB or RGBA."""
     if format not in CHANNELS:
         raise ValueError(f"the pygame of this page has no {format!r}; it has RGB and RGBA")
     pixels, channels = surface.pixels().bytes, CHANNELS[format]

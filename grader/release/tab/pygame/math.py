@@ -41,7 +41,7 @@ def read_pair(value):
 
 
 def need_pair(value, error, message):
-    """Return a sequence of two real numbers as two floats; raise the error for anything else."""
+    """Return a sequence of two real numbers as two floats, or raise the error."""
     pair = read_pair(value)
     if pair is None:
         raise error(message)
@@ -49,7 +49,7 @@ def need_pair(value, error, message):
 
 
 def need_sequence(value):
-    """Return two floats; raise as pygame does where distances are measured to something else."""
+    """Return two floats; raise the errors of pygame's distances."""
     if not hasattr(value, "__getitem__") or not hasattr(value, "__len__"):
         raise TypeError("A sequence was expected")
     if len(value) != 2:
@@ -58,14 +58,14 @@ def need_sequence(value):
 
 
 def to_float(value):
-    """Return a real number as a float; raise TypeError for anything else, texts included."""
+    """Return a real number as a float; raise TypeError for anything else."""
     if not is_number(value):
         raise TypeError(f"must be real number, not {full_name(value)}")
     return float(value)
 
 
 def read_number(value):
-    """Return a number as a float, or None where a vector cannot be multiplied by it."""
+    """Return a number as a float, or None for anything else."""
     if not is_number(value):
         return None
     try:
@@ -75,7 +75,7 @@ def read_number(value):
 
 
 def turn(x, y, angle):
-    """Return (x, y) turned by an angle in rad; multiples of 90° move the numbers, unrounded."""
+    """Return (x, y) turned by an angle in rad; multiples of 90° are exact."""
     angle = fmod(angle, tau) if fabs(angle) != INFINITY else NAN
     if angle < 0:
         angle += tau
@@ -198,7 +198,7 @@ class Vector2(metaclass=Named):
         return Vector2, (self._x, self._y)
 
     def update(self, x=0.0, y=NOT_GIVEN):
-        """Set both numbers, from what a Vector2 can be made of."""
+        """Set both numbers from the arguments of Vector2()."""
         self._x, self._y = read_coordinates(x, y)
 
     xy = property(__copy__, update)
@@ -387,7 +387,7 @@ class Vector2(metaclass=Named):
         self._y *= length / old
 
     def clamp_magnitude(self, *limits):
-        """Return a vector no longer than the last of one or two limits, nor shorter than the first."""
+        """Return a vector whose length is within one or two limits."""
         if not 1 <= len(limits) <= 2:
             raise TypeError("Vector clamp function must take one or two floats")
         *low, high = map(to_float, limits)
@@ -478,7 +478,7 @@ class Vector2(metaclass=Named):
     # ------------------------------------------------------------ on the way to another vector
 
     def lerp(self, other, share):
-        """Return the point at a share, from 0 to 1, of the way to another one."""
+        """Return the point at a share, from 0 to 1, of the way to another."""
         x, y = need_pair(other, TypeError, "Expected Vector as argument 1")
         share = to_float(share)
         if not 0 <= share <= 1:
@@ -487,7 +487,7 @@ class Vector2(metaclass=Named):
         return Vector2(self._x * rest + x * share, self._y * rest + y * share)
 
     def move_towards(self, other, most):
-        """Return the point at a distance, at most, on the straight way to another one."""
+        """Return the point on the way to another one, at most this distance away."""
         x, y = need_pair(other, TypeError, "Expected Vector as argument 1")
         most = to_float(most)
         over, down = x - self._x, y - self._y
@@ -500,7 +500,7 @@ class Vector2(metaclass=Named):
 
 
 def make_in_place(method):
-    """Return a method that changes its vector to what another one returns."""
+    """Return a method that sets its vector to the result of another method."""
 
     def change(self, *args):
         self._x, self._y = method(self, *args)
@@ -545,7 +545,7 @@ def round_half_up(x):
 
 
 def clamp(value, low, high):
-    """Return a value, or the limit that it is beyond."""
+    """Return a value limited to low and high."""
     if not all(map(is_number, (value, low, high))):
         raise TypeError("clamp requires 3 numeric arguments")
     return low if value < low else high if value > high else value

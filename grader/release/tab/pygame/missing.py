@@ -7,7 +7,7 @@ from .naming import explain, refuse
 
 
 class MissingModules:
-    """Stands after all that finds modules, and says of pygame's own that they are not here."""
+    """The last finder of modules: it explains missing modules of pygame."""
 
     def find_spec(self, name, path, target=None):
         """Find nothing; raise ModuleNotFoundError for a module of pygame."""

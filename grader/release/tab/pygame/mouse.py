@@ -5,20 +5,20 @@ from .state import State, need_window
 
 
 def get_pos():
-    """Return where the pointer is in the window, in px."""
+    """Return the pointer's position in the window, in px."""
     need_window()
     return State.mouse
 
 
 def set_pos(*place):
-    """Say that the pointer is at a place; the page cannot move it."""
+    """Set the pointer's position for get_pos; the page cannot move it."""
     need_window()
     x, y = place if len(place) == 2 else place[0]
     State.mouse = int(x), int(y)
 
 
 def get_rel():
-    """Return how far the pointer has moved since the last call, in px."""
+    """Return the pointer's motion since the last call, in px."""
     need_window()
     moved, State.moved = State.moved, (0, 0)
     return moved

@@ -4,12 +4,12 @@ FULL_NAME = type.__dict__["__name__"]
 
 
 def full_name(value):
-    """Return the name of a value's type as messages have it."""
+    """Return the name of a value's type for messages."""
     return FULL_NAME.__get__(type(value))
 
 
 class Named(type):
-    """The type of a class whose messages name it in full.
+    """The type of classes that messages name in full.
 
     Python puts `type.__name__` into "unsupported operand type(s) for +: 'float' and …". Of a class
     in C it says "pygame.math.Vector2" there, though the class's own `__name__` is "Vector2".
@@ -26,20 +26,20 @@ class Named(type):
 
 
 def refuse_attribute(value, name):
-    """Raise AttributeError for an attribute that a class of this page's pygame does not have."""
+    """Raise AttributeError for an attribute that this page's pygame lacks."""
     where = "in the pygame of this page"
     raise AttributeError(f"{full_name(value)!r} object has no attribute {name!r} {where}")
 
 
 def refuse(module, name):
-    """Raise AttributeError for a name that a module of this page's pygame does not have."""
+    """Raise AttributeError for a name that this page's pygame lacks."""
     if name.startswith("__"):
         raise AttributeError(f"module {module!r} has no attribute {name!r}")
     raise AttributeError(explain(f"{module}.{name}"))
 
 
 def explain(name):
-    """Return what to say of a name of pygame that is not here."""
+    """Return the sentence about a name that this page's pygame lacks."""
     return (
         f"{name} is not part of the pygame of this page; "
         "draw with what the lab uses, or run the program on a computer with pygame-ce"

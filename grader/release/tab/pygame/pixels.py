@@ -30,7 +30,7 @@ class Pixels:
         return tuple(self.bytes[start : start + 4])
 
     def _span(self, y, begin, end, color):
-        """Colour the pixels from begin up to end, which is outside."""
+        """Colour the pixels from begin up to, but not including, end."""
         y += self.at[1]
         left, top, right, bottom = self.clip
         begin, end = max(begin + self.at[0], left), min(end + self.at[0], right)

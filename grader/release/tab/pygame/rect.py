@@ -7,7 +7,7 @@ STYLE = "Argument must be rect style object"
 
 
 def read_rect(*values):
-    """Return (x, y, w, h) as whole numbers from what pygame takes for a rectangle."""
+    """Return (x, y, w, h) of any rectangle that pygame accepts, as whole numbers."""
     if len(values) == 1:
         (values,) = values
         if isinstance(values, Rect):
@@ -32,7 +32,7 @@ def read_rect_of(thing):
 
 
 def to_int(value):
-    """Return a number cut to a whole one, as C does: NaN and what is too large become the least."""
+    """Return a number truncated as in C: NaN and overflow become the lowest number."""
     try:
         number = int(value)
     except (ValueError, OverflowError):
@@ -50,12 +50,12 @@ def side(get, put):
 
 
 def half(number):
-    """Return half a number, cut as C does."""
+    """Return half a number, truncated as in C."""
     return int(number / 2)
 
 
 class Rect(metaclass=Named):
-    """A rectangle: x, y, w and h, and all that follows from them."""
+    """A rectangle: x, y, w and h, and its corners, sides and centres."""
 
     __slots__ = ("_h", "_w", "_x", "_y")
     __hash__ = None
@@ -147,7 +147,7 @@ class Rect(metaclass=Named):
         return type(self)(self._x - half(w), self._y - half(h), self._w + w, self._h + h)
 
     def clip(self, *other):
-        """Return what two rectangles share; one without size where they share nothing."""
+        """Return the overlap of two rectangles, or an empty one."""
         x, y, w, h = read_rect(*other)
         left, top = max(self._x, x), max(self._y, y)
         wide, high = min(self.right, x + w) - left, min(self.bottom, y + h) - top

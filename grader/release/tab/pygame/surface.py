@@ -13,7 +13,7 @@ BAD_PLACE = "invalid destination position for blit"
 
 
 class Nowhere(list):
-    """A list of commands that nobody will see."""
+    """A list that drops all commands."""
 
     def append(self, command):
         pass
@@ -62,7 +62,7 @@ class Surface(metaclass=Named):
     height = property(get_height)
 
     def get_rect(self, **places):
-        """Return a rectangle of this size, moved to where names such as center say."""
+        """Return a rectangle of this size, placed by names such as center."""
         rect = Rect(0, 0, self._width, self._height)
         for name, value in places.items():
             if not hasattr(Rect, name):
@@ -77,7 +77,7 @@ class Surface(metaclass=Named):
     # ------------------------------------------------------------ drawing
 
     def fill(self, color, rect=None, special_flags=0):
-        """Fill the surface, or a rectangle of it; returns the rectangle that is filled."""
+        """Fill the surface or a rectangle of it; return the filled rectangle."""
         color = self.css(color)
         if rect is None and self._into is self.ops:
             self.ops.clear()
@@ -90,7 +90,7 @@ class Surface(metaclass=Named):
         return filled
 
     def blit(self, source, dest=(0, 0), area=None, special_flags=0):
-        """Draw another surface with its left upper corner at dest; returns where it is drawn."""
+        """Draw another surface with its left upper corner at dest; return its rectangle."""
         if not isinstance(source, Surface):
             raise TypeError(f"argument 1 must be pygame.surface.Surface, not {full_name(source)}")
         x, y = read_place(dest)
@@ -159,7 +159,7 @@ class Surface(metaclass=Named):
     unlock = lock
 
     def forget(self):
-        """Leave out the oldest commands but the first where there are too many."""
+        """Drop the oldest commands but the first if there are too many."""
         if len(self.ops) > MOST:
             del self.ops[1 : len(self.ops) - MOST // 2]
             self._drawn = None, 0
@@ -167,7 +167,7 @@ class Surface(metaclass=Named):
     # ------------------------------------------------------------ pixels
 
     def pixels(self):
-        """Return the Pixels of all that is drawn; what has been computed before is kept."""
+        """Return the pixels of the picture, computed only once."""
         drawn, count = self._drawn
         if drawn is None or self._into is not self.ops or count > len(self.ops):
             drawn, count = Pixels(self._width, self._height), 0

@@ -11,7 +11,7 @@ LAST = 10  # ticks that get_fps looks back
 
 
 class Clock(metaclass=Named):
-    """Ends frames, and says how long they were.
+    """Ends frames and measures them.
 
     The page sets `wait_hook(fps, last)`: it rests until 1/fps seconds after `last`, a time of
     perf_counter, and posts what events have come meanwhile.
@@ -24,7 +24,7 @@ class Clock(metaclass=Named):
         self._lengths = []
 
     def tick(self, framerate=0):
-        """End a frame, not before 1/framerate seconds are over; returns its length in ms."""
+        """End a frame after at least 1/framerate seconds; return its length in ms."""
         framerate = to_float(framerate)
         self._work = int((time.perf_counter() - self._last) * 1000)
         rest(framerate, self._last)

@@ -1,4 +1,4 @@
-"""Run, check and pack the lab in a browser tab: what the page asks of its Python.
+"""Run, check and pack the lab in a browser tab, for the page's worker.
 
 Every function takes and returns what JSON holds, or bytes. `bridge` is the worker's own side:
 draw(commands, width, height), rest(ms, until_event), events(), watch(seconds), printed(text), and
@@ -34,14 +34,14 @@ bridge = None
 
 
 def start(bridge_):
-    """Take the worker's side, and keep a copy of what was handed out."""
+    """Set the bridge to the worker, and copy the lab as handed out."""
     global bridge
     bridge = bridge_
     shutil.copytree(LAB, HANDED_OUT, dirs_exist_ok=True)
 
 
 def lay_out(files):
-    """Make the lab's folder: what was handed out, and over it these files, text by name."""
+    """Make the lab's folder from the files handed out, and write these texts over them."""
     os.chdir("/")
     forget_last()
     shutil.rmtree(LAB)
@@ -63,7 +63,7 @@ def is_of_the_lab(module):
 
 
 class Printed(io.TextIOBase):
-    """Hands on what a program prints, up to MOST_OUTPUT characters."""
+    """Passes on a program's output, up to MOST_OUTPUT characters."""
 
     left = MOST_OUTPUT
 
@@ -109,7 +109,7 @@ def show(surface):
 
 
 def rest(fps, last):
-    """Rest until 1/fps seconds after `last`, and post what has come meanwhile."""
+    """Rest until 1/fps seconds after `last`, and post new events."""
     left = last + 1 / fps - time.perf_counter() if fps else 0
     bridge.rest(max(left, 0) * 1000, False)
     post_events()
@@ -126,7 +126,7 @@ def post_events():
 
 
 def name_values(kind, a, b, c):
-    """Return the attributes of an event, which the page sends as three numbers."""
+    """Return the attributes of an event from the page's three numbers."""
     match kind:
         case pygame.KEYDOWN | pygame.KEYUP:
             return {"key": a, "mod": b, "unicode": chr(c) if c else ""}
@@ -138,7 +138,7 @@ def name_values(kind, a, b, c):
 
 
 def describe(error):
-    """Return an error as Python prints it, from the first line of the lab on."""
+    """Return an error as Python prints it, without the frames outside of the lab."""
     while (trace := error.__traceback__) and not trace.tb_frame.f_code.co_filename.startswith(
         str(LAB)
     ):
@@ -150,7 +150,7 @@ def describe(error):
 
 
 def list_lacked(text):
-    """Return what the page lacks, of all that this text of errors asks for."""
+    """Return explanations of errors that come from what the page lacks."""
     return [words for sign, words in LACKED.items() if sign in text]
 
 
@@ -158,7 +158,7 @@ def list_lacked(text):
 
 
 class Stopped(BaseException):
-    """Raised between two checks once somebody has stopped them."""
+    """Raised between two checks after the button Stop."""
 
 
 last = ExitStack()  # of the last check, to show again what failed in it
@@ -166,7 +166,7 @@ failed = {}  # by the ids of a TODO and a check: how to make its replay
 
 
 def grade_lab(only):
-    """Grade the lab, or these TODOs of it; return the result, and keep what failed."""
+    """Grade these TODOs of the lab, or all; keep what a replay of a failure needs."""
     from grader.judge.grade import Options, grading
     from grader.judge.inline import InlineWorker
     from grader.worker.tab import TabChannel
@@ -215,7 +215,7 @@ def check(only, columns):
 
 
 def replay(todo, check):
-    """Return the page that shows a check of the last ones that failed, or "" where it cannot."""
+    """Return the replay page of a failed check, or "" where there is none."""
     return failed[todo, check]() if (todo, check) in failed else ""
 
 
@@ -231,7 +231,7 @@ def make_replay(run, todo, check, failing):
 
 
 def warm():
-    """Load what the first check would load."""
+    """Load the modules of the first check in advance."""
     import hypothesis  # noqa: F401
     import rich.console  # noqa: F401
 
@@ -248,7 +248,7 @@ def warm():
 
 
 def make_screen(console):
-    """Make the screen of `check`, without the commands that nobody can type here."""
+    """Make the screen of `check` without commands, which cannot be typed here."""
     from grader.report.screen import Screen
     from grader.report.terminal import describe_obstacle
 
@@ -266,7 +266,7 @@ def make_screen(console):
 
 
 def grade_as_json(only):
-    """Grade and return all of the result, to be compared with that of another worker."""
+    """Grade and return the whole result as JSON, for tests."""
     import msgspec
 
     return msgspec.json.encode(grade_lab(json.loads(only))).decode()
@@ -274,7 +274,7 @@ def grade_as_json(only):
 
 @cache
 def measure_pace():
-    """Return how many seconds here are worth one of a usual processor, from 1 to 2."""
+    """Return how much slower this machine is than a usual one, from 1 to 2."""
     began = time.perf_counter()
     total = 0
     for number in range(300_000):
@@ -289,7 +289,7 @@ USUAL = 0.05  # s that the loop of measure_pace takes on a usual processor
 
 
 def hand_in():
-    """Pack what is handed in; return the zip and a text about it."""
+    """Pack the work; return the zip and a text about it."""
     from grader.cli.hand_in import list_warnings, pack_tree, write_receipt
     from grader.judge.course import read_course
 
@@ -309,7 +309,7 @@ def export():
 
 
 def bring_in(data, name):
-    """Return the files of a zip, or one file, as text by the names that they have in the lab."""
+    """Return the texts of a zip, or of one file, by their names in the lab."""
     if not name.endswith(".zip"):
         return json.dumps({place_of(name): bytes(data).decode("utf-8-sig")})
     with zipfile.ZipFile(io.BytesIO(bytes(data))) as archive:
@@ -327,7 +327,7 @@ def bring_in(data, name):
 
 
 def is_text(name):
-    """Return whether an entry of a zip is a file to edit, at a place inside the lab."""
+    """Return whether an entry of a zip is a text file inside the lab."""
     path = PurePosixPath(name)
     return (
         path.suffix in (".py", ".md", ".ipynb")
@@ -337,6 +337,6 @@ def is_text(name):
 
 
 def place_of(name):
-    """Return where the lab has a file of this name; new ones lie at its top."""
+    """Return the path of a file in the lab by its name; new files lie at the top."""
     found = [path for path in HANDED_OUT.rglob(name)]
     return str(found[0].relative_to(HANDED_OUT)) if found else name
