@@ -175,9 +175,9 @@ def arrange_rest(folder: Path, asked: Collection[str], left_out: set[PurePosixPa
         for name, path in list_files(piece, folder, notes):
             files[name] = folder / path
             elsewhere.add(path)
-        if not piece.exact or piece.path.parent != top:
-            as_it_is = PurePosixPath(piece.module).with_suffix(piece.path.suffix and ".py")
-            notes.append(f"{piece.path} is taken as {as_it_is}")
+        name = PurePosixPath(piece.module).with_suffix(piece.path.suffix and ".py")
+        if piece.path not in (name, top / name):
+            notes.append(f"{piece.path} is taken as {name}")
     for path in paths:
         if path not in elsewhere and path.is_relative_to(top):
             files.setdefault(path.relative_to(top).as_posix(), folder / path)

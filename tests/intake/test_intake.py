@@ -256,18 +256,6 @@ def test_who_handed_in_twice_must_choose_unless_it_is_the_same(classroom):
         assert "ann and ann.zip are the same" in taken.notes[0]
 
 
-def test_a_zip_in_a_zip_and_a_zip_in_a_folder(classroom):
-    write(classroom, {"ann/work.zip": zipped({"inner.zip": zipped(PROGRAM), "read.me": ""})})
-    with open_class(classroom) as taken:
-        assert names_in(taken.found[0]) == sorted(PROGRAM)
-
-
-def test_two_programs_beside_each_other_are_for_a_person_to_choose(classroom):
-    write(classroom, under("ann/old") | under("ann/new") | {"ann/old/integrators.py": "x = 2"})
-    with pytest.raises(CannotTake, match="program integrators, in new, old: leave one"):
-        read_package(Found("ann", (classroom / "ann",)))
-
-
 def test_the_same_files_are_one_package_whoever_and_however(classroom, tmp_path):
     folder = Found("ann", (write(classroom / "ann", PROGRAM),))
     (classroom / "b.zip").write_bytes(zipped(under("x/y", dict(reversed(PROGRAM.items())))))

@@ -1,10 +1,7 @@
 """Unusual classes: nobody is lost, nobody has 0 in silence, every refusal says why."""
 
 import base64
-import bz2
 import errno
-import gzip
-import lzma
 import os
 import shutil
 import struct
@@ -81,29 +78,6 @@ def test_a_name_that_python_cannot_import_is_taken_as_what_it_was(tmp_path: Path
     assert package.notes == [f"{name} is taken as integrators.py"]
 
 
-OTHERS = ("integrators_final.py", "hello world.py", "integrators.py.html", "integrators.gdoc")
-
-
-@pytest.mark.parametrize("name", OTHERS)
-def test_a_name_that_may_be_a_file_of_ones_own_is_for_a_person(tmp_path: Path, name: str):
-    with pytest.raises(CannotTake, match="nothing of the lab was found"):
-        read_package(one(tmp_path, {name: SOURCE}))
-
-
-def test_two_drafts_of_what_nobody_asks_for_are_no_question(tmp_path: Path):
-    drafts = {
-        "integrators.py": "a = 1\n",
-        "integrators (1).py": "a = 2\n",
-        "pymunk_scene.py": "x\n",
-    }
-    package = read_package(one(tmp_path, drafts | {"more.zip": b"PK broken"}), ["pymunk_scene"])
-    assert dict(package.files)["integrators.py"] == b"a = 1\n"
-    words = "integrators.py is taken of several integrators; none of them is asked for"
-    assert words in package.notes
-    with pytest.raises(CannotTake, match="more than one program integrators"):
-        read_package(Found("ann", (tmp_path / "ann",)), ["integrators"])
-
-
 @pytest.mark.parametrize("what", ["ann/mini_engine", "ann/mini_engine/world.py"])
 def test_what_may_not_be_read_is_for_a_person_and_not_nothing(tmp_path: Path, monkeypatch, what):
     """A folder that its owner has shut, or one of another user: somebody's work may lie in it."""
@@ -131,41 +105,6 @@ def shut(monkeypatch, path: Path) -> None:
     monkeypatch.setattr(os, "open", refusing(os.open))
 
 
-def test_of_two_drafts_a_person_chooses_and_beside_the_right_name_it_is_left(tmp_path: Path):
-    drafts = {"integrators v1.py": SOURCE, "integrators v2.py": "points = 8\n"}
-    with pytest.raises(CannotTake, match="more than one program"):
-        read_package(one(tmp_path, drafts))
-    package = read_package(one(tmp_path, {"integrators.py": "points = 9\n"}))
-    assert dict(package.files)["integrators.py"] == b"points = 9\n"
-
-
-NO_PROGRAMS = {
-    "a web page": b"<!DOCTYPE html><html>Sign in</html>",
-    "a text of a word processor": b"{\\rtf1\\ansi def x}",
-    "a zip or an Office document": packed.as_zip(WORK),
-    "text in UTF-16": SOURCE.encode("utf-16"),
-    "no text": b"def x\0\0",
-    "a notebook": b'{"cells": []}',
-}
-
-
-def test_what_is_no_program_under_its_name_is_for_a_person(tmp_path: Path):
-    for words, content in NO_PROGRAMS.items():
-        with pytest.raises(CannotTake, match=f"integrators.py is {words}"):
-            read_package(one(tmp_path, {"integrators.py": content}))
-    with pytest.raises(CannotTake, match="all programs are empty"):
-        read_package(one(tmp_path, {"integrators.py": b"", "mini_engine/__init__.py": b"\n"}))
-    package = read_package(one(tmp_path / "b", {"integrators.py": b"", "pymunk_scene.py": SOURCE}))
-    assert package.notes == ["integrators.py is empty"]
-
-
-def test_what_the_course_does_not_ask_for_is_no_work(tmp_path: Path):
-    found = one(tmp_path, {"pymunk_scene.py": SOURCE})
-    assert read_package(found).files
-    with pytest.raises(CannotTake, match=r"nothing of the lab was found \(integrators\): it holds"):
-        read_package(found, ["integrators"])
-
-
 def test_the_labs_own_files_come_first_however_many_others_there_are(tmp_path: Path):
     many: packed.Files = {f"aaa/m{n}.py": "x = 1\n" for n in range(MAX_FILES + 100)}
     lab: packed.Files = {"mini_engine/__init__.py": "x = 1\n", **WORK}
@@ -188,15 +127,6 @@ def zipped(folder: Path, files: packed.Files) -> Found:
 # ---------------------------------------------------------------- archives
 
 
-def test_a_single_file_made_smaller_is_read_whatever_it_is_called(tmp_path: Path):
-    for at, pressed in enumerate((gzip.compress, bz2.compress, lzma.compress)):
-        suffix = ("gz", "bz2", "xz")[at]
-        found = one(tmp_path / suffix, {f"integrators.py.{suffix}": pressed(SOURCE.encode())})
-        assert dict(read_package(found).files)["integrators.py"] == SOURCE.encode()
-    found = one(tmp_path / "plain", {"work": packed.as_zip(WORK)})
-    assert dict(read_package(found).files)["integrators.py"] == SOURCE.encode()
-
-
 def raw_zip(name: bytes) -> bytes:
     """A zip whose name is in letters of its own time, without a word of which."""
     content = SOURCE.encode()
@@ -216,19 +146,6 @@ def test_names_in_old_letters_hide_no_program(tmp_path: Path, name: str, letters
     classes.put(tmp_path / "work.zip", raw_zip(name.encode(letters) + b"integrators.py"))
     package = read_package(Found("ann", (tmp_path / "work.zip",)))
     assert dict(package.files)["integrators.py"] == SOURCE.encode()
-
-
-def test_too_deep_or_in_parts_is_said(tmp_path: Path):
-    deep = packed.as_zip(WORK)
-    for name in "dcba":
-        deep = packed.as_zip({f"{name}.zip": deep})
-    classes.put(tmp_path / "work.zip", deep)
-    with pytest.raises(CannotTake, match="archives are opened 3 deep"):
-        read_package(Found("ann", (tmp_path / "work.zip",)))
-    for content, words in ((b"", "it has no bytes"), (packed.as_zip(WORK)[:-30], "cut off")):
-        classes.put(tmp_path / "cut.zip", content)
-        with pytest.raises(CannotTake, match=words):
-            read_package(Found("ann", (tmp_path / "cut.zip",)))
 
 
 # ---------------------------------------------------------------- whose it is

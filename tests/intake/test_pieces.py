@@ -1,6 +1,8 @@
 """The lab's files in a submission: in archives of all kinds, anywhere, under any name."""
 
 import bz2
+import gzip
+import lzma
 import re
 import subprocess
 import sys
@@ -29,7 +31,10 @@ PROGRAM: packed.Files = {
 ALL = sorted(PROGRAM)
 
 
-def write(folder: Path, files: packed.Files) -> Found:
+def write(folder: Path, files: packed.Files | bytes) -> Found:
+    """Write a submission: a folder of files, or a zip."""
+    if isinstance(files, bytes):
+        return one(folder.parent, "work.zip", files)
     for name, content in files.items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -159,91 +164,128 @@ def test_a_library_that_is_not_here_is_named(monkeypatch):
         repack.load_library("no_such_library", ".7z")
 
 
-# ---------------------------------------------------------------- at any depth
+# ---------------------------------------------------------------- at any depth, under any name
+
+WORK: packed.Files = {"integrators.py": "x = 1\n"}
+OTHERS = {name: text for name, text in PROGRAM.items() if name not in WORK}
+LOOSE = {n.removeprefix("mini_engine/"): t for n, t in PROGRAM.items() if "__init__" not in n}
+APART: packed.Files = {
+    "1-6/mini_engine/__init__.py": "",
+    "task 7/pymunk_scene.py": "",
+    "task 7/helper.py": "",
+    "task 8/integrators.zip": packed.as_zip(WORK),
+}
 
 
-def test_the_programs_may_lie_anywhere(tmp_path):
-    deep = write(tmp_path, under("a/b/c/d/e/f"))
-    assert names(read_package(deep)) == ALL and not read_package(deep).notes
+def in_folder(name: str) -> packed.Files:
+    return {file.replace("mini_engine", name): text for file, text in PROGRAM.items()}
 
 
-def test_a_folder_for_each_program_is_put_together_and_said(tmp_path):
-    package = read_package(
-        write(
-            tmp_path,
-            {
-                "1-6/mini_engine/__init__.py": "",
-                "task 7/pymunk_scene.py": "",
-                "task 7/helper.py": "",
-                "task 8/integrators.zip": packed.as_zip({"integrators.py": "x = 1"}),
-            },
-        )
-    )
-    wanted = ["helper.py", "integrators.py", "mini_engine/__init__.py", "pymunk_scene.py"]
-    assert names(package) == wanted
-    assert any("task 7/pymunk_scene.py is taken as pymunk_scene.py" in n for n in package.notes)
+def in_zips(*names: str) -> bytes:
+    content = packed.as_zip(WORK)
+    for name in names:
+        content = packed.as_zip({f"{name}.zip": content})
+    return content
 
 
-def test_one_program_beside_an_archive_of_the_others(tmp_path):
-    others = {name: text for name, text in PROGRAM.items() if name != "integrators.py"}
-    for number, kind in enumerate(("zip", "7z", "rar")):
-        found = write(
-            tmp_path / str(number),
-            {"integrators.py": "x = 1\n", f"engine.{kind}": KINDS[kind](others)},
-        )
-        assert names(read_package(found)) == ALL
+READ: dict[str, tuple[packed.Files | bytes, list[str], str]] = {  # files, names read, a note
+    "deep": (under("a/b/c/d/e/f"), ALL, ""),
+    "around all": (under("mini_engine"), ALL, ""),
+    "a folder each": (
+        APART,
+        ["helper.py", "integrators.py", "mini_engine/__init__.py", "pymunk_scene.py"],
+        "task 7/pymunk_scene.py is taken as pymunk_scene.py",
+    ),
+    "beside a zip": (WORK | {"engine.zip": packed.as_zip(OTHERS)}, ALL, ""),
+    "beside a 7z": (WORK | {"engine.7z": packed.as_7z(OTHERS)}, ALL, ""),
+    "beside a rar": (WORK | {"engine.rar": packed.as_rar(OTHERS)}, ALL, ""),
+    "zip not needed": (
+        PROGRAM | {"old.zip": "no zip"},
+        [*ALL, "old.zip"],
+        "old.zip was not opened: all programs lie beside it",
+    ),
+    "zip in a zip": ({"work.zip": in_zips("inner")}, list(WORK), ""),
+    "zip without a suffix": ({"work": packed.as_zip(WORK)}, list(WORK), ""),
+    "gz": ({"integrators.py.gz": gzip.compress(b"x = 1\n")}, list(WORK), ""),
+    "bz2": ({"integrators.py.bz2": bz2.compress(b"x = 1\n")}, list(WORK), ""),
+    "xz": ({"integrators.py.xz": lzma.compress(b"x = 1\n")}, list(WORK), ""),
+    "nearer": (
+        PROGRAM | {"old/integrators.py": "x = 0\n"},
+        [*ALL, "old/integrators.py"],
+        "old/integrators.py was left out: integrators.py lies nearer to the top",
+    ),
+    "inside the package": (
+        {n.replace("solver.py", "solver (1).py"): t for n, t in PROGRAM.items()},
+        ALL,
+        "mini_engine/solver (1).py is taken as mini_engine/solver.py",
+    ),
+    "twice the same": (
+        PROGRAM | {"integrators (1).py": "x = 1\n", "mini_engine/solver-2.py": "# mine\n"},
+        ALL,
+        "integrators (1).py and integrators.py are the same",
+    ),
+    "loose": (LOOSE, [n for n in ALL if "__init__" not in n], "is taken as mini_engine"),
+    "another package": (in_folder("my engine"), ALL, "my engine is taken as mini_engine"),
+    "a second package": (in_folder("mini_engine (1)"), ALL, "mini_engine (1) is taken as"),
+    "an empty one": (WORK | {"pymunk_scene.py": ""}, [*WORK, "pymunk_scene.py"], "is empty"),
+    "a draft beside it": (WORK | {"integrators v1.py": "2"}, ["integrators v1.py", *WORK], ""),
+}
 
 
-def test_an_archive_that_cannot_be_read_is_not_passed_over(tmp_path):
-    found = write(tmp_path, {"integrators.py": "x = 1\n", "engine.rar": "Rar!\x1a\x07\x01\x00"})
-    with pytest.raises(CannotTake, match=r"engine\.rar: the archive"):
-        read_package(found)
+@pytest.mark.parametrize("case", READ)
+def test_the_programs_are_found(tmp_path, case):
+    files, wanted, note = READ[case]
+    package = read_package(write(tmp_path / "ann", files))
+    read = {name: content.decode("utf-8", "replace") for name, content in package.files}
+    assert set(wanted) <= set(read) and set(read) - set(wanted) <= {"integrators (1).py"}
+    assert note in "; ".join(package.notes) and bool(note) == bool(package.notes)
+    assert read.get("integrators.py", "x = 1\n") == "x = 1\n"
 
 
-def test_beside_all_programs_an_archive_is_mentioned_and_not_opened(tmp_path):
-    package = read_package(write(tmp_path, PROGRAM | {"old.zip": "no zip"}))
-    assert "old.zip was not opened: all programs lie beside it" in package.notes
+REFUSED: dict[str, tuple[packed.Files | bytes, str]] = {
+    "broken archive": (WORK | {"engine.rar": "Rar!\x1a\x07\x01\x00"}, r"engine\.rar: the archive"),
+    "two programs": (PROGRAM | {"integrators (1).py": "other\n"}, "more than one program"),
+    "two inside": (PROGRAM | {"mini_engine/solver-2.py": "other\n"}, "more than one program"),
+    "two drafts": ({"integrators v1.py": "1", "integrators v2.py": "2"}, "more than one program"),
+    "two folders": (
+        under("old") | under("new") | {"old/integrators.py": "x = 2"},
+        "program integrators, in new, old: leave one",
+    ),
+    "a web page": ({"integrators.py": b"<!DOCTYPE html><html>"}, "integrators.py is a web page"),
+    "rich text": ({"integrators.py": b"{\\rtf1\\ansi x}"}, "a text of a word processor"),
+    "a zip": ({"integrators.py": packed.as_zip(WORK)}, "is a zip or an Office document"),
+    "utf-16": ({"integrators.py": "x".encode("utf-16")}, "text in UTF-16"),
+    "binary": ({"integrators.py": b"def x\0\0"}, "integrators.py is no text"),
+    "a notebook": ({"integrators.py": b'{"cells": []}'}, "integrators.py is a notebook"),
+    "empty": ({"integrators.py": b"", "mini_engine/__init__.py": b"\n"}, "programs are empty"),
+    "an own name": ({"integrators_final.py": "x"}, "nothing of the lab was found"),
+    "another name": ({"hello world.py": "x"}, "nothing of the lab was found"),
+    "saved by a browser": ({"integrators.py.html": "x"}, "nothing of the lab was found"),
+    "a link to a drive": ({"integrators.gdoc": "x"}, "nothing of the lab was found"),
+    "too deep": (in_zips(*"abcd"), "archives are opened 3 deep"),
+    "no bytes": (b"", "it has no bytes"),
+    "cut off": (packed.as_zip(WORK)[:-30], "cut off"),
+}
 
 
-def test_the_nearer_of_two_counts_and_the_other_is_said(tmp_path):
-    package = read_package(write(tmp_path, PROGRAM | {"old/integrators.py": "x = 0\n"}))
-    assert dict(package.files)["integrators.py"] == b"x = 1\n"
-    assert any("old/integrators.py was left out" in note for note in package.notes)
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_is_unclear_or_unreadable_is_for_a_person(tmp_path, case):
+    files, words = REFUSED[case]
+    with pytest.raises(CannotTake, match=words):
+        read_package(write(tmp_path / "ann", files))
 
 
-# ---------------------------------------------------------------- names that others changed
-
-
-def test_a_changed_name_inside_the_package(tmp_path):
-    changed = {key: text for key, text in PROGRAM.items() if "solver" not in key}
-    package = read_package(write(tmp_path, changed | {"mini_engine/solver (1).py": "# mine\n"}))
-    assert {name: content.decode() for name, content in package.files} == PROGRAM
-
-
-@pytest.mark.parametrize("second", ["integrators (1).py", "mini_engine/solver-2.py"])
-def test_where_two_fit_a_person_must_choose_unless_they_are_the_same(tmp_path, second):
-    with pytest.raises(CannotTake, match="more than one program"):
-        read_package(write(tmp_path / "two", PROGRAM | {second: "other\n"}))
-    first = second.replace(" (1)", "").replace("-2", "")
-    assert set(ALL) <= set(
-        names(read_package(write(tmp_path / "same", PROGRAM | {second: PROGRAM[first]})))
-    )
-
-
-def test_the_packages_files_without_their_folder(tmp_path):
-    loose = {name.removeprefix("mini_engine/"): text for name, text in PROGRAM.items()}
-    del loose["__init__.py"]
-    package = read_package(write(tmp_path, loose))
-    assert names(package) == [name for name in ALL if "__init__" not in name]
-    assert any("mini_engine" in note for note in package.notes)
-
-
-@pytest.mark.parametrize("folder", ["mini_engine (1)", "my engine", "mini_engine/mini_engine"])
-def test_the_package_in_a_folder_of_another_name(tmp_path, folder):
-    found = {name.replace("mini_engine", folder): text for name, text in PROGRAM.items()}
-    if folder.endswith("/mini_engine"):  # a folder around all of the work bears its name
-        found = under("mini_engine")
-    assert names(read_package(write(tmp_path, found))) == ALL
+def test_what_the_course_does_not_ask_for_decides_nothing(tmp_path):
+    drafts = {"integrators.py": "a = 1\n", "integrators (1).py": "a = 2\n"}
+    found = write(tmp_path, drafts | {"pymunk_scene.py": "x\n", "more.zip": b"PK broken"})
+    package = read_package(found, ["pymunk_scene"])
+    assert dict(package.files)["integrators.py"] == b"a = 1\n"
+    words = "integrators.py is taken of several integrators; none of them is asked for"
+    assert words in package.notes
+    with pytest.raises(CannotTake, match="more than one program integrators"):
+        read_package(found, ["integrators"])
+    with pytest.raises(CannotTake, match=r"nothing of the lab was found \(mini_engine\): it holds"):
+        read_package(write(tmp_path / "b", WORK), ["mini_engine"])
 
 
 def test_canvas_loose_files_of_one_name_are_for_a_person(tmp_path):
