@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -43,10 +44,12 @@ def without_walls(usual):
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no warm process")
 def test_the_refusal_comes_before_a_line_of_it_runs(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(WarmWorker, "open", without_walls(WarmWorker.open))
+    options = Options(shipped_reference(), only=frozenset({"8a"}))
     with pytest.raises(CannotGrade, match="cannot keep somebody else's code from your files"):
-        grade(KIT / "solution", Options(shipped_reference(), only=frozenset({"8a"})))
-    own = Options(shipped_reference(), only=frozenset({"8a"}), trusted=True)
-    assert grade(KIT / "solution", own).complete
+        grade(KIT / "solution", options)
+    with pytest.raises(CannotGrade, match="cannot confine files and network"):
+        grade(KIT / "solution", replace(options, isolation="strict"))
+    assert grade(KIT / "solution", replace(options, trusted=True)).complete
 
 
 @pytest.mark.soak
@@ -61,6 +64,8 @@ def test_without_isolation_all_of_the_judge_is_loaded_before_a_submission_runs()
 
 
 # ---------------------------------------------------------------- the container
+
+posix = pytest.mark.skipif(os.name == "nt", reason="the stand-in is a script for a shell")
 
 
 def copied() -> list[str]:
@@ -95,7 +100,7 @@ class Asked:
         return (folder / "asked").read_text().removesuffix("\n\n").split("\n\n")
 
 
-@pytest.mark.skipif(os.name == "nt", reason="the stand-in is a script for a shell")
+@posix
 @pytest.mark.parametrize("results", ["", "marks"])
 def test_one_command_grades_a_folder_in_it(tmp_path: Path, results: str):
     folder = tmp_path / "a class"
@@ -110,7 +115,7 @@ def test_one_command_grades_a_folder_in_it(tmp_path: Path, results: str):
     assert asked.arguments == ["--out", out, "--seed", "7"]
 
 
-@pytest.mark.skipif(os.name == "nt", reason="the stand-in is a script for a shell")
+@posix
 def test_who_names_no_folder_is_told(tmp_path: Path):
     for more, said in ((), "needs SUBMISSIONS=folder"), (("SUBMISSIONS=none",), "is no folder of"):
         command = ["make", "contained", "ENGINE=false", *more]
@@ -118,7 +123,7 @@ def test_who_names_no_folder_is_told(tmp_path: Path):
         assert done.returncode != 0 and said in done.stdout + done.stderr
 
 
-@pytest.mark.skipif(os.name == "nt", reason="the stand-in is a script for a shell")
+@posix
 @pytest.mark.soak
 def test_what_is_copied_grades_a_class_and_writes_nowhere_else(tmp_path: Path):
     """The entry point as it stands, on what the container holds, in another folder."""

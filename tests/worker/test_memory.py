@@ -1,4 +1,4 @@
-"""What a submission keeps from call to call is told, where an answer hangs on it."""
+"""Test that data kept from call to call is found and named."""
 
 import importlib
 import sys
@@ -77,34 +77,35 @@ last = None
 
 
 def unused():
+    pass
 """
 
 
-def test_an_answer_that_hangs_on_earlier_calls_is_told_as_such(hand_in: HandIn):
+def failed_checks(tree: Path, todo: str) -> list[CheckResult]:
+    options = Options(shipped_reference(), only=frozenset({todo}))
+    (result,) = grade(tree, options, shared_worker()).todos
+    return result.failed
+
+
+def test_a_dependence_on_earlier_calls_is_explained(hand_in: HandIn):
     folder = hand_in("solution")
     path = folder / "integrators.py"
     text = path.read_text(encoding="utf-8")
     begin, end = text.index("# TODO 8b"), text.index("# END TODO 8b")
     path.write_text(text[:begin] + "# TODO 8b" + VERLET + "    " + text[end:], encoding="utf-8")
-    path.write_text(path.read_text("utf-8").replace("def unused():\n", "def unused():\n    pass\n"))
-    options = Options(shipped_reference(), only=frozenset({"8b"}))
-    (todo,) = grade(folder, options, shared_worker()).todos
-    failed = [check for check in todo.checks if check.failed]
+    failed = failed_checks(folder, "8b")
     assert failed and all("from call to call in last" in check.meaning for check in failed)
     (drawn,) = [check for check in failed if check.kind == "property"]
     assert drawn.meaning.startswith(REMEMBERS)
 
 
-def test_what_a_call_may_not_change_is_nothing_that_is_remembered(hand_in: HandIn):
+def test_a_forbidden_change_is_not_called_a_memory(hand_in: HandIn):
     folder = hand_in("solution")
     path = folder / "mini_engine" / "contacts.py"
     text = path.read_text(encoding="utf-8")
     at = text.index("\n", text.index("# TODO 1")) + 1
     path.write_text(text[:at] + "    a.omega = 0.0\n" + text[at:], encoding="utf-8")
-    (todo,) = grade(
-        folder, Options(shipped_reference(), only=frozenset({"1"})), shared_worker()
-    ).todos
-    failed = [check for check in todo.checks if check.failed]
+    failed = failed_checks(folder, "1")
     assert failed and not any(REMEMBERS in check.meaning for check in failed)
 
 
