@@ -1,4 +1,4 @@
-"""Replays: what they show, where the runs part, the script, and the page in a real browser."""
+"""Test replays: their data, the first difference, the script, and the page in a browser."""
 
 import json
 import math
@@ -14,7 +14,7 @@ import msgspec
 import pytest
 from conftest import Once, only_some
 from one_worker import opened
-from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
+from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers
 from whole_bank import bank
 
 import grader.player.replay as replays
@@ -28,11 +28,11 @@ from grader.judge.children import ChildEnded
 from grader.judge.failures import Failing
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
-from grader.judge.rubric import Rubric, load_rubric
+from grader.judge.rubric import load_rubric
 from grader.player.page import make_page
 from grader.player.pairing import pair_runs
 from grader.player.recording import MAX_MOMENTS, Recorder, RecordingLab, record_again
-from grader.player.replay import ExpectedRuns, Replays, grade_with_replays, record_expected
+from grader.player.replay import ExpectedRuns, Replays, grade_with_replays
 from grader.player.runs import Line, Replay, Run
 from grader.player.script import fold_repeats, write_polynomial, write_script
 from grader.protocol import (
@@ -55,6 +55,7 @@ MISTAKES = (
     "7b-moment-of-a-ring",
     "8b-old-acceleration-twice",
 )
+PILE = "4-every_contact_of_a_pile_keeps_within_its_friction.html"
 DISC = BodyLook(0, [ShapeLook([(0.0, 0.0)], 10.0)], 1.0, 50.0)
 
 
@@ -146,27 +147,33 @@ def test_pages_need_nothing_else_and_are_not_large(pages: Path):
         assert len(text) < 250_000, path
 
 
-# ---------------------------------------------------------------- where the runs part
+# ---------------------------------------------------------------- the first difference
 
 
-def test_a_wrong_answer_parts_at_its_call(pages: Path):
-    page = pages / "1-overlap_from_outside_points_into_the_box.html"
-    _, line = line_of_parting(read_replay(page))
-    wanted = ("None", "normal (0, 1), depth 5, point (10, -20)")
-    assert (line["yours"], line["expected"]) == wanted
-
-
-@pytest.mark.soak
-def test_a_wrong_answer_of_pymunk_parts_at_its_call(more_pages: Path):
-    page = more_pages / "7b-a_ball_resists_turning_as_a_full_disc.html"
-    _, line = line_of_parting(read_replay(page))
-    wanted = ("a body of mass 1, moment 100", "a body of mass 1, moment 50")
-    assert (line["yours"], line["expected"]) == wanted
-
-
-def test_friction_parts_in_its_step(pages: Path):
-    data = read_replay(pages / "4-friction_stops_at_its_limit_both_ways.html")
-    assert line_of_parting(data)[1]["code"] == "world.step(1 / 120)"
+@pytest.mark.parametrize(
+    ("page", "line"),
+    [
+        (
+            "1-overlap_from_outside_points_into_the_box",
+            {"yours": "None", "expected": "normal (0, 1), depth 5, point (10, -20)"},
+        ),
+        ("4-friction_stops_at_its_limit_both_ways", {"code": "world.step(1 / 120)"}),
+        pytest.param(
+            "7b-a_ball_resists_turning_as_a_full_disc",
+            {
+                "yours": "a body of mass 1, moment 100",
+                "expected": "a body of mass 1, moment 50",
+            },
+            marks=pytest.mark.soak,
+        ),
+    ],
+)
+def test_runs_part_at_the_wrong_call(
+    page: str, line: dict[str, str], request: pytest.FixtureRequest
+):
+    pages = request.getfixturevalue("more_pages" if page[0] in "67" else "pages")
+    _, found = line_of_parting(read_replay(pages / f"{page}.html"))
+    assert {name: found[name] for name in line} == line
 
 
 @pytest.mark.soak
@@ -409,27 +416,14 @@ def test_recorded_runs_stand_in_for_the_reference(
     assert compared >= 5
 
 
-def fixed_checks(rubric: Rubric) -> set[str]:
-    return {
+def test_recorded_runs_are_of_fixed_checks_and_compact(expected_runs: bytes):
+    runs = msgspec.json.decode(expected_runs, type=ExpectedRuns)
+    assert set(runs) == {
         f"{todo.id}/{check.id}"
-        for todo in rubric.todos
+        for todo in only_some(load_rubric()).todos
         for check in todo.checks
         if check.kind != "property" and not check.hidden
     }
-
-
-def all_or_some_expected_runs(request: pytest.FixtureRequest, whole: bool) -> bytes:
-    if not whole:
-        return request.getfixturevalue("expected_runs")
-    with opened(KIT / "solution") as open_child:
-        return record_expected(open_child, load_rubric())
-
-
-@pytest.mark.parametrize("whole", [False, pytest.param(True, marks=pytest.mark.soak)])
-def test_recorded_runs_are_of_fixed_checks_and_compact(request, whole: bool):
-    expected_runs = all_or_some_expected_runs(request, whole)
-    runs = msgspec.json.decode(expected_runs, type=ExpectedRuns)
-    assert set(runs) == fixed_checks(load_rubric() if whole else only_some(load_rubric()))
     assert all(any(run.lines for scene in runs[name] for run in scene) for name in runs)
     assert len(expected_runs) < 2_500_000
     assert b"circle_box(" not in expected_runs
@@ -554,10 +548,14 @@ def test_old_replays_go_and_links_are_not_followed(graded: Result, tmp_path: Pat
     assert stale.exists()
 
 
-def test_words_of_a_submission_stay_words():
+def make_hostile_page() -> str:
     line = Line("call", HOSTILE, [Moment(0.0, 0, [AT_REST], [], [])], code=HOSTILE)
-    both = pair_runs([Run(HOSTILE, [line], {1: DISC}, {1: HOSTILE})], [])
-    text = make_page(HOSTILE, [("Got", HOSTILE)], both, HOSTILE)
+    both = pair_runs([Run(HOSTILE, [line, line], {1: DISC}, {1: HOSTILE})], [])
+    return make_page(HOSTILE, [("Got", HOSTILE)], both, HOSTILE)
+
+
+def test_words_of_a_submission_stay_words():
+    text = make_hostile_page()
     seen = Reader(text)
     assert (seen.count("script"), seen.count("img"), seen.handlers) == (2, 0, [])
     assert HARMLESS in seen.text
@@ -569,14 +567,8 @@ def test_words_of_a_submission_stay_words():
 
 
 @pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as browser:
-        yield browser
-
-
-@pytest.fixture(scope="module")
 def opened_page(browser: Any, pages: Path) -> Iterator[Screen]:
-    shown = Screen(browser, pages / "4-every_contact_of_a_pile_keeps_within_its_friction.html")
+    shown = Screen(browser, pages / PILE)
     yield shown
     assert shown.complaints == []
 
@@ -605,7 +597,7 @@ def test_the_player_finds_where_one_sees_the_parting_and_where_it_is_largest(
     opened_page: Screen, pages: Path
 ):
     screen = opened_page
-    data = read_replay(pages / "4-every_contact_of_a_pile_keeps_within_its_friction.html")
+    data = read_replay(pages / PILE)
     apart, first = gaps(data["scenes"][0]), data["parting"]["moment"]
     largest = apart.index(max(apart))
     seen = screen.position  # it opens there
@@ -625,7 +617,7 @@ def test_the_player_finds_where_one_sees_the_parting_and_where_it_is_largest(
 
 
 def test_the_player_steps_and_scrubs(screen: Screen, pages: Path):
-    data = read_replay(pages / "4-every_contact_of_a_pile_keeps_within_its_friction.html")
+    data = read_replay(pages / PILE)
     count, parting = len(data["scenes"][0]["yours"]), screen.position
     keys = screen.page.keyboard
     keys.press("Home")
@@ -724,10 +716,8 @@ def test_a_replay_is_for_all(browser: Any, pages: Path):
 
 @pytest.mark.soak
 def test_hostile_words_do_nothing_in_a_browser(browser: Any, tmp_path: Path):
-    line = Line("call", HOSTILE, [Moment(0.0, 0, [AT_REST], [], [])], code=HOSTILE)
-    both = pair_runs([Run(HOSTILE, [line, line], {1: DISC}, {1: HOSTILE})], [])
     path = tmp_path / "hostile.html"
-    path.write_text(make_page(HOSTILE, [("Got", HOSTILE)], both, HOSTILE), encoding="utf-8")
+    path.write_text(make_hostile_page(), encoding="utf-8")
     shown = Screen(browser, path)
     shown.page.keyboard.press("End")
     assert shown.position == 1
@@ -816,7 +806,7 @@ def test_a_question_about_the_effective_mass_shows_its_arms_and_axis(arms: Repla
 
 
 def test_friction_is_drawn_with_its_limit(pages: Path):
-    data = read_replay(pages / "4-every_contact_of_a_pile_keeps_within_its_friction.html")
+    data = read_replay(pages / PILE)
     rows = [row for moment in data["scenes"][0]["expected"] for row in moment[3] or ()]
     beyond = [row for row in rows if abs(row[6]) > row[7] * (1 + 1e-4) + 1e-4]
     assert rows and not beyond and any(row[7] > 0 for row in rows)

@@ -1,10 +1,11 @@
-"""The page of one submission: all of the result, nothing from outside, no word obeyed."""
+"""Test the page of one submission: it shows the whole result, and nothing from outside."""
 
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
-from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
+from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers
 
 from grader.judge.result import CheckResult, Result, TodoResult, Where
 from grader.player.page import make_page
@@ -117,30 +118,28 @@ def test_the_same_result_gives_the_same_page(tmp_path: Path):
     assert written(tmp_path, result()).source == written(tmp_path, result()).source
 
 
-def test_a_browser_shows_the_replay_and_obeys_no_words(tmp_path: Path):
+def test_a_browser_shows_the_replay_and_obeys_no_words(browser: Any, tmp_path: Path):
     (tmp_path / "replays").mkdir()
     (tmp_path / "replays" / "2-b.html").write_text(little_replay(), encoding="utf-8")
     written(tmp_path, result(name=HOSTILE, words=HOSTILE, replay="replays/2-b.html"))
-    with chromium() as browser:
-        screen = Screen(browser, tmp_path / "report.html")
-        screen.page.get_by_text("See it").click()
-        inside = screen.page.frame_locator("iframe")
-        inside.locator("#on").click()
-        assert inside.locator("#picture").get_attribute("data-position") == "1"
-        assert screen.complaints == []
+    screen = Screen(browser, tmp_path / "report.html")
+    screen.page.get_by_text("See it").click()
+    inside = screen.page.frame_locator("iframe")
+    inside.locator("#on").click()
+    assert inside.locator("#picture").get_attribute("data-position") == "1"
+    assert screen.complaints == []
 
 
 @pytest.mark.soak
-def test_a_report_is_for_all_with_the_replay_in_it(tmp_path: Path):
+def test_a_report_is_for_all_with_the_replay_in_it(browser: Any, tmp_path: Path):
     (tmp_path / "replays").mkdir()
     (tmp_path / "replays" / "2-b.html").write_text(little_replay(), encoding="utf-8")
     written(tmp_path, result(replay="replays/2-b.html"))
-    with chromium() as browser:
-        assert barriers(browser, tmp_path / "report.html") == []
-        screen = Screen(browser, tmp_path / "report.html")
-        for _ in range(20):  # by keys alone
-            screen.page.keyboard.press("Tab")
-            if screen.page.evaluate("document.activeElement.tagName") == "SUMMARY":
-                break
-        screen.page.keyboard.press("Enter")
-        assert screen.page.locator("details").get_attribute("open") is not None
+    assert barriers(browser, tmp_path / "report.html") == []
+    screen = Screen(browser, tmp_path / "report.html")
+    for _ in range(20):  # by keys alone
+        screen.page.keyboard.press("Tab")
+        if screen.page.evaluate("document.activeElement.tagName") == "SUMMARY":
+            break
+    screen.page.keyboard.press("Enter")
+    assert screen.page.locator("details").get_attribute("open") is not None
