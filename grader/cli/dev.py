@@ -155,18 +155,16 @@ def mutants_command(
 def bench_command(
     rounds: Annotated[int, typer.Option(min=1, help="How often each figure is measured.")] = 5,
     size: Annotated[int, typer.Option("--class", min=1, help="Submissions in the class.")] = 6,
-    results: Annotated[int, typer.Option(min=1, help="Results of which pages are made.")] = 10_000,
-    against: Annotated[str, typer.Option(help="Another commit, to measure in turns.")] = "",
-    proven: Annotated[
-        bool, typer.Option("--proven", help="Also verify and release; proves all once, if needed.")
-    ] = False,
+    against: Annotated[
+        Path | None,
+        typer.Option(exists=True, file_okay=False, help="Another checkout, measured in turns."),
+    ] = None,
 ) -> None:
-    """Measure how long a student waits, and what a grade, its isolation and a class cost.
+    """Measure how long a student waits, and what a grade and a class cost.
 
-    A round takes about two minutes, twice as long with --against. That commit is unpacked into
-    build/bench; nothing outside build and temporary folders is changed.
+    A round takes about a minute, twice as long with --against.
     """
     require_checkout("bench")
-    from grader.bench.figures import Sizes, bench
+    from grader.bench.figures import bench
 
-    bench(Sizes(rounds, size, results, proven), console, against)
+    bench(rounds, size, console, against)
