@@ -47,7 +47,7 @@ endef
 export PLAIN_VERSIONS
 
 # A word of the call that no target knows would be passed over in silence.
-KNOWN := PYTHON ENGINE WHERE COURSE COURSE_FILE SUBMISSION SUBMISSIONS RESULTS ROSTER ADJUST CLASS SEED FRESH QUICK CFFI
+KNOWN := PYTHON ENGINE WHERE COURSE COURSE_FILE SUBMISSION SUBMISSIONS RESULTS CLASS SEED FRESH QUICK CFFI
 $(foreach each,$(.VARIABLES),$(if $(filter command,$(firstword $(origin $(each)))),\
 	$(if $(filter $(each),$(KNOWN)),,$(error make knows no $(each)=; it knows $(KNOWN)))))
 ifneq ($(and $(SUBMISSION),$(SUBMISSIONS)),)
@@ -142,9 +142,8 @@ handouts: $(SITE) ## Make the handouts as web pages in build/handouts
 	@$(PY) handouts/make_hints.py
 	@$(PY) handouts/make_site.py
 
-course-check: $(CORE) ## Say what would go wrong with SUBMISSIONS, ROSTER, ADJUST, before it does
-	@$(PY) -m grader course-check $(if $(SUBMISSIONS),"$(SUBMISSIONS)") \
-		$(if $(ROSTER),--roster "$(ROSTER)") $(if $(ADJUST),--adjust "$(ADJUST)") $(FOUND)
+course-check: $(CORE) ## Check the course file, COURSE_FILE=path, and try its release
+	@$(PY) -m grader course-check $(FOUND)
 
 course: $(NOTEBOOKS) ## Make an nbgrader course in COURSE=folder
 	@$(PY) -m grader nbgrader course "$(COURSE)"

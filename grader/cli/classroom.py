@@ -214,29 +214,11 @@ def dashboard_command(
 
 
 @app.command("course-check")
-def course_check_command(
-    submissions: Annotated[
-        Path | None, typer.Argument(help="Submissions, all or some: read, and not graded.")
-    ] = None,
-    roster: Annotated[Path | None, typer.Option(help="The class list.")] = None,
-    key: Key = "",
-    adjust: Annotated[Path | None, typer.Option(help="The adjustments.")] = None,
-    settings: Annotated[
-        Path | None, typer.Option(help="marks.toml: what the parts are worth, and the title.")
-    ] = None,
-    course: CourseFile = None,
-) -> None:
-    """Find problems before grading. Exit status 1: there are some."""
+def course_check_command(course: CourseFile = None) -> None:
+    """Check the course file, and try its release. Exit status 1: there are problems."""
     from grader.classroom.course_check import Files, find_problems
-    from grader.intake.systems import find_file
 
-    if submissions is not None:
-        roster = roster or find_file(submissions, "roster.csv")
-        adjust = adjust or find_file(submissions, "adjustments.toml")
-    if key and roster is None:
-        raise Stop(f"--key {key} would be ignored without a class list: name it with --roster")
-    problems = list(find_problems(Files(roster, key, adjust, settings, submissions), course))
-    problems = problems or list(find_release_problems(course))
+    problems = list(find_problems(Files(), course)) or list(find_release_problems(course))
     print_notes(problems or ["No problems found."])
     raise typer.Exit(1 if problems else 0)
 

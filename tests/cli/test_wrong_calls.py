@@ -80,9 +80,7 @@ dashboard results --seed 3
 dashboard results --submissions other
 gradescope --out class
 gradescope --seed x
-course-check class --key Nope
 course-check --course bad.toml
-course-check --adjust nosuch.toml
 questions
 questions nosuch
 questions class/ann --seed x
