@@ -19,6 +19,7 @@ import jinja2
 import markupsafe
 from markdown_it import MarkdownIt
 
+from grader.bank.kept import hash_contents, hash_lines
 from grader.errors import Stop
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT
@@ -88,19 +89,37 @@ WITHOUT_USE = re.compile(  # where there is no network, no process and no termin
 SOLID = "all.zip"  # in an archive of the page: packed in one piece, which makes it a third smaller
 PUBLISHED = tuple(f"{each}/site/" for each in ("lab.zip", f"lab.zip/{SOLID}", f"more.zip/{SOLID}"))
 LESSON = "lesson.md"
+ZIP = f"{NAME}-tab.zip"
 WITHOUT_PYMUNK = "This page was made without pymunk: do TODO 7 on a computer with Python."
 
 
-def make_tab(out: Path, course: Course = FULL, cffi: Path | None = None) -> list[Path]:
-    """Build the page of a course into `out`; return the folder and the zip."""
+def make_tab(
+    out: Path, course: Course = FULL, cffi: Path | None = None, record: Record | None = None
+) -> list[Path]:
+    """Build the page of a course into `out`, unless it is recorded; return folder and zip."""
     fetch_parts(CACHE)
     if cffi is not None:
         check_cffi(cffi)
+    record = record or Recordings(course)
     with tempfile.TemporaryDirectory(prefix="tab-") as folder:
         work = Path(folder)
-        wrong = build_wrong_members(work / "wrong", course)
-        built = build_tab(work, wrong, course, Recordings(course), cffi)
-        return [move_into(each, out) for each in sorted(built.iterdir())]
+
+        def build() -> bytes:
+            wrong = build_wrong_members(work / "wrong", course)
+            return (build_tab(work, wrong, course, record, cffi) / ZIP).read_bytes()
+
+        (work / ZIP).write_bytes(record(f"page of {hash_sources(cffi)}", build))
+        shutil.unpack_archive(work / ZIP, work / "unpacked")
+        (site,) = (work / "unpacked").iterdir()
+        return [move_into(each, out) for each in (site, work / ZIP)]
+
+
+def hash_sources(cffi: Path | None) -> str:
+    """Hash everything that a page is made of."""
+    folders = [KIT / name for name in ("grader", "handouts", "solution", "starter")]
+    rows = [row for each in folders for row in hash_contents(each, "__pycache__", "build")]
+    files = [KIT / "requirements.txt", *([cffi] if cffi else [])]
+    return hash_lines([*rows, *(row for each in files for row in hash_contents(each))])
 
 
 def add_tab(out: Path, course: Course = FULL, cffi: Path | None = None) -> list[str]:
@@ -152,7 +171,7 @@ def build_tab(
     bundle_scripts(site, cache)
     write_service_worker(site)
     look_for_own_leaks(site, secrets)
-    write_zip(site, built / f"{NAME}-tab.zip", site.name)
+    write_zip(site, built / ZIP, site.name)
     return built
 
 

@@ -36,6 +36,7 @@ from grader.release import students_copy, tab_page
 from grader.release.build import Refused, make_command
 from grader.release.handed_out import make_students_tree
 from grader.release.leaks import find_leaks, find_secrets
+from grader.release.recordings import Recordings
 from grader.release.tab_page import (
     CACHE,
     add_tab,
@@ -576,6 +577,27 @@ def test_a_release_has_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(tab_page, "fetch_parts", lambda _: None)
     monkeypatch.setattr(tab_page, "make_tab", lambda out, *_: [out / "physics-engine-tab.zip"])
     assert add_tab(tmp_path) == [f"made {tmp_path / 'physics-engine-tab.zip'}"]
+
+
+def test_the_same_page_is_built_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    built: list[Path] = []
+
+    def build(work: Path, *_: object) -> Path:
+        built.append(work)
+        with zipfile.ZipFile(work / "made", "w") as archive:
+            archive.writestr("physics-engine-tab/index.html", "the page")
+        (work / "built").mkdir()
+        return (work / "made").rename(work / "built" / tab_page.ZIP).parent
+
+    monkeypatch.setattr(tab_page, "fetch_parts", lambda _: None)
+    monkeypatch.setattr(tab_page, "check_cffi", lambda _: None)
+    monkeypatch.setattr(tab_page, "build_tab", build)
+    (tmp_path / "cffi.whl").write_text("a wheel")
+    for cffi, times in ((None, 1), (None, 1), (tmp_path / "cffi.whl", 2), (None, 2)):
+        record = Recordings(FULL, tmp_path / "recorded")
+        folder, packed = tab_page.make_tab(tmp_path / "out", FULL, cffi, record)
+        assert (folder / "index.html").read_text() == "the page" and zipfile.is_zipfile(packed)
+        assert len(built) == times
 
 
 def test_a_leak_stops_the_build(tmp_path: Path):
