@@ -19,13 +19,14 @@ from zoneinfo import ZoneInfo
 import msgspec
 from msgspec import Meta, Struct, structs
 
-from grader.classroom.comments import Comment, Remark, place_all
+from grader.classroom.comments import Comment, place_all
 from grader.errors import Stop
 from grader.intake.found import Found
 from grader.intake.names import fold
 from grader.intake.roster import ClassList, find_student, is_same_student
 from grader.judge.course import END_OF_DAY, EXAMPLE, FULL, Course, Late
 from grader.judge.outer import READING, call_within
+from grader.report.html import Remark
 from grader.text import plural
 
 DAY = timedelta(days=1)

@@ -13,7 +13,6 @@ from rich.console import Console
 
 from grader.classroom.adjustments import Adjustments
 from grader.classroom.book import NOTHING, Book, Outcome, make_outcome
-from grader.classroom.comments import Remark
 from grader.classroom.executor import LOST, Executor, ExecutorFailed, Graded
 from grader.classroom.similarity import Prints, make_prints
 from grader.errors import Stop, say_error
@@ -25,6 +24,7 @@ from grader.judge.course import FULL, Course
 from grader.judge.outer import Exceeded, Failed
 from grader.judge.result import Result
 from grader.report.files import as_json
+from grader.report.html import Remark
 from grader.report.progress import Counter
 
 NONE = Adjustments()
@@ -100,7 +100,7 @@ class Run:
             self.count("graded", outcome)
 
     def record_trouble(self, found: Found, words: str) -> None:
-        self.book.forget(found.name)
+        self.book.keep_earlier(found.name)
         self.record("trouble", found, Outcome(found.name, words))
 
     def record(self, how: str, found: Found, outcome: Outcome) -> None:

@@ -18,11 +18,11 @@ import msgspec
 from msgspec import Struct
 
 from grader.classroom.adjustments import write_time
-from grader.classroom.comments import Remark
 from grader.intake.names import sort_key
 from grader.judge.course import FULL, Course
 from grader.judge.result import Result, TodoResult, is_bonus
 from grader.report.files import write_whole
+from grader.report.html import Remark
 from grader.text import format_csv
 
 NOTHING = "nothing was handed in"
@@ -173,10 +173,6 @@ class Book:
         self.keep_earlier(outcome.name)
         write_whole(result, self.locate_result(outcome.name))
         self.file.write(encode_lines([outcome]))
-
-    def forget(self, name: str) -> None:
-        """Take away the result of a submission that is not there any more."""
-        self.keep_earlier(name)
 
     def finish(self, outcomes: list[Outcome], course: Course = FULL) -> None:
         write_whole(encode_lines(outcomes), self.path)

@@ -12,6 +12,8 @@ from typing import Annotated
 import msgspec
 from msgspec import Meta, Struct
 
+from grader.report.html import Remark
+
 AROUND = 2  # lines shown before and after the one that is meant
 LONGEST_LINE = 500  # letters of a line that are compared, kept and shown
 
@@ -28,16 +30,6 @@ class Comment(Struct, frozen=True, forbid_unknown_fields=True):
     code: str = ""  # the line's text
     above: str = ""  # the line before it that is not empty
     below: str = ""
-
-
-class Remark(Struct, frozen=True):
-    """A comment with its lines of a submission."""
-
-    comment: str
-    file: str = ""
-    line: int = 0  # 0: the line was not found
-    code: list[tuple[int, str]] = []  # numbered lines around it
-    note: str = ""  # on a line that was changed or not found
 
 
 def place_comment(comment: Comment, files: Mapping[str, bytes]) -> Remark:
@@ -114,8 +106,7 @@ def write_comment(student: str, words: str, file: str, line: int, content: bytes
 
 def describe_remark(remark: Remark) -> str:
     """Return a comment and its place on one line."""
-    place = f"{remark.file}, line {remark.line}: " if remark.line else ""
-    place = place or f"{remark.file}: " * bool(remark.file)
+    place = f"{remark.place}: " * bool(remark.place)
     note = f" ({remark.note})" if remark.note else ""
     return f"{place}{remark.comment}{note}"
 

@@ -32,7 +32,7 @@ from grader.judge.workplace import work_folder
 from grader.player.page import clean_line, fill_template
 from grader.player.replay import grade_with_replays
 from grader.report.files import write_whole
-from grader.report.html import Comment, Standing, write_report, write_standing
+from grader.report.html import Standing, write_report, write_standing
 
 TEMPLATES = Path(__file__).with_name("templates")
 BINS = 10  # of the distribution
@@ -274,16 +274,7 @@ def make_standing(outcome: Outcome, course: Course = FULL) -> Standing:
         outcome.bonus if course.bonus == "apart" else 0,
         scale_mark(outcome, course),
         [(name, words) for name, words in lines if words],
-        [
-            Comment(
-                each.comment,
-                f"{each.file}, line {each.line}" if each.line else each.file,
-                each.line,
-                each.code,
-                each.note,
-            )
-            for each in outcome.remarks
-        ],
+        outcome.remarks,
     )
 
 

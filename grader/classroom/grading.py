@@ -35,17 +35,16 @@ class ClassOptions:
     options: Options
     out: Path | None = None  # the class folder's name and `-results`, beside it, if left out
     jobs: int = 0
-    roster: Path | None = None  # roster.csv of the class folder, if there is one
-    adjust: Path | None = None  # adjustments.toml of the class folder, if there is one
+    adjust: Path | None = None  # adjustments.toml among the submissions, if left out
     cluster: str = ""  # the address of a Dask scheduler
-    people: ClassList | None = None  # of the roster, if left out
+    people: ClassList | None = None  # of roster.csv among the submissions, if left out
     earlier: Sequence[Path] = ()  # classes of earlier years, to compare with
 
 
 def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
     """Grade the class at `path`, show it, and say where the results are."""
     path = path.resolve()
-    people = wanted.people or read_class_list(path, wanted.roster)
+    people = wanted.people or read_class_list(path, None)
     course = wanted.options.course
     adjustments = load_adjustments(wanted.adjust or find_file(path, "adjustments.toml"), course)
     book = Book(wanted.out or path.with_name(f"{path.stem}-results"))

@@ -17,7 +17,6 @@ import msgspec
 from grader.classroom.book import Outcome
 from grader.classroom.comments import (
     Comment,
-    Remark,
     encode_comment,
     place_comment,
     split_lines,
@@ -33,6 +32,7 @@ from grader.intake.packing import Shown, pack, show
 from grader.intake.pieces import name_type, rank_file
 from grader.intake.roster import ClassList, is_same_student
 from grader.player.page import clean_line, fill_template
+from grader.report.html import Remark
 from grader.text import harmless, plural
 
 TEMPLATES = Path(__file__).with_name("templates")

@@ -175,9 +175,9 @@ def arrange_rest(folder: Path, asked: Collection[str], left_out: set[PurePosixPa
         for name, path in list_files(piece, folder, notes):
             files[name] = folder / path
             elsewhere.add(path)
-        name = PurePosixPath(piece.module).with_suffix(piece.path.suffix and ".py")
-        if piece.path not in (name, top / name):
-            notes.append(f"{piece.path} is taken as {name}")
+        target = PurePosixPath(piece.module).with_suffix(piece.path.suffix and ".py")
+        if piece.path not in (target, top / target):
+            notes.append(f"{piece.path} is taken as {target}")
     for path in paths:
         if path not in elsewhere and path.is_relative_to(top):
             files.setdefault(path.relative_to(top).as_posix(), folder / path)

@@ -80,21 +80,25 @@ class Roster:
 def list_people(roster: Roster, key: str) -> Iterator[dict[str, str]]:
     """Return students for nbgrader: id, names and address, as far as the class list has them."""
     for row in roster.rows:
-        if not row[key].strip():
-            continue
-        last, comma, first = row.get("Student", "").partition(", ")
-        yield {
-            "id": row[key].strip(),
-            "first_name": pick_title(row, FIRST, first if comma else ""),
-            "last_name": pick_title(row, LAST, last),
-            "email": row.get("Email address", row.get("Email", "")),
-        }
+        last, first = split_name(row)
+        if row[key].strip():
+            yield {
+                "id": row[key].strip(),
+                "first_name": first,
+                "last_name": last,
+                "email": row.get("Email address", row.get("Email", "")),
+            }
+
+
+def split_name(row: Row) -> tuple[str, str]:
+    """Return a student's last and first name, as far as the class list has them."""
+    last, _, first = row.get("Student", "").partition(", ")
+    return pick_title(row, LAST, last), pick_title(row, FIRST, first)
 
 
 def list_full_names(row: Row) -> Iterator[str]:
-    """Return a student's full name, first name first and last name first."""
-    last, _, first = row.get("Student", "").partition(", ")
-    last, first = pick_title(row, LAST, last), pick_title(row, FIRST, first)
+    """Yield a student's full name, first name first and last name first."""
+    last, first = split_name(row)
     if first and last:
         yield from (f"{first} {last}", f"{last} {first}")
     if full := row.get("Full name", ""):
@@ -103,10 +107,8 @@ def list_full_names(row: Row) -> Iterator[str]:
 
 def list_name(row: Row) -> str:
     """Return a student's name as lists have it, last name first; empty where none is known."""
-    names = list(list_full_names(row))
-    last, _, first = row.get("Student", "").partition(", ")
-    last, first = pick_title(row, LAST, last), pick_title(row, FIRST, first)
-    return f"{last}, {first}" if first and last else "".join(names[:1])
+    last, first = split_name(row)
+    return f"{last}, {first}" if first and last else row.get("Full name", "")
 
 
 def read_number(row: Row) -> str:

@@ -62,7 +62,7 @@ def make_class(folder: Path, count: int, name: str = "student {:03}", words: str
             book.write(outcome, content)
             outcomes.append(outcome)
         if count > 4:
-            book.forget(outcomes[3].name)
+            book.keep_earlier(outcomes[3].name)
             outcomes[3] = Outcome(outcomes[3].name, words or "no zip")
             final = outcomes[4].points - 10
             outcomes[4] = msgspec.structs.replace(

@@ -26,7 +26,7 @@ from grader.classroom.batch import Run
 from grader.classroom.book import compare_results
 from grader.classroom.grading import ClassOptions, run_class
 from grader.intake import archives, repack
-from grader.intake.systems import BY_NAME
+from grader.intake.systems import BY_NAME, read_class_list
 from grader.judge.children import start_worker
 from grader.judge.course import Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
@@ -93,6 +93,10 @@ def exported(place: Path, system: str) -> tuple[Path, Path, list[Student]]:
     decisions = classes.decisions(students, lambda each: name_in(system, each))
     (folder / "adjustments.toml").write_text(decisions, encoding="utf-8")
     return folder, roster, students
+
+
+def with_list(folder: Path, roster: Path) -> ClassOptions:
+    return ClassOptions(Options(), people=read_class_list(folder, roster))
 
 
 def test_people_are_listed_by_their_names_as_people_sort_and_all_of_them(tmp_path, in_one_process):
@@ -193,7 +197,7 @@ def test_there_is_a_class_of_every_system():
 def graded(request, tmp_path_factory, in_one_process) -> Iterator[Class]:
     place = tmp_path_factory.mktemp("term")
     folder, roster, students = exported(place, request.param)
-    run = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    run = run_class(folder, with_list(folder, roster), QUIET)
     yield Class(request.param, folder, roster, students, run)
 
 
@@ -299,7 +303,7 @@ def test_a_column_of_ones_own_says_who_is_who(tmp_path, in_one_process):
     called = {"#s1": "Ann Lee_1001-77", "#s2": "Ann Lee_1002-77"}
     lines = [f"{first},Called", *(f"{row},{called.get(row.split(',')[0], '')}" for row in rows)]
     roster.write_text("\n".join(lines), encoding="utf-8")
-    run = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    run = run_class(folder, with_list(folder, roster), QUIET)
     marks = {each.name: each.mark for each in run.outcomes}
     assert (marks["ann"], marks["ann2"]) == (3, 4)
 
@@ -398,7 +402,7 @@ def test_each_of_a_group_has_a_mark_and_a_page_of_their_own(tmp_path, in_one_pro
     by_login = {each.login: each for each in students}
     kim, hana, ian = (by_login[login] for login in ("kim", "hana", "ian"))
     grouped(roster, system, [kim, hana, ian], students)
-    run = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    run = run_class(folder, with_list(folder, roster), QUIET)
     group = Class(system, folder, roster, students, run)
     outcomes = {each.name: each for each in run.outcomes}
     names = [name_in(system, each) for each in (kim, hana, ian)]
@@ -411,7 +415,7 @@ def test_each_of_a_group_has_a_mark_and_a_page_of_their_own(tmp_path, in_one_pro
         assert (result["submission"], result["points"]) == (name, 13)
     assert f"handed in by {names[0]}" in page
     everybody_gets_a_page(group, names)
-    again = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    again = run_class(folder, with_list(folder, roster), QUIET)
     assert again.counts["graded"] == 0
     assert not [n for n in run.notes if "nothing was handed in" in n and names[1] in n]
 
@@ -440,7 +444,7 @@ def test_a_group_with_different_work_is_for_a_person_where_one_has_none(tmp_path
     folder, roster, students = exported(tmp_path, "moodle")
     by_login = {each.login: each for each in students}
     grouped(roster, "moodle", [by_login[each] for each in ("kim", "joy", "hana")], students)
-    run = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    run = run_class(folder, with_list(folder, roster), QUIET)
     outcomes = {each.name: each for each in run.outcomes}
     assert [outcomes[f"{each}@x.edu"].mark for each in ("kim", "joy", "hana")] == [8, 12, None]
     assert "handed in different work" in outcomes["hana@x.edu"].trouble
@@ -450,7 +454,7 @@ def test_what_cannot_be_read_is_for_a_person_with_all_of_the_group(tmp_path, in_
     folder, roster, students = exported(tmp_path, "gradescope")
     by_login = {each.login: each for each in students}
     grouped(roster, "gradescope", [by_login["eve"], by_login["hana"]], students)
-    run = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    run = run_class(folder, with_list(folder, roster), QUIET)
     outcomes = {each.name: each for each in run.outcomes}
     for login in ("eve", "hana"):
         assert outcomes[f"{login}@x.edu"].mark is None and outcomes[f"{login}@x.edu"].group

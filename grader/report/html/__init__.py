@@ -16,14 +16,18 @@ MAX_EMBEDDED = 8_000_000  # characters of replays in one page; further ones beco
 
 
 @dataclass(frozen=True)
-class Comment:
-    """A teacher's comment to a student, with the lines of code that it is about."""
+class Remark:
+    """A person's comment to a student, beside the lines of code that it is about."""
 
-    words: str
-    place: str = ""  # the file and the line
-    line: int = 0  # the number of the line
+    comment: str
+    file: str = ""
+    line: int = 0  # 0: it is about no line, or the line was not found
     code: list[tuple[int, str]] = field(default_factory=list)  # numbered lines around it
-    note: str = ""
+    note: str = ""  # on a line that was changed or not found
+
+    @property
+    def place(self) -> str:
+        return f"{self.file}, line {self.line}" if self.line else self.file
 
 
 @dataclass(frozen=True)
@@ -36,7 +40,7 @@ class Standing:
     bonus: int = 0  # beside the mark, if it does not count in it
     scaled: str = ""  # the mark on the gradebook's scale, if that differs
     lines: list[tuple[str, str]] = field(default_factory=list)
-    comments: list[Comment] = field(default_factory=list)
+    comments: list[Remark] = field(default_factory=list)
 
 
 def write_report(result: Result, path: Path, standing: Standing | None = None) -> None:
