@@ -1,19 +1,23 @@
 """The leaderboard: every engine on every row, at equal substeps and at equal time.
 
     python -m experiments.leaderboard [--quick] [--only WORDS] [--markdown FILE]
+    python -m experiments.leaderboard --renew stable compiled --markdown FILE
 
 At equal substeps each engine makes four substeps of 1/480 s in each step of 1/120 s. At equal time
 each makes as many as fit into a millisecond of processor time per frame of 1/60 s: at least one,
 at most 64. All engines run a row before the next one begins, so a slow minute hits them alike.
 The exit status is 1 when the stable engine loses a row, at equal substeps, for no known reason.
+
+After a change of one engine, --renew asks that engine alone, and the others keep their results.
 """
 
 import argparse
+import json
 import math
 from pathlib import Path
 
 from .engines import SUBSTEPS
-from .engines.contestants import list_contestants
+from .engines.contestants import Contestant, list_contestants
 from .measures import GaveUp
 from .rows import make_rows
 from .rows.reasons import find_reason
@@ -25,6 +29,7 @@ PATIENCE = 20.0  # s of processor time for a row
 TRIES = 2  # to find how many substeps fit
 FRAMES = 60  # per second
 MODES = {"substeps": "at equal substeps", "time": "at equal time"}
+PAGE = "hard-cases.md"  # the handout, whose lines results.json has under this name
 
 
 class Trial:
@@ -105,6 +110,41 @@ def run(rows, contestants):
         found[row.title] = ask_all(row, contestants)
     progress.end()
     return found
+
+
+def renew(rows, contestants, recorded):
+    """Return the cells of all rows: asked of these engines, and as recorded of all others.
+
+    An engine is asked in the modes in which it was recorded. New rows are asked of these engines
+    alone. Returns the engines too, those recorded included.
+    """
+    asked, cells = run(rows, contestants), recorded["rows"]
+    found = {title: {**read_cells(cells.get(title, {})), **new} for title, new in asked.items()}
+    for title, new in asked.items():
+        for name in set(new) & set(cells.get(title, {})):
+            if "/" not in cells[title][name]:
+                found[title][name] = {"substeps": new[name]["substeps"]}
+    words = {key.removesuffix(": name"): words for key, words in recorded[PAGE].items()
+             if key.endswith(": name")}  # fmt: skip
+    names = {one.name for one in contestants}
+    others = [Contestant(name, words[name], None) for name in words if name not in names]
+    return found, [*contestants, *others]
+
+
+def read_cells(row):
+    """Return a row of results.json as cells, the inverse of list_cells."""
+    return {
+        name: dict(zip((*MODES, "fitting"), map(read_number, text.split(" / ")), strict=False))
+        for name, text in row.items()
+        if name not in ("physics", "may be off by")
+    }
+
+
+def read_number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 # ---------------------------------------------------------------- what comes of it
@@ -228,13 +268,21 @@ def main(arguments=None):
     parser.add_argument("--quick", action="store_true", help="only some rows of each subject")
     parser.add_argument("--only", default="", metavar="WORDS", help="rows with this in the title")
     parser.add_argument("--markdown", type=Path, metavar="FILE", help="put the tables into FILE")
+    parser.add_argument("--renew", nargs="+", metavar="ENGINE", help="ask these engines alone")
     options = parser.parse_args(arguments)
+    if options.renew and not options.markdown:
+        parser.error("--renew needs --markdown FILE: results.json beside it has the other engines.")
     subjects = {
         subject: [r for r in some if options.only in r.title and (r.quick or not options.quick)]
         for subject, some in make_rows().items()
     }
     rows = [row for some in subjects.values() for row in some]
     contestants, missing = list_contestants()
+    if options.renew:
+        contestants = [one for one in contestants if one.name in options.renew]
+        results = options.markdown.with_name("results.json")
+        recorded = json.loads(results.read_text(encoding="utf-8"))
+        return report(subjects, *renew(rows, contestants, recorded), [], options.markdown)
     return report(subjects, run(rows, contestants), contestants, missing, options.markdown)
 
 

@@ -126,6 +126,22 @@ def test_equal_substeps_are_off_alike_in_a_fall(engine, off):
     assert ms > 0
 
 
+def test_renewing_one_engine_keeps_what_the_others_came_to():
+    recorded = {
+        "hard-cases.md": {"box2d: name": "Box2D 2.3", "stable: name": "stable engine", "rows": 1},
+        "rows": {FALL.title: {"physics": "old", "stable": "99", "box2d": "stopped / 1.5 / 64"}},
+    }
+    found, engines = leaderboard.renew([FALL], [STABLE], recorded)
+    assert found[FALL.title] == {
+        "stable": {"substeps": ask(FALL, STABLE, 4)[0]},  # without "time", as it was recorded
+        "box2d": {"substeps": "stopped", "time": 1.5, "fitting": 64.0},
+    }
+    assert {one.name: one.words for one in engines} == {
+        "stable": "stable engine",
+        "box2d": "Box2D 2.3",
+    }
+
+
 @pytest.mark.parametrize(
     ("each", "fitting"), [(0.25, 4), (0.01, 64), (0.1, 10), (2.0, 1), (0.19, 5)]
 )
