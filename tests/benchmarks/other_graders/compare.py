@@ -9,18 +9,17 @@ as its documentation says for one machine, one submission after the other, on on
 import json
 import os
 import resource
+import signal
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
 import attacks
-import psutil
 import typer
 from rich.console import Console
 from rich.table import Table
@@ -38,7 +37,7 @@ ASKED = [
     "want_spring(rk4, 4, 0.018, -0.03)",
 ]
 POINTS = len(ASKED)
-LIMIT = 30.0  # s of processor time for a submission; a grader that takes more is stopped
+LIMIT = 60.0  # s for a submission; a grader that takes longer is stopped
 
 Class = dict[str, str]  # what each student handed in
 Points = dict[str, float]  # what each got; whoever is missing could not be graded
@@ -52,33 +51,24 @@ class Grader(NamedTuple):
     points: Callable[[Path], Points]
 
 
-@dataclass
-class Run:
+class Run(NamedTuple):
     """One class graded."""
 
     seconds: float
-    cpu: float  # s of processor time at the core's full speed, as `pace` tells it
-    memory: float  # MB of all processes at most
+    cpu: float  # s of processor time
     points: Points
     stopped: bool  # by us, after LIMIT
 
 
 class Cost(NamedTuple):
-    """The runs over a class of one, which shows what it costs to begin, and over a larger one."""
+    """The processor time of a class of one, which shows the start's cost, and of a larger one."""
 
-    alone: list[Run]
-    whole: list[Run]
+    alone: list[float]
+    whole: list[float]
 
-    def one_more(self, kind: str) -> list[float]:
-        """Return what one submission more took in each round, in `seconds` or `cpu`, also in s."""
-        more = len(self.whole[0].points) - len(self.alone[0].points)
-        pairs = zip(each_of(self.alone, kind), each_of(self.whole, kind), strict=True)
-        return [(whole - alone) / more for alone, whole in pairs]
-
-
-def each_of(runs: list[Run], kind: str) -> list[float]:
-    """The `seconds`, `cpu` or `memory` of each run."""
-    return [getattr(each, kind) for each in runs]
+    def one_more(self, more: int) -> list[float]:
+        """Return the cost of one submission more in each round."""
+        return [(whole - one) / more for one, whole in zip(self.alone, self.whole, strict=True)]
 
 
 # ---------------------------------------------------------------- this kit
@@ -116,7 +106,7 @@ def notebook(cells: list[dict[str, Any]]) -> str:
 
 
 def marked(name: str, **of: Any) -> dict[str, Any]:
-    """The metadata by which nbgrader knows a cell."""
+    """Return the metadata by which nbgrader knows a cell."""
     usual = {"grade": False, "locked": False, "solution": False, "task": False}
     return {"nbgrader": usual | {"schema_version": 3, "grade_id": name} | of}
 
@@ -313,85 +303,45 @@ def run(grader: Grader, handed_in: Class) -> Run:
         folder.chmod(0o755)
         command = grader.prepare(folder, handed_in)
         cwd = KIT if grader.name == "this kit" else folder
-        before, start, memory, used, cpu = processor_time(), time.monotonic(), 0.0, 0.0, 0.0
-        process = psutil.Popen(
-            command, cwd=cwd, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-        )
-        while process.poll() is None and used < LIMIT * len(handed_in):
-            time.sleep(0.1)
-            memory, now = max(memory, megabytes(process)), max(used, used_by(process))
-            cpu, used = cpu + (now - used) * pace(), now
-        stopped = process.poll() is None
-        end_all(process)
-        seconds, all_used = time.monotonic() - start, processor_time() - before
-        cpu += max(all_used - used, 0.0) * pace()
-        return Run(seconds, cpu, memory, grader.points(folder), stopped)
+        before, start = read_processor_time(), time.monotonic()
+        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        process = subprocess.Popen(command, cwd=cwd, start_new_session=True, **quiet)
+        try:
+            process.wait(LIMIT * len(handed_in))
+            stopped = False
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+            stopped = True
+        cpu = read_processor_time() - before
+        return Run(time.monotonic() - start, cpu, grader.points(folder), stopped)
 
 
-def pace() -> float:
-    """The share of its full speed that this core has now: on a shared machine it may be half.
-
-    Full speed is the highest that was seen, of a loop that takes about a millisecond.
-    """
-    start = time.process_time()
-    sum(range(50_000))
-    took.append(time.process_time() - start)
-    return min(took) / took[-1]
-
-
-took: list[float] = []  # s of processor time, of every loop so far
-
-
-def megabytes(process: psutil.Process) -> float:
-    """Return the memory of a process and of all it has started."""
-    try:
-        family = [process, *process.children(recursive=True)]
-        return sum(each.memory_info().rss for each in family) / 1e6
-    except psutil.Error:
-        return 0.0
-
-
-def used_by(process: psutil.Process) -> float:
-    """Processor time of a process that runs, and of all it has started, s."""
-    try:
-        family = [process, *process.children(recursive=True)]
-        return sum(sum(each.cpu_times()[:4]) for each in family)
-    except psutil.Error:
-        return 0.0
-
-
-def processor_time() -> float:
-    """Of all that this process has started and that has ended, s."""
+def read_processor_time() -> float:
+    """Return the processor time of all that this process has started and that has ended, s."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
 
-def end_all(process: psutil.Popen) -> None:
-    if process.poll() is None:
-        for each in [*process.children(recursive=True), process]:
-            each.kill()
-    process.wait()
-
-
 def right_program() -> str:
-    """The solution's three functions; nothing of its file would run in a notebook."""
+    """Return the solution's three functions; the rest of its file would not run in a notebook."""
     text = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
     return text[text.index("def semi_implicit_euler") : text.index("def spring")]
 
 
 def measure_costs(graders: list[Grader], size: int, rounds: int) -> dict[str, Cost]:
-    """Every grader once in each round, so that whatever slows the machine meets all of them."""
+    """Run every grader once in each round, so that a slow minute slows all of them."""
     costs = {each.name: Cost([], []) for each in graders}
     for number in range(rounds):
         turn = number % len(graders)
         for grader in graders[turn:] + graders[:turn]:
-            costs[grader.name].alone.append(graded_right(grader, 1))
-            costs[grader.name].whole.append(graded_right(grader, size))
+            costs[grader.name].alone.append(grade_right(grader, 1).cpu)
+            costs[grader.name].whole.append(grade_right(grader, size).cpu)
     return costs
 
 
-def graded_right(grader: Grader, size: int) -> Run:
-    """A class of right submissions, no two the same."""
+def grade_right(grader: Grader, size: int) -> Run:
+    """Grade a class of right submissions, no two the same."""
     handed_in = {f"student-{n:02}": f"# {n}\n{right_program()}" for n in range(size)}
     done = run(grader, handed_in)
     if done.points != dict.fromkeys(handed_in, POINTS):
@@ -399,8 +349,8 @@ def graded_right(grader: Grader, size: int) -> Run:
     return done
 
 
-def attacked(grader: Grader, instructor: Path) -> dict[str, Run]:
-    """A class of two for each attack: the hostile one, and its neighbour."""
+def attack(grader: Grader, instructor: Path) -> dict[str, Run]:
+    """Grade a class of two for each attack: the hostile one, and its neighbour."""
     answers = instructor / "answers.py"
     tried = {
         "ends the process": attacks.ENDS,
@@ -419,40 +369,36 @@ def attacked(grader: Grader, instructor: Path) -> dict[str, Run]:
 # ---------------------------------------------------------------- telling
 
 
-def table_of(costs: dict[str, Cost], size: int) -> Table:
-    """The median of the rounds, and how many times this kit's in the same round each was."""
-    title = f"{POINTS} checks on one core, one submission after the other"
+def make_cost_table(costs: dict[str, Cost], size: int) -> Table:
+    """Show the median of the rounds, and its ratio to this kit's in the same rounds."""
+    title = f"{POINTS} checks on one core, one submission after the other: s of processor time"
     table = Table("", *costs, title=title)
-    ours = next(iter(costs.values()))
-    rows: dict[str, Callable[[Cost], list[float]]] = {
-        "one submission more, s of processor time": lambda cost: cost.one_more("cpu"),
-        "for each of its checks": lambda cost: [each / POINTS for each in cost.one_more("cpu")],
-        "one submission more, s on the clock": lambda cost: cost.one_more("seconds"),
-        "a class of one, s of processor time": lambda cost: each_of(cost.alone, "cpu"),
-        f"a class of {size}, s of processor time": lambda cost: each_of(cost.whole, "cpu"),
-        "memory at most, MB": lambda cost: each_of(cost.whole, "memory"),
+    rows = {
+        "one submission more": [cost.one_more(size - 1) for cost in costs.values()],
+        "a class of one": [cost.alone for cost in costs.values()],
+        f"a class of {size}": [cost.whole for cost in costs.values()],
     }
-    for words, figure in rows.items():
-        table.add_row(words, *(compared(figure(cost), figure(ours)) for cost in costs.values()))
+    for words, each in rows.items():
+        table.add_row(words, *(compare(values, each[0]) for values in each))
     return table
 
 
-def compared(values: list[float], ours: list[float]) -> str:
+def compare(values: list[float], ours: list[float]) -> str:
     """A median, and the median and the range of the ratios of the rounds."""
     times = [one / other for one, other in zip(values, ours, strict=True)]
     spread = f"{statistics.median(times):.1f} times, {min(times):.1f} to {max(times):.1f}"
     return f"{statistics.median(values):.3g} ({spread})"
 
 
-def outcomes(runs: dict[str, dict[str, Run]]) -> Table:
+def make_outcome_table(runs: dict[str, dict[str, Run]]) -> Table:
     """Return what a hostile one got, after how long, and whether the next one got its own."""
     table = Table("a submission that", *runs, title=f"points of {POINTS}; it deserves 0")
-    for attack in next(iter(runs.values())):
-        table.add_row(attack, *[told(each[attack]) for each in runs.values()])
+    for name in next(iter(runs.values())):
+        table.add_row(name, *[describe(each[name]) for each in runs.values()])
     return table
 
 
-def told(one: Run) -> str:
+def describe(one: Run) -> str:
     points = one.points.get("hostile")
     words = [f"{points:g} points" if points is not None else "no points"]
     if one.points.get("neighbour") != POINTS:
@@ -477,13 +423,13 @@ def main(
     ]
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})  # for all that is started, too
-    for _ in range(500):  # to have seen its full speed
-        pace()
     console = Console()
-    console.print(table_of(measure_costs(graders, size, rounds), size))
+    console.print(make_cost_table(measure_costs(graders, size, rounds), size))
     with tempfile.TemporaryDirectory(prefix="instructor-") as temporary:
         Path(temporary).chmod(0o755)
-        console.print(outcomes({each.name: attacked(each, Path(temporary)) for each in graders}))
+        console.print(
+            make_outcome_table({each.name: attack(each, Path(temporary)) for each in graders})
+        )
 
 
 if __name__ == "__main__":
