@@ -78,13 +78,6 @@ def test_without_contacts_nothing_of_the_solver_runs():
     assert "solver" in modules(calls_in_step(with_floor(world)))
 
 
-def test_with_neither_there_is_no_solving_at_all():
-    world = falling_balls(3)
-    assert {"joints", "solver"}.isdisjoint(modules(calls_in_step(world)))
-    assert calls_in_step(world)["world.World.solve_contact"] == 0
-    assert calls_in_step(with_floor(world))["world.World.solve_contact"] == 3 * ITERATIONS
-
-
 @pytest.mark.parametrize(
     ("ball", "floor", "passes"), [(0.6, 0.6, ITERATIONS), (0, 0.6, 0), (0.6, 0, 0), (0, 0, 0)]
 )
