@@ -42,7 +42,7 @@ class Used:
     heard: int = 0
 
 
-def test_who_has_used_nothing_has_what_is_usual():
+def test_a_submission_that_used_little_has_the_usual_budget():
     budget = Budget()
     budget.charge("1", Used(0.3, 0.1))
     assert (budget.cpu_for("1", 20), budget.rest_for("1")) == (20, REST_SECONDS)
@@ -58,29 +58,30 @@ def test_a_todo_that_used_much_has_little_left_and_the_others_all():
     assert "this TODO" in budget.why_little("1") and not budget.why_little("3")
 
 
-def test_a_submission_that_used_much_has_little_left_and_then_nothing():
+@pytest.mark.parametrize(
+    ("much", "more", "words"),
+    [
+        (Used(cpu=SUBMISSION_CPU), Used(cpu=END_CPU - SUBMISSION_CPU), "90 s of processor time"),
+        (Used(rested=SUBMISSION_REST), Used(rested=END_REST - SUBMISSION_REST), "rested for 32 s"),
+    ],
+)
+def test_a_submission_that_used_much_has_little_left_and_then_nothing(
+    much: Used, more: Used, words: str
+):
     budget = Budget()
-    for todo in range(4):
-        budget.charge(str(todo), Used(cpu=SUBMISSION_CPU / 4))
-    assert budget.cpu_for("8a", 5) == LITTLE_CPU and not budget.cut
-    budget.charge("4", Used(cpu=END_CPU - SUBMISSION_CPU))
-    assert "90 s of processor time" in budget.cut
-    resting = Budget()
-    resting.charge("1", Used(rested=SUBMISSION_REST))
-    assert resting.rest_for("8a") == LITTLE_REST and not resting.cut
-    resting.charge("2", Used(rested=END_REST - SUBMISSION_REST))
-    assert "rested for 32 s" in resting.cut
+    budget.charge("1", much)
+    little = budget.cpu_for("8a", 5) == LITTLE_CPU, budget.rest_for("8a") == LITTLE_REST
+    assert little == (bool(much.cpu), bool(much.rested)) and not budget.cut
+    budget.charge("2", more)
+    assert words in budget.cut
 
 
 def test_all_together_ends_within_two_minutes_of_work_and_one_of_rest():
-    rubric = load_rubric()
-    last = max(check.cpu_seconds for todo in rubric.todos for check in todo.checks)
-    assert END_CPU + last + 10 <= 120  # s; ten for the judge, which needs two
-    checks = sum(len(todo.checks) for todo in rubric.todos)
-    assert (
-        min(END_REST + REST_SECONDS, SUBMISSION_REST + REST_SECONDS + checks * LITTLE_REST) + 10
-        <= 60
-    )
+    checks = [check for todo in load_rubric().todos for check in todo.checks]
+    judge = 10  # s; it needs two
+    assert END_CPU + max(check.cpu_seconds for check in checks) + judge <= 120
+    rest = min(END_REST, SUBMISSION_REST + len(checks) * LITTLE_REST)
+    assert rest + REST_SECONDS + judge <= 60
 
 
 @LINUX
@@ -163,15 +164,14 @@ def test_many_threads_that_wait_at_once_wait_once(monkeypatch: pytest.MonkeyPatc
     assert children.seconds_in_queue(os.getpid()) == 0.0
 
 
-def test_words_and_pictures_have_a_time_of_their_own():
-    budget = Budget()
-    budget.charge_for_words(Used(cpu=WORDS_CPU / 2))
-    assert budget.has_more
-    budget.charge_for_words(Used(cpu=WORDS_CPU / 2))
-    assert not budget.has_more and not budget.cut and budget.cpu_for("1", 20) == 20
-    budget = Budget()
-    budget.charge_for_words(Used(rested=WORDS_REST))
-    assert not budget.has_more and budget.rest_for("1") == REST_SECONDS
+def test_words_and_pictures_have_a_budget_of_their_own():
+    for much in (Used(cpu=WORDS_CPU), Used(rested=WORDS_REST)):
+        budget = Budget()
+        budget.charge_for_words(Used(much.cpu / 2, much.rested / 2))
+        assert budget.has_more
+        budget.charge_for_words(much)
+        assert not budget.has_more and not budget.cut
+        assert (budget.cpu_for("1", 20), budget.rest_for("1")) == (20, REST_SECONDS)
 
 
 SLOW = """

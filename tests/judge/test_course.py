@@ -62,21 +62,12 @@ def graded(path: Path, course: Course) -> Result:
 # ---------------------------------------------------------------- what it takes
 
 
-def test_the_shipped_course_is_all_there_is():
-    shipped = read_course(KIT / "course.toml")
-    assert shipped.rubric == load_rubric() == FULL.rubric
-    assert (shipped.out_of, shipped.bonus, shipped.due, shipped.visible) == (
-        100,
-        "apart",
-        None,
-        None,
-    )
-    assert shipped.given == []
-
-
-def test_an_empty_file_is_all_there_is(tmp_path: Path):
+def test_the_shipped_course_and_an_empty_file_are_all_there_is(tmp_path: Path):
     (tmp_path / "course.toml").touch()
-    assert read_course(tmp_path / "course.toml").rubric == load_rubric()
+    assert read_course(tmp_path / "course.toml").rubric == load_rubric() == FULL.rubric
+    shipped = read_course(KIT / "course.toml")
+    assert (shipped.rubric, shipped.out_of, shipped.given) == (FULL.rubric, 100, [])
+    assert (shipped.bonus, shipped.due, shipped.visible) == ("apart", None, None)
 
 
 @pytest.mark.parametrize(
@@ -100,12 +91,7 @@ def test_points_are_spread_in_whole_numbers(weights: list[int], points: int):
     assert sum(shares) == points and min(shares) >= 0
     assert 0 not in shares or points < len(weights)
     assert spread(sum(weights), weights) == weights
-
-
-def test_points_follow_the_proportions_of_the_rubric():
-    assert spread(20, [2, 2, 1]) == [8, 8, 4]
-    assert spread(3, [3, 1, 1, 1, 1]) == [1, 1, 1, 0, 0]
-    assert spread(7, [9, 1, 1]) == [5, 1, 1]
+    assert spread(7, [9, 1, 1]) == [5, 1, 1]  # the largest remainder, and none of them 0
 
 
 def test_todos_stand_in_the_order_of_the_rubric_and_points_add_up():
@@ -143,10 +129,8 @@ def test_bonus_tasks_are_left_out_or_added():
 
 WRONG = {
     "todos = []": "todos = [] must name TODOs",
-    'todos = "1"': "must name TODOs",
     'todos = ["99"]': "there is no TODO '99'",
     "todos = [4]": "there is no TODO 4; write in quotes",
-    'todos = [["1"]]': "there is no TODO",
     'todos = ["1", "1"]': "1 is listed 2 times",
     'todos = ["B1", "whole"]': "add one of TODO 1 to 8c",
     'todos = ["8a", "whole"]': 'leave "whole" out',
@@ -154,26 +138,18 @@ WRONG = {
     "points = { 99 = 3 }": "99 is no TODO",
     'todos = ["1"]\npoints = { 4 = 3 }': "4 is not among the todos",
     "points = { 4 = 0 }": "4 = 0 must be a whole number",
-    "points = { 4 = 2.5 }": "4 = 2.5 must be a whole number",
     "points = { 4 = true }": "4 = True must be a whole number",
     "[points]\nout_of = 20": "out_of stands below [points]",
     "out_of = 0": "out_of = 0 must be a number above 0",
-    "out_of = nan": "out_of = nan must be a number above 0",
     'bonus = "some"': "bonus = 'some' must be",
-    "bonus = true": "bonus = True must be",
     'due = "tomorrow"': "must be a date without quotes",
-    "due = 12:30:00": "must be a date without quotes",
     "due = 2027-05-04T12:00:00Z\nvisible = 2027-05-03T12:00:00Z": "is before due",
     "due = 2027-05-04\nvisible = 2027-05-04": "is before due",  # its end, and its beginning
-    "late = 5": "must be a table",
     "late = { per_week = 5 }": "late = {'per_week': 5} must be a table",
     "late = { per_day = 5, mercy = 1 }": "there is no key mercy",
-    "late = { per_day = -5 }": "per_day = -5 must be a whole number",
     'late = { per_day = "5" }': 'or a share as "10%"',
     "late = { cap = 500 }": "late: cap = 500 is more than the 100 points that there are: write",
-    "late = { per_day = 101 }": "late: per_day = 101 is more than the 100 points",
     'late = { per_day = 5, at_most = "150%" }': "at_most = '150%' must be a whole number, 0",
-    "late = { cap = 80.5 }": "cap = 80.5 must be a whole number",
     "late = { grace = 5 }": "must be a table",
     "[late]\nper_day = 5\ndue = 2027-05-04T12:00:00Z": "write it above that line",
     "colour = 1": "there is no key colour; there are title, todos",

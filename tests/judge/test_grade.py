@@ -48,17 +48,12 @@ def points(result: Result, todo: str) -> int:
 # ---------------------------------------------------------------- marks
 
 
-def marks_of(result: Result) -> list[tuple[str, str, int, int]]:
-    """Return the state and points of every check."""
-    return [
-        (check.id, check.state, check.points, check.max_points)
-        for todo in result.todos
-        for check in todo.checks
-    ]
-
-
 def test_the_solution_earns_everything(solution: Result, solution_graded: Graded):
-    assert marks_of(solution_graded(())) == marks_of(solution)
+    expected, marks = (
+        [(check.id, check.state, check.points) for todo in each.todos for check in todo.checks]
+        for each in (solution, solution_graded(()))
+    )
+    assert marks == expected
     assert (solution.points, solution.max_points, solution.bonus) == (100, 100, 16)
     assert {todo.state for todo in solution.todos} == {"passed"}
 
@@ -79,14 +74,12 @@ def test_points_add_up_and_are_whole_numbers(solution: Result):
     for todo in solution.todos:
         assert todo.max_points == sum(check.max_points for check in todo.checks)
         assert all(type(check.points) is int for check in todo.checks)
-    assert solution.max_points == sum(todo.max_points for todo in solution.counted)
 
 
 def test_every_region_is_in_the_rubric_once_and_bonus_tasks_come_last():
     todos = load_rubric().todos
     assert sorted(todo.id for todo in todos if todo.function) == sorted(regions_of("solution"))
     assert [todo.bonus for todo in todos] == sorted(todo.bonus for todo in todos)
-    assert [todo.id for todo in todos if not todo.function] == ["whole"]
 
 
 def test_every_check_has_a_title_a_student_can_read(solution: Result):
@@ -148,28 +141,6 @@ def test_who_was_graded_before_changes_nothing(tmp_path: Path, chosen: tuple[str
 
 
 # ---------------------------------------------------------------- what is handed in
-
-
-def test_a_missing_file_costs_its_own_todos(hand_in):
-    touched = frozenset({"7a", "8a"})
-    options = Options(shipped_reference(), only=touched)
-    result = graded(hand_in("solution", pymunk_scene_py=None), options)
-    lost = {todo.id for todo in result.counted if todo.points < todo.max_points}
-    assert lost == {"7a"}
-    assert "pymunk_scene" in result.todos[0].checks[0].got
-
-
-def test_what_cannot_be_imported_is_graded_with_the_reason(hand_in):
-    result = graded(hand_in(mini_engine_py="def broken(:\n"))
-    assert result.points == 0
-    check = result.todos[0].checks[0]
-    assert check.state == "error" and "SyntaxError" in check.got
-    assert check.got.count("line 1") == 1
-    assert check.where is not None and (check.where.file, check.where.line) == ("mini_engine.py", 1)
-
-
-def test_an_empty_folder_is_graded_with_nothing(hand_in):
-    assert graded(hand_in()).points == 0
 
 
 def test_a_folder_that_is_not_there_cannot_be_graded(tmp_path: Path):

@@ -115,61 +115,55 @@ def test_changes_leave_all_else_as_it_is():
                 assert all(1 <= line <= len(region.lines) for line in each.lines)
 
 
-def test_what_decides_when_a_loop_ends_is_not_tried():
-    asked = []
-
-    def passes(text: str) -> bool:
-        asked.append(text)
-        return False
-
-    assert find_mend(LOOP, ("run.py", "1", "run"), passes, lambda: True) is None
-    assert asked and all("while left >= step:\n        left -= step" in text for text in asked)
-
-
-def test_a_missing_bracket_is_found():
-    text = LOOP.replace("done += 1", "done = done + step * 2 / 3")
-
-    def passes(changed: str) -> bool:
-        return "done = (done + step) * 2 / 3" in changed
-
-    mend = find_mend(text, ("run.py", "1", "run"), passes, lambda: True)
-    assert mend == Mend("run.py", (7,), "With brackets elsewhere in")
-
-
-def test_the_same_slip_in_two_lines_is_found():
-    two = "more = step * (left + done / 6)\n        most = done * (step + left / 3)"
-    text = LOOP.replace("done += 1", two)
-
-    def passes(changed: str) -> bool:
-        return "(left + done) / 6" in changed and "(step + left) / 3" in changed
-
-    mend = find_mend(text, ("run.py", "1", "run"), passes, lambda: True)
-    assert mend is not None and mend.in_words.startswith("With brackets elsewhere in line 7 and in")
-
-
-def test_a_sum_without_end_is_let_alone():
-    text = LOOP.replace("done += 1", "done = " + "+".join(["done"] * 5000))
-    assert find_mend(text, ("run.py", "1", "run"), lambda _: False, lambda: True) is None
-
-
-def test_texts_with_values_in_them_are_let_alone():
-    text = LOOP.replace("done += 1", """done += len(f"{left - step:{done}d} of {step!r}")""")
-    asked = []
+def tried(text: str, is_right: str = "") -> tuple[Mend | None, list[str]]:
+    """Return the mend of a text that has all these parts, and the texts that were tried."""
+    asked: list[str] = []
 
     def passes(changed: str) -> bool:
         asked.append(changed)
-        return False
+        return bool(is_right) and all(part in changed for part in is_right.split(" & "))
 
-    assert find_mend(text, ("run.py", "1", "run"), passes, lambda: True) is None
-    assert asked
+    return find_mend(text, ("run.py", "1", "run"), passes, lambda: True), asked
+
+
+def test_the_end_of_a_loop_is_not_changed():
+    mend, asked = tried(LOOP)
+    assert mend is None and asked
+    assert all("while left >= step:\n        left -= step" in text for text in asked)
+
+
+@pytest.mark.parametrize(
+    ("code", "is_right", "lines"),
+    [
+        ("done = done + step * 2 / 3", "done = (done + step) * 2 / 3", (7,)),
+        (
+            "more = step * (left + done / 6)\n        most = done * (step + left / 3)",
+            "(left + done) / 6 & (step + left) / 3",
+            (7, 8),
+        ),
+    ],
+)
+def test_missing_brackets_are_found_in_one_line_and_in_two(
+    code: str, is_right: str, lines: tuple[int, ...]
+):
+    mend, _ = tried(LOOP.replace("done += 1", code), is_right)
+    assert mend == Mend("run.py", lines, "With brackets elsewhere in")
+    assert mend.in_words.startswith("With brackets elsewhere in line 7")
+
+
+def test_texts_with_values_in_them_stay_python():
+    text = LOOP.replace("done += 1", """done += len(f"{left - step:{done}d} of {step!r}")""")
+    mend, asked = tried(text)
+    assert mend is None and asked
     for changed in asked:
         compile(changed, "run.py", "exec")
 
 
-def test_nothing_is_tried_without_time_or_where_python_refuses():
-    def passes(text: str) -> bool:
-        raise AssertionError(text)
+@pytest.mark.parametrize("code", ["done = " + "+".join(["done"] * 5000), "done += (1"])
+def test_no_change_is_tried_in_endless_sums_and_where_python_refuses(code: str):
+    assert tried(LOOP.replace("done += 1", code)) == (None, [])
 
+
+def test_no_change_is_tried_without_time():
     about = ("run.py", "1", "run")
-    assert find_mend(LOOP, about, passes, lambda: False) is None
-    assert find_mend(LOOP.replace("+= 1", "+= (1"), about, passes, lambda: True) is None
+    assert find_mend(LOOP, about, lambda text: pytest.fail(text), lambda: False) is None

@@ -248,14 +248,6 @@ def test_given_code_that_has_nothing_to_do_with_it_is_not_named(hand_in):
     assert all(each["Look at"].endswith(", TODO") for each in failed)
 
 
-@pytest.mark.soak
-def test_an_import_that_went_away_is_told_where_nothing_runs(hand_in):
-    tree = hand_in("solution")
-    change(tree, "mini_engine/joints.py", "from .constants import BETA\n", "")
-    mended = passed(tree, "3")
-    assert mended and all("`from .constants import BETA` is gone" in e.meaning for e in mended)
-
-
 def test_many_changes_and_many_failures_are_asked_again_so_often_and_no_more():
     """Each time costs as much as the check; what cannot be told apart is told together."""
 
