@@ -1,8 +1,8 @@
-"""Find what is wrong where no known mistake explains every answer: half done, or wrong twice.
+"""Diagnose answers that no single known mistake explains: half done work, or two mistakes.
 
-A known mistake is told by the questions that it shows in, such as those from outside the box, and
-by the parts of the answer that it changes, such as the normal. Together, the mistakes that are
-named must give every number of the answers. Two mistakes that give the same are none.
+A known mistake may show in some questions only, such as those from outside the box, and in some
+parts of the answer, such as the normal. The mistakes that are named must together give every number
+of the answers. If two mistakes fit equally well, none is named.
 """
 
 from collections.abc import Iterable, Sequence
@@ -38,10 +38,10 @@ class Finding:
     """A known mistake in some of the questions and some parts of their answers."""
 
     mistake: Mistake
-    where: str  # a clause, or empty where it needs none
-    part: str  # of the answer, or empty where the mistake is all there
-    changed: frozenset[str]  # the parts of the answer
-    explains: frozenset[int]  # the numbers of the questions
+    where: str  # a clause about the questions; empty for all of them
+    part: str  # of the answer; empty if all that the mistake changes is there
+    changed: frozenset[str]  # parts of the answer
+    explains: frozenset[int]  # indices of questions
 
     @property
     def meaning(self) -> str:
@@ -51,7 +51,7 @@ class Finding:
 
 
 def merge(findings: Iterable[Finding]) -> list[Finding]:
-    """Merge findings of one mistake in one part, wherever it shows."""
+    """Merge findings of one mistake in the same part of the answer."""
     found: dict[tuple[Mistake, str], Finding] = {}
     for each in findings:
         before = found.get((each.mistake, each.part), each)
@@ -61,13 +61,13 @@ def merge(findings: Iterable[Finding]) -> list[Finding]:
     return list(found.values())
 
 
-def join_words(told: Iterable[str]) -> str:
-    """Join what is told first, each once."""
-    return " Also: ".join(filter(None, dict.fromkeys(islice(told, 2))))
+def join_words(sentences: Iterable[str]) -> str:
+    """Join the first two sentences, if they differ."""
+    return " Also: ".join(filter(None, dict.fromkeys(islice(sentences, 2))))
 
 
 class Diagnosis:
-    """The findings about a TODO by its answers."""
+    """The findings about a TODO, by its answers."""
 
     def __init__(self, todo: str, observations: Sequence[Observation]) -> None:
         load_known(todo)
@@ -81,10 +81,10 @@ class Diagnosis:
         ]
 
     def describe(self, observations: Sequence[Observation]) -> str:
-        """Return what the answers of one check mean; empty where nothing can be told.
+        """Return the meaning of one check's answers; empty if nothing is found.
 
-        The first wrong one is spoken of, by the known mistakes that show in it. What these leave
-        unexplained of it is narrowed down.
+        The first wrong answer decides: the known mistakes that show in it are named, and the parts
+        of it that they do not explain are narrowed down.
         """
         asked = {(each.about, key(each.inputs)) for each in observations}
         numbers = [
@@ -92,25 +92,28 @@ class Diagnosis:
             for number, each in enumerate(self.questions)
             if each.wrong and (each.about, key(each.inputs)) in asked
         ]
-        if not numbers:  # too little is off to be told by: the same mistake shows in other checks
+        if not numbers:  # its answers are nearly right: take the findings of other checks
             return join_words(each.meaning for each in merge(self.findings))
         first = self.questions[numbers[0]]
         here = [each for each in self.findings if each.explains.intersection(numbers)]
         explained = [each.changed for each in here if numbers[0] in each.explains]
-        told = [each.meaning for each in merge(here)] if explained else []
-        left = first.wrong.difference(*explained)
-        narrowed = narrow(self.questions, first, left) if left else Narrowed()
-        if not told and not narrowed.is_local:
+        words = [each.meaning for each in merge(here)] if explained else []
+        unexplained = first.wrong.difference(*explained)
+        narrowed = narrow(self.questions, first, unexplained) if unexplained else Narrowed()
+        if not words and not narrowed.is_local:
             same = [each for each in self.findings if each.mistake.about == first.about]
-            told = [each.meaning for each in merge(same)]
-        if narrowed.is_local or not told:
-            told.append(narrowed.words)
-        return join_words(told)
+            words = [each.meaning for each in merge(same)]
+        if narrowed.is_local or not words:
+            words.append(narrowed.words)
+        return join_words(words)
 
     # ------------------------------------------------------------ known mistakes
 
     def find_mistakes(self, about: str) -> list[Finding]:
-        """Find the mistakes that the questions of one kind show, the most frequent first."""
+        """Find the mistakes that explain most wrong answers to one kind of question.
+
+        The questions are grouped by no trait, by one, or by two.
+        """
         numbers = [n for n, each in enumerate(self.questions) if each.about == about]
         wrong = [n for n in numbers if self.questions[n].wrong]
         if not wrong:
@@ -118,25 +121,21 @@ class Diagnosis:
         names = dict.fromkeys(name for n in numbers for name in self.questions[n].traits)
         kinds = [name for name in names if not name.startswith("_")]
         best: list[Finding] = []
-        for way in [(), *combinations(kinds, 1), *combinations(kinds, 2)]:
-            if best and len(way) == 2:
-                break  # the smaller the groups are, the more fits by chance
-            group = self.group(numbers, way)
+        for traits in [(), *combinations(kinds, 1), *combinations(kinds, 2)]:
+            if best and len(traits) == 2:
+                break  # in small groups, mistakes fit by chance
             found = [
                 each
-                for where, some in group
+                for where, some in self.group(numbers, traits)
                 for each in self.explain_group(where, some)
-                if len(each.explains) > len(way) and self.is_telling(each)
+                if len(each.explains) > len(traits) and self.is_telling(each)
             ]
             if self.count_explained(found) > self.count_explained(best):
                 best = found
         return best
 
     def is_telling(self, finding: Finding) -> bool:
-        """Return whether more speaks for it than answers that are missing in some of the questions.
-
-        Nothing at all is what many mistakes leave of an answer, and this one would show elsewhere.
-        """
+        """Return whether a mistake explains more than missing answers, which fit many mistakes."""
         return not finding.where or any(
             self.questions[n].answer is not None for n in finding.explains
         )
@@ -153,7 +152,7 @@ class Diagnosis:
         )
 
     def group(self, numbers: list[int], kinds: tuple[str, ...]) -> list[tuple[str, list[int]]]:
-        """Return the questions by what they are like in these ways."""
+        """Return the questions by their traits of these kinds."""
         found: dict[str, list[int]] = {}
         for number in numbers:
             traits = self.questions[number].traits
@@ -162,7 +161,7 @@ class Diagnosis:
         return list(found.items())
 
     def explain_group(self, where: str, numbers: list[int]) -> list[Finding]:
-        """Return the mistakes that together give every number of all these answers, or none."""
+        """Return the mistakes that together give every number of these answers, or none."""
         found: list[Finding] = []
         covered: frozenset[str] = frozenset()
         wrong = [n for n in numbers if self.questions[n].wrong]
@@ -191,26 +190,25 @@ class Diagnosis:
         return found if self.is_complete(found, wrong, covered) else []
 
     def is_complete(self, found: list[Finding], wrong: list[int], covered: frozenset[str]) -> bool:
-        """Return whether findings give every number of the wrong answers they are able to give."""
-        models = [each.mistake for each in found]
-        decided = [n for n in wrong if any(self.predict(model, n) for model in models)]
+        """Return whether findings give every number of the wrong answers that they decide."""
+        decided = [n for n in wrong if any(self.predict(each.mistake, n) for each in found)]
         return all(self.questions[n].wrong <= covered for n in decided)
 
     def find_changed(
         self, mistake: Mistake, numbers: list[int], covered: frozenset[str]
     ) -> frozenset[str]:
-        """Return the parts that a mistake changes; none where one of them is not as in the answers.
+        """Return the parts that a mistake changes; none if one of them differs from the answers.
 
-        What is `covered` another mistake has changed already.
+        Another mistake explains the parts in `covered`.
         """
         both = [(self.questions[n], self.predict(mistake, n)) for n in numbers]
         decided = [(each, predicted) for each, predicted in both if predicted is not None]
         changed = frozenset[str]().union(*(p.wrong for _, p in decided)) - covered
         shows = sum(bool(predicted.wrong & changed) for _, predicted in decided)
-        told = sum(bool(each.wrong) for each, _ in decided)
-        if shows < FEWEST or 2 * told < sum(bool(each.wrong) for each, _ in both):
+        wrong = sum(bool(each.wrong) for each, _ in decided)
+        if shows < FEWEST or 2 * wrong < sum(bool(each.wrong) for each, _ in both):
             return frozenset()
-        as_seen = frozenset(
+        matching = frozenset(
             name
             for name in changed
             if all(
@@ -218,7 +216,7 @@ class Diagnosis:
             )
         )
         may_be_in_a_part = mistake.apart and mistake.about in separate_questions
-        return as_seen if as_seen == changed or may_be_in_a_part else frozenset()
+        return matching if matching == changed or may_be_in_a_part else frozenset()
 
     def find_changes(self, mistake: Mistake, numbers: list[int]) -> frozenset[str]:
         """Return the parts that a mistake changes in any of these questions."""
@@ -226,7 +224,7 @@ class Diagnosis:
         return frozenset[str]().union(*(each.wrong for each in predicted if each is not None))
 
     def predict(self, mistake: Mistake, number: int) -> Question | None:
-        """Return a question with the answer that a mistake gives to it, if there is one."""
+        """Return a question with the answer of a mistake; None if it is undecided."""
         if (mistake, number) not in self.predictions:
             each, found = self.questions[number], None
             if each.about == mistake.about:
@@ -241,7 +239,7 @@ class Diagnosis:
     ) -> tuple[Mistake, frozenset[str]] | None:
         """Choose the mistake that changes most; among equals, the one that fits all answers.
 
-        Where still several do, none of what they change is told of by another one.
+        If several still fit, no other mistake is named for the parts that they change.
         """
         tied: frozenset[str] = frozenset()
         order = sorted({changed for _, changed in fit}, key=lambda c: (-len(c), sorted(c)))
@@ -258,7 +256,7 @@ class Diagnosis:
         return None
 
     def is_denied(self, mistake: Mistake, changed: frozenset[str]) -> bool:
-        """Return whether a mistake would show in other questions as well, and does not."""
+        """Return whether a mistake would show in other questions as well, but does not."""
         for number, each in enumerate(self.questions):
             predicted = self.predict(mistake, number)
             if predicted is not None and any(

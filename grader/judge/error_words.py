@@ -1,6 +1,6 @@
-"""Say what an error of Python's means in the lesson's programs, and what to do about it.
+"""Explain Python's errors in the lesson's programs, and what to do about them.
 
-The message, the line and the text around it tell. Nothing here runs a submission.
+The message, the line and the text around it are enough: nothing here runs a submission.
 """
 
 import ast
@@ -24,12 +24,12 @@ RAISED = re.compile(r"(?P<error>\w+(?:: .*)?) \(in (?P<file>.+?), line (?P<line>
 DEBUGGER = re.compile(r"\bbreakpoint\(|\bset_trace\(")
 LONGEST, MOST_KNOWN = 80, 500  # letters of a name, and names that it is compared with
 ENGINE, SCENE = "mini_engine/", "pymunk_scene.py"
-NEAR = 0.5  # likeness of two names, from which on one may be meant for the other
-SHAPES = ("Circle", "Box")  # what body.shape may be
+NEAR = 0.5  # likeness of two names, from which on one may be a typing error for the other
+SHAPES = ("Circle", "Box")  # classes of body.shape
 FEW = 8  # attributes of a class that are listed
 IN_PLACE = ("append", "sort", "extend", "reverse", "update")  # methods that return None
 OLD_HANDLERS = ("add_collision_handler", "add_wildcard_collision_handler")
-SPACE = (  # what the lesson uses of a pymunk.Space
+SPACE = (  # attributes of a pymunk.Space that the lesson uses
     *("add", "bodies", "constraints", "damping", "gravity", "iterations", "on_collision"),
     *("shapes", "static_body", "step"),
 )
@@ -45,7 +45,7 @@ class Error:
     file: str
     line: int
     text: str
-    todo: str = ""  # whose check failed
+    todo: str = ""  # the TODO whose check failed
 
     @cached_property
     def body(self) -> list[ast.stmt]:
@@ -64,7 +64,7 @@ class Error:
 
     @cached_property
     def values(self) -> dict[str, int]:
-        """Return the names that the function gives a value, with the first line that does."""
+        """Return the names to which the function gives a value, with the first line that does."""
         found: dict[str, int] = {}
         for node in ast.walk(self.function) if self.function else ():
             if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
@@ -77,7 +77,7 @@ class Error:
 
     @property
     def around(self) -> set[str]:
-        """Return the names that the file has outside its functions."""
+        """Return the names that the file defines outside its functions."""
         return {*imported_names(self.body), *bound(self.body)}
 
     def nodes(self) -> Iterator[ast.AST]:
@@ -92,7 +92,7 @@ class Error:
 
     @property
     def targets(self) -> set[str]:
-        """Return the names that the line itself gives a value: none of them has one before."""
+        """Return the names to which the line gives a value: none of them has one before."""
         names = (node for node in self.nodes() if isinstance(node, ast.Name))
         return {node.id for node in names if isinstance(node.ctx, ast.Store)}
 
@@ -104,34 +104,34 @@ class Error:
                     return True
         return False
 
-    def hands_over(self, name: str) -> bool:
-        """Return whether the line gives a call the answer of a function that is defined here."""
+    def passes_result_of(self, name: str) -> bool:
+        """Return whether the line passes the result of a local function as an argument."""
         body = ast.walk(self.function) if self.function else ()
         if not any(isinstance(node, ast.FunctionDef) and node.name == name for node in body):
             return False
         for call in self.calls():
-            for given in (*call.args, *(keyword.value for keyword in call.keywords)):
-                match given:
+            for argument in (*call.args, *(keyword.value for keyword in call.keywords)):
+                match argument:
                     case ast.Call(ast.Name(called)) if called == name:
                         return True
         return False
 
 
 def explain_error(got: str, read: Callable[[str], str], todo: str) -> str:
-    """Return what the error of a failed check means; empty where that is unknown.
+    """Return the meaning of a failed check's error; empty if it is unknown.
 
     `read` returns the text of a file of the submission.
     """
     found = RAISED.match(got)
     if found:
         error = Error(found["error"], found["file"], int(found["line"]), read(found["file"]), todo)
-    else:  # it was raised in no file of theirs
+    else:  # it was raised in no file of the submission
         error = Error(got, "", 0, "", todo)
     for pattern, explain in RULES:
         if match := re.search(pattern, error.words):
             try:
                 words = explain if isinstance(explain, str) else explain(match, error)
-            except (RecursionError, MemoryError):  # code nested beyond all measure
+            except (RecursionError, MemoryError):  # the code is nested too deeply
                 return ""
             if words:
                 return words
@@ -139,7 +139,7 @@ def explain_error(got: str, read: Callable[[str], str], todo: str) -> str:
 
 
 def find_similar(name: str, known: Iterable[str], least: float = 0.7) -> list[str]:
-    """Return the name that another one may be meant for, if there is one."""
+    """Return the known name that is most similar, if one is similar enough."""
     return get_close_matches(name[:LONGEST], islice(known, MOST_KNOWN), 1, least)
 
 
@@ -155,8 +155,8 @@ def explain_unbound(match: Match, error: Error) -> str:
             f"hides the {name} from outside: use another name."
         )
     if first >= error.line:
-        given = show_arguments(error)
-        return f"{name} has no value before line {error.line}: give it one first.{given}"
+        arguments = show_arguments(error)
+        return f"{name} has no value before line {error.line}: give it one first.{arguments}"
     return (
         f"{name} has no value here: line {first}, which gives it one, did not run. Give it one "
         "above that as well."
@@ -198,12 +198,12 @@ def explain_undefined(match: Match, error: Error) -> str:
     near = find_similar(name, sorted(known))
     if near:
         return f"Nothing is called {name} here. Is {near[0]} meant?"
-    given = show_arguments(error)
-    return f"Nothing is called {name} here: is it misspelt, or defined nowhere?{given}"
+    arguments = show_arguments(error)
+    return f"Nothing is called {name} here: is it misspelt, or defined nowhere?{arguments}"
 
 
 def show_arguments(error: Error) -> str:
-    """Return a sentence of the names that the function is given, with a space before it."""
+    """Return a sentence with the function's parameters, and a space before it."""
     return f" The function is given {', '.join(error.parameters)}." * bool(error.parameters)
 
 
@@ -257,19 +257,19 @@ def explain_attribute(match: Match, error: Error) -> str:
         return f"A Body has no {name}: write .pos.{name}, or .vel.{name}."
     if given_home(name, ""):
         return f"{name} is a function, not part of a {kind}: write {name}(...)."
-    ours = SPACE if kind == "Space" else sorted(given_attributes().get(kind, ()))
-    starts = [each for each in ours if each.startswith(name) or name.startswith(each)]
-    near = starts or find_similar(name, ours, NEAR)
+    known = SPACE if kind == "Space" else sorted(given_attributes().get(kind, ()))
+    starts = [each for each in known if each.startswith(name) or name.startswith(each)]
+    near = starts or find_similar(name, known, NEAR)
     if near:
         return f"A {kind} has no {name}. Is {near[0]} meant?"
     if home:
         return f"{name} belongs to a {home}, not to a {kind}."
-    fields = [each for each in ours if not each.startswith("_")]
+    fields = [each for each in known if not each.startswith("_")]
     return f"A {kind} has no {name}. It has {listed(fields)}." if 0 < len(fields) <= FEW else ""
 
 
 def explain_not_callable(match: Match, error: Error) -> str:
-    """Explain brackets behind a value, which may be a function's name that was given a value."""
+    """Explain brackets after a value, which may have replaced a function of the same name."""
     for call in error.calls():
         called = ast.unparse(call.func)
         if isinstance(call.func, ast.Name) and called in error.values:
@@ -286,7 +286,7 @@ def explain_not_callable(match: Match, error: Error) -> str:
 
 
 def explain_class_attribute(match: Match, error: Error) -> str:
-    """Explain a function of the module pymunk that is looked for in one of its classes."""
+    """Explain a function of the module pymunk that the code takes from one of its classes."""
     name = match[2]
     if name in pymunk_names():
         return f"{name} is in the module pymunk: write pymunk.{name}."
@@ -294,10 +294,10 @@ def explain_class_attribute(match: Match, error: Error) -> str:
 
 
 def explain_zero(match: Match, error: Error) -> str:
-    """Explain a division by what a TODO gave to the code around it, which is 0."""
+    """Explain a division by 0 outside the TODO's region, which gave that value."""
     inside = (each for each in read_regions(error.text)[0] if each.id == error.todo)
     if any(each.start < error.line - 1 < each.stop for each in inside):
-        return ""  # the answers tell more
+        return ""  # the answers show more
     for node in error.nodes():
         match node:
             case ast.AugAssign(op=ast.Div(), value=ast.Name(name)):
@@ -306,7 +306,7 @@ def explain_zero(match: Match, error: Error) -> str:
 
 
 def explain_key(match: Match, error: Error) -> str:
-    """Explain a key that a dictionary lacks, by what the line does with its value."""
+    """Explain a missing key of a dictionary, by the way in which the line uses its value."""
     for node in error.nodes():
         match node:
             case ast.Attribute(ast.Subscript(ast.Name(name)), "append" | "add" | "extend"):
@@ -323,10 +323,10 @@ def explain_arguments(match: Match, error: Error) -> str:
     """Show a function that was called with too few or too many arguments."""
     owner, _, name = match[1].rpartition(".")
     called = owner.rpartition(".")[2] if name == "__init__" else name
-    is_ours = f"{called}.__init__" in given_arguments() and error.file != SCENE
-    if called in PYMUNK and not is_ours:
+    is_lessons = f"{called}.__init__" in given_arguments() and error.file != SCENE
+    if called in PYMUNK and not is_lessons:
         return f"It is {PYMUNK[called]}."
-    if error.hands_over(name):
+    if error.passes_result_of(name):
         return f"{name}() calls it at once: hand over {name}, without brackets."
     usual = None if name == "__init__" else given_arguments().get(name)
     arguments = given_arguments().get(f"{owner}.{name}", usual)
@@ -334,14 +334,14 @@ def explain_arguments(match: Match, error: Error) -> str:
 
 
 def explain_mixed(match: Match, error: Error) -> str:
-    """Explain a vector and a number: a number comes first where a number is wanted."""
+    """Explain a vector and a number in one operation; the first one shows what is needed."""
     if "**" in match[0]:
         return "A vector has no power: square a number, such as a length or a cross product."
     return NUMBER_NEEDED if "first" in match.re.groupindex else DIRECTION_NEEDED
 
 
 def explain_none(match: Match, error: Error) -> str:
-    """Name a method that changes a thing in place, where its answer is kept."""
+    """Name a method that changes an object in place and returns None, whose result is used."""
     for node in ast.walk(error.function) if error.function else ():
         match node:
             case ast.Assign(value=ast.Call(func=ast.Attribute(attr=name))) if (
@@ -365,7 +365,7 @@ def explain_tuple(match: Match, error: Error) -> str:
 
 
 def explain_pair(match: Match, error: Error) -> str:
-    """Explain an error of pymunk's where it needs two numbers and got something else."""
+    """Explain an error of pymunk, which needs two numbers and got something else."""
     if "cpVect" in match[0]:
         return "pymunk takes no Vector2 here: write the two numbers as a pair, (x, y)."
     lines = error.text.splitlines()
@@ -381,7 +381,7 @@ def explain_pair(match: Match, error: Error) -> str:
     return f"{target} needs two numbers, (x, y)." if target.endswith(".gravity") else ""
 
 
-# ---------------------------------------------------------------- what was handed out
+# ---------------------------------------------------------------- given code
 
 
 def bound(body: Collection[ast.stmt]) -> Iterator[str]:
@@ -398,13 +398,13 @@ def bound(body: Collection[ast.stmt]) -> Iterator[str]:
 
 @cache
 def stub_names(todo: str) -> frozenset[str]:
-    """Return the variables that the stub of a TODO sets and the lines below it need."""
+    """Return the variables that the stub of a TODO sets, for the lines below it."""
     body = statements("\n".join(map(str.strip, handed_out().stubs.get(todo, "").splitlines())))
     return frozenset(bound(body))
 
 
 def own_attributes(error: Error) -> set[str]:
-    """Return the attributes that the class around the line has, and its methods."""
+    """Return the attributes and methods of the class around the line."""
     for node in error.body:
         if isinstance(node, ast.ClassDef) and node.lineno <= error.line <= (node.end_lineno or 0):
             return attributes_of(node)
@@ -422,7 +422,7 @@ def attributes_of(node: ast.ClassDef) -> set[str]:
 
 @cache
 def given_attributes() -> dict[str, set[str]]:
-    """Return the attributes of each class that was handed out."""
+    """Return the attributes of each given class."""
     return {
         node.name: attributes_of(node)
         for text in load_given().values()
@@ -455,7 +455,7 @@ def given_home(name: str, but: str) -> str:
     return ""
 
 
-PYMUNK = {  # what the lesson calls, with its arguments
+PYMUNK = {  # functions and classes that the lesson calls, with their arguments
     "moment_for_circle": "moment_for_circle(mass, inner_radius, outer_radius)",
     "moment_for_box": "moment_for_box(mass, size)",
     "PinJoint": "PinJoint(a, b, anchor_a, anchor_b)",
@@ -464,12 +464,12 @@ PYMUNK = {  # what the lesson calls, with its arguments
 
 
 PYGAME = ("K_LSHIFT", "K_RSHIFT", "KMOD_SHIFT", "KMOD_CTRL", "Vector2", "key", "event", "math")
-MODULES = {  # what a submission may import, and how
+MODULES = {  # modules that a submission may import, and how
     **{n: f"import {n}" for n in ("collections", "functools", "itertools", "math", "random")},
     **{n: f"import {n}" for n in ("pygame", "pymunk", "numpy")},
     "np": "import numpy as np",
 }
-HOMES = {  # functions and classes that students take from elsewhere, with their modules
+HOMES = {  # functions and classes that students use, with their modules
     **dict.fromkeys(("combinations", "product", "pairwise", "permutations"), "itertools"),
     **dict.fromkeys(("defaultdict", "Counter", "deque"), "collections"),
     "Vector2": "pygame",

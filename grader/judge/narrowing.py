@@ -1,6 +1,6 @@
-"""Narrow down what is wrong by numbers: in which questions, in what part of the answer, how much.
+"""Narrow down wrong answers by their numbers: in which questions, which part, and how much.
 
-That is what was observed, and no guess. It is found first, as a `Narrowed`, and worded then.
+This states facts and no guesses. They are found first, as a `Narrowed`, and then worded.
 """
 
 import math
@@ -22,11 +22,11 @@ from grader.judge.misconceptions import (
 )
 from grader.judge.recorded import key
 
-WHOLE = "the answer"  # the name of a part where an answer has none, or is another kind of thing
-CASE = "_case"  # the name of what a question is, in words
-FEWEST = 2  # answers that speak for anything
+WHOLE = "the answer"  # the part of an answer without parts, or of the wrong kind
+CASE = "_case"  # the trait that describes a question
+FEWEST = 2  # answers that prove anything
 MOST = 3  # clauses of one kind in a sentence
-LONGEST = 150  # characters of these
+LONGEST = 150  # characters of these clauses
 IS_WRONG = "is wrong"
 
 Numbers = list[tuple[float, float]]  # of the answer, and of the right one
@@ -44,7 +44,7 @@ class Question:
 
     @cached_property
     def misfit(self) -> str:
-        """Return what is wrong where the answer is no such thing as the right one; else empty."""
+        """Return how the answer differs in kind from the right one, in words; else empty."""
         if isinstance(self.answer, str):
             return f"the answer is {self.answer}"
         if self.answer is None and self.right is not None:
@@ -65,7 +65,7 @@ class Question:
 
     @cached_property
     def wrong(self) -> frozenset[str]:
-        """Return the names of the parts that are wrong."""
+        """Return the names of the wrong parts."""
         if are_close(self.answer, self.right):
             return frozenset()
         names = [] if self.misfit else part_names.get(self.about, {})
@@ -74,7 +74,7 @@ class Question:
 
 
 def read_questions(observations: Sequence[Observation]) -> Iterator[Question]:
-    """Yield the questions with a right answer, each once."""
+    """Yield the questions whose right answer is known, each once."""
     found = set()
     for each in observations:
         name = each.about, key(each.inputs)
@@ -91,7 +91,7 @@ def read_questions(observations: Sequence[Observation]) -> Iterator[Question]:
 
 
 def split(about: str, answer: Any) -> dict[str, Any]:
-    """Return the parts of an answer; each is all of it where it is another kind of thing."""
+    """Return the parts of an answer; each is the whole answer if that is of another kind."""
     numbers, found = flatten(answer), {WHOLE: answer}
     for name, places in part_names.get(about, {}).items():
         has = places and len(numbers) > max(places)
@@ -100,18 +100,18 @@ def split(about: str, answer: Any) -> dict[str, Any]:
 
 
 def flatten(answer: Any) -> list[float]:
-    """Return the numbers of an answer, whatever its shape."""
+    """Return the numbers of an answer of any shape."""
     if isinstance(answer, tuple | list):
         return [number for each in answer for number in flatten(each)]
     return [answer] if isinstance(answer, int | float) else []
 
 
-# ---------------------------------------------------------------- what was found
+# ---------------------------------------------------------------- the facts
 
 
 @dataclass(frozen=True)
 class WrongPart:
-    """A part of the answers that is wrong: how, and in which questions, both in words."""
+    """A wrong part of the answers: how it differs, and in which questions, both in words."""
 
     name: str
     how: str
@@ -120,7 +120,7 @@ class WrongPart:
 
 @dataclass(frozen=True)
 class Narrowed:
-    """The part of the answers that is wrong, as far as their numbers tell."""
+    """The wrong parts of the answers."""
 
     wrong: tuple[WrongPart, ...] = ()
     fine: tuple[str, ...] = ()  # parts that are right in all answers
@@ -128,7 +128,7 @@ class Narrowed:
 
     @property
     def is_local(self) -> bool:
-        """Return whether it tells questions with a wrong answer from others."""
+        """Return whether it separates questions with a wrong answer from others."""
         return any(f" {each.where}".count(" where ") for each in self.wrong)
 
     @property
@@ -153,14 +153,14 @@ def word_parts(wrong: Sequence[WrongPart]) -> str:
 
 
 def show(question: Question) -> str:
-    """Return the answer to one question beside the right one, where the question has words."""
+    """Return the answer to one question beside the right one; empty if it has no description."""
     case = question.traits.get(CASE)
     ours, theirs = (word(flatten(each)) for each in (question.answer, question.right))
     return f" In {case}: {ours} instead of {theirs}." if case else ""
 
 
 def capitalise(words: str) -> str:
-    """Begin a sentence; a name of one letter, such as v, stays as it is."""
+    """Begin a sentence with a capital; a name of one letter, such as v, stays small."""
     return words if words[1:2] == " " else words[:1].upper() + words[1:]
 
 
@@ -172,14 +172,14 @@ def word(numbers: list[float]) -> str:
 # ---------------------------------------------------------------- where
 
 
-def narrow(questions: Sequence[Question], first: Question, left: frozenset[str]) -> Narrowed:
-    """Find in which questions these parts are wrong as in the first one, and how."""
+def narrow(questions: Sequence[Question], first: Question, parts: frozenset[str]) -> Narrowed:
+    """Find the questions in which these parts are wrong as in the first one, and how."""
     same = [each for each in questions if each.about == first.about]
     if first.misfit:
         return narrow_misfit(same, first)
     answered = [each for each in same if not each.misfit]
     names = list(part_names.get(first.about, {}))
-    wrong = [found for name in names if name in left and (found := narrow_part(answered, name))]
+    wrong = [found for name in names if name in parts and (found := narrow_part(answered, name))]
     fine = [name for name in names if not any(name in each.wrong for each in answered)]
     return Narrowed(tuple(wrong), tuple(fine), first)
 
@@ -202,19 +202,19 @@ def narrow_part(answered: list[Question], name: str) -> WrongPart | None:
 
 
 def count(wrong: list[Question], asked: int) -> str:
-    """Return in how many cases something is wrong, in words."""
+    """Return the number of wrong cases, in words."""
     if len(wrong) > 0.9 * asked:
         return "in nearly every case"
     return f"in {len(wrong)} of {asked} cases"
 
 
 def find_condition(wrong: list[Question], others: list[Question], are_right: bool = True) -> str:
-    """Find a trait that tells the questions with a wrong answer from the others."""
+    """Find a trait that separates the questions with a wrong answer from the others."""
     if not others:
         return "in every case" if len(wrong) > 1 else ""
     kinds = list(dict.fromkeys(k for each in wrong for k in each.traits if k != CASE))
     found = find_traits(wrong, others, kinds, are_right) or find_majority(wrong, others, kinds)
-    return found or find_traits(wrong, others, kinds, are_right, in_one_breath=False)
+    return found or find_traits(wrong, others, kinds, are_right, is_short=False)
 
 
 def find_traits(
@@ -222,25 +222,25 @@ def find_traits(
     others: list[Question],
     kinds: list[str],
     are_right: bool,
-    in_one_breath: bool = True,
+    is_short: bool = True,
 ) -> str:
-    """Find one or two traits that all the wrong answers have, and no other, or the other way."""
-    for ways in (1, 2):
-        for some in combinations(kinds, ways):
+    """Find one or two traits that all the wrong answers have and no others, or the reverse."""
+    for number in (1, 2):
+        for some in combinations(kinds, number):
             bad, good = count_traits(wrong, *some), count_traits(others, *some)
             many = 2 * len(bad.keys() | good.keys()) > len(wrong) + len(others)
             if many or None in bad or bad.keys() & good.keys():
                 continue
-            if is_readable(bad, in_one_breath):
-                right_too = are_right and ways == 1 and is_readable(good)
+            if is_readable(bad, is_short):
+                right_too = are_right and number == 1 and is_readable(good)
                 return f"where {join(bad)}" + f", and right where {join(good)}" * right_too
-            if is_readable(good, in_one_breath):
+            if is_readable(good, is_short):
                 return f"but where {join(good)}"
     return ""
 
 
 def find_majority(wrong: list[Question], others: list[Question], kinds: list[str]) -> str:
-    """Find a trait of most of the wrong answers and few others; empty where there is none."""
+    """Find a trait of most of the wrong answers and few others; empty if there is none."""
     best, least = "", len(others) // 2 + 1
     for kind in kinds:
         bad, good = count_traits(wrong, kind), count_traits(others, kind)
@@ -250,16 +250,17 @@ def find_majority(wrong: list[Question], others: list[Question], kinds: list[str
     return best
 
 
-def is_readable(clauses: Counter[Any], in_one_breath: bool = True) -> bool:
+def is_readable(clauses: Counter[Any], is_short: bool = True) -> bool:
+    """Return whether clauses make a readable sentence; a short one has few `and` and `or`."""
     if None in clauses or len(clauses) > MOST:
         return False
     words = join(clauses)
     is_plain = " or " not in words or words.count(" and ") <= 1
-    return len(words) <= LONGEST and (is_plain or not in_one_breath)
+    return len(words) <= LONGEST and (is_plain or not is_short)
 
 
 def count_traits(questions: list[Question], *kinds: str) -> Counter[Any]:
-    """Count the questions by their traits of these kinds; None where they lack one."""
+    """Count the questions by their traits of these kinds; None for those that lack one."""
     found: Counter[Any] = Counter()
     for each in questions:
         clauses = [each.traits.get(kind) for kind in kinds]
@@ -268,7 +269,7 @@ def count_traits(questions: list[Question], *kinds: str) -> Counter[Any]:
 
 
 def join(clauses: Iterable[Any]) -> str:
-    """Join clauses by `or`; what all begin with is said once."""
+    """Join clauses by `or`; a beginning that all share comes once."""
     words = [str(each) for each in clauses]
     first, both, _ = words[0].partition(" and ") if len(words) > 1 else ("", "", "")
     if both and all(each.startswith(first + both) for each in words):
@@ -280,7 +281,7 @@ def join(clauses: Iterable[Any]) -> str:
 
 
 def find_relation(name: str, wrong: list[Question]) -> str:
-    """Find how a part differs from the right one in all of these; empty if it varies."""
+    """Find how a part differs from the right one in all questions; empty if that varies."""
     vectors = [(flatten(each.parts[name]), flatten(each.right_parts[name])) for each in wrong]
     pairs = [pair for ours, theirs in vectors for pair in zip(ours, theirs, strict=False)]
     if len(vectors) >= FEWEST:
@@ -318,7 +319,7 @@ def are_swapped(vectors: list[tuple[list[float], list[float]]]) -> bool:
 
 
 def find_factor(pairs: Numbers) -> float | None:
-    """Find the factor between all answers and the right ones; None where there is no one such."""
+    """Find the factor between all answers and the right ones; None if it varies."""
     factors = [ours / theirs for ours, theirs in pairs if abs(theirs) > 1e-9]
     if len(factors) < FEWEST or any(
         abs(ours) > 1e-6 for ours, theirs in pairs if abs(theirs) <= 1e-9
@@ -329,7 +330,7 @@ def find_factor(pairs: Numbers) -> float | None:
 
 
 def find_offset(vectors: list[tuple[list[float], list[float]]]) -> float:
-    """Find by how much a single number is always off; 0 where it varies."""
+    """Find by how much a single number is always off; 0 if it varies."""
     offs = [ours[0] - theirs[0] for ours, theirs in vectors if len(ours) == len(theirs) == 1]
     if len(offs) < max(FEWEST, len(vectors)):
         return 0.0
@@ -337,7 +338,7 @@ def find_offset(vectors: list[tuple[list[float], list[float]]]) -> float:
 
 
 def compare(pairs: Numbers) -> str:
-    """Say whether all the numbers that are off are too large, or too small."""
+    """Return `is too large` or `is too small` if that is true of all wrong numbers."""
     off = [(ours, theirs) for ours, theirs in pairs if not are_close(ours, theirs)]
     for words, is_more in (("is too large", True), ("is too small", False)):
         if all(a * b >= 0 and abs(a) != abs(b) and (abs(a) > abs(b)) == is_more for a, b in off):
