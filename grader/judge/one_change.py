@@ -1,7 +1,7 @@
 """Find the line in which one small change makes a failed check pass.
 
-Nothing about the task need be known for that: a line is told, and of what kind the change is, never
-the change itself. Only for one's own work, since it may take as long as all the checks together.
+The report names the line and the kind of change, never the change itself. This is only for one's
+own work, since it may take as long as all the checks together.
 """
 
 import ast
@@ -30,8 +30,8 @@ from grader.source.operators import (
 from grader.source.regions import Region, regions_in, replaced
 
 MOST_TRIED = 150  # changes
-LONGEST, MOST_LETTERS = 80, 6000  # lines of a region, and letters; an answer has a dozen
-ALIKE = (  # attributes that are easily taken for one another
+LONGEST, MOST_LETTERS = 80, 6000  # lines of a region, and letters; an answer has a dozen lines
+CONFUSED = (  # attributes that are easily confused
     ("x", "y"),
     ("a", "b"),
     ("pos", "vel"),
@@ -41,9 +41,9 @@ ALIKE = (  # attributes that are easily taken for one another
     ("friction", "restitution"),
     ("linear_damping", "angular_damping"),
 )
-ENDING = re.compile(r"\d+|_[a-z]$")  # by which similar names differ
+ENDING = re.compile(r"\d+|_[a-z]$")  # in which similar names differ
 SUMS = ast.Add | ast.Sub | ast.Mult | ast.Div
-NAMED = re.compile(r"(?:id|attr|value)=(?:'\w*'|[\d.e+-]+)")  # in what ast.dump says
+NAMED = re.compile(r"(?:id|attr|value)=(?:'\w*'|[\d.e+-]+)")  # in the output of ast.dump
 ATOMS = ast.Constant | ast.Tuple | ast.List | ast.Compare | ast.BoolOp | ast.Lambda
 
 Change = Callable[[ast.AST, frozenset[str]], Iterator[Offer]]
@@ -51,16 +51,16 @@ Change = Callable[[ast.AST, frozenset[str]], Iterator[Offer]]
 
 @dataclass(frozen=True)
 class Variant:
-    """A region with one thing changed: in which lines of it, and how, in words."""
+    """A region with one change."""
 
-    lines: tuple[int, ...]  # from 1; two where the same is changed in two alike
-    how: str
+    lines: tuple[int, ...]  # of the region, from 1; two if both of two similar lines are changed
+    how: str  # in words
     code: str
 
 
 @dataclass(frozen=True)
 class Mend:
-    """The lines of a file in which a change makes checks pass, and how, in words."""
+    """The lines of a file in which a change makes checks pass, and its kind in words."""
 
     file: str
     lines: tuple[int, ...]
@@ -80,8 +80,8 @@ def find_mend(
 ) -> Mend | None:
     """Return the line of a file in which a change makes checks pass, or None if none is found.
 
-    `about`: the file's name, the TODO and the path of its function. `passes` is told the file's
-    text with a change, and whether another one is tried is asked of `has_time`.
+    `about`: the file's name, the TODO and the path of its function. `passes` runs the checks on a
+    changed text of the file, and `has_time` returns whether there is time for another one.
     """
     file, todo, path = about
     function = function_named(statements(text), path)
@@ -96,15 +96,15 @@ def find_mend(
                 return None
             if passes(put_into(text, region, variant.code)):
                 return Mend(file, tuple(region.start + 1 + n for n in variant.lines), variant.how)
-    except (RecursionError, ValueError):  # thousands of terms, or what cannot be written again
+    except (RecursionError, ValueError):  # thousands of terms, or code that cannot be unparsed
         pass
     return None
 
 
 def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
-    """Yield the region with one thing changed: first what can be done in few places of it.
+    """Yield the region with one change; kinds of changes with few places come first.
 
-    None if Python refuses the region, or it is long. `names` are the function's parameters.
+    Yield none if Python refuses the region, or it is long. `names` are the function's parameters.
     """
     if len(region.lines) > LONGEST or sum(map(len, region.lines)) > MOST_LETTERS:
         return
@@ -127,39 +127,39 @@ def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
 
 
 def is_value(name: str) -> bool:
-    """Return whether a name may be that of a number or a vector, and not of a class."""
+    """Return whether a name may be that of a number or a vector, and is not that of a class."""
     return name.islower() or name.isupper()
 
 
 def find_places(tree: ast.AST) -> Iterator[Place]:
     for place in walk_places(tree):
         loaded = isinstance(getattr(place.node, "ctx", ast.Load()), ast.Load)
-        in_text = isinstance(place.parent, ast.JoinedStr)  # which holds nothing but its own parts
+        in_text = isinstance(place.parent, ast.JoinedStr)  # whose parts cannot be replaced
         if loaded and isinstance(place.node, ast.expr | ast.stmt) and not in_text:
             yield place
 
 
 def find_twins(tree: ast.AST) -> Iterator[tuple[Place, Place]]:
-    """Yield the places of statements that differ in names and numbers alone, two and two."""
-    alike: dict[str, list[ast.stmt]] = {}
+    """Yield pairs of places in two statements that differ only in names and numbers."""
+    twins: dict[str, list[ast.stmt]] = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.Assign | ast.AugAssign):
             shape = NAMED.sub("", ast.dump(node))
-            alike.setdefault(shape, []).append(node)
-    for first, second in chain(*(combinations(some, 2) for some in alike.values())):
+            twins.setdefault(shape, []).append(node)
+    for first, second in chain(*(combinations(some, 2) for some in twins.values())):
         yield from zip(find_places(first), find_places(second), strict=True)
 
 
 @dataclass(frozen=True)
-class Changed:
-    """What is put into some places at a time, and how that is called."""
+class Edit:
+    """Code to put into some places at the same time, and the kind of this change in words."""
 
     how: str
     places: tuple[Place, ...]
     offers: tuple[Offer, ...]
 
     def put_into(self, tree: ast.AST) -> str:
-        """Return the code of their tree with the change; the tree stays as it was."""
+        """Return the code of the tree with the edit, which is undone afterwards."""
         pairs = zip(self.places, self.offers, strict=True)
         restores = [place.put(offer) for place, offer in pairs]
         code = ast.unparse(ast.fix_missing_locations(tree))
@@ -170,10 +170,10 @@ class Changed:
 
 def list_changes(
     how: str, change: Change, places: Iterable[tuple[Place, ...]], names: frozenset[str]
-) -> list[Changed]:
-    """Return what a kind of change puts into these places, as many as can be tried at all."""
+) -> list[Edit]:
+    """Return the edits of one kind in these places, at most as many as are tried."""
     found = (
-        Changed(how, some, offers)
+        Edit(how, some, offers)
         for some in places
         for offers in zip(*(change(each.node, names) for each in some), strict=False)
     )
@@ -181,12 +181,12 @@ def list_changes(
 
 
 def find_ends(tree: ast.AST) -> Iterator[int]:
-    """Yield the lines that decide when a `while` ends; one that never ends takes long to try."""
+    """Yield the lines that decide when a `while` ends: an endless loop would take long to try."""
     for loop in ast.walk(tree):
         if not isinstance(loop, ast.While):
             continue
         yield loop.lineno
-        asked = {ast.unparse(node) for node in ast.walk(loop.test)}
+        tested = {ast.unparse(node) for node in ast.walk(loop.test)}
         for node in ast.walk(loop):
             match node:
                 case ast.Assign(targets):
@@ -195,7 +195,7 @@ def find_ends(tree: ast.AST) -> Iterator[int]:
                     changed = [ast.unparse(target)]
                 case _:
                     continue
-            if asked.intersection(changed):
+            if tested.intersection(changed):
                 yield node.lineno
 
 
@@ -227,7 +227,7 @@ def leave_out_term(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
 
 
 def move_bracket(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `(x + y) * z` for `x + y * z`, also in longer sums, and the other way round."""
+    """Put `(x + y) * z` for `x + y * z`, also in longer sums, and the reverse."""
     match node:
         case ast.BinOp(
             ast.BinOp(left, ast.Add() | ast.Sub() as plus, right),
@@ -300,7 +300,7 @@ def use_another_name(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
 def use_another_attribute(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
     """Put `b.pos.y` for `b.pos.x`."""
     if isinstance(node, ast.Attribute):
-        for other in related_names(node.attr, ALIKE):
+        for other in related_names(node.attr, CONFUSED):
             yield ast.Attribute(node.value, other, node.ctx)
 
 
@@ -333,7 +333,7 @@ def leave_out_statement(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]
 
 
 def leave_out_condition(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Do always what is done in some cases."""
+    """Run the body of an `if` in every case."""
     if isinstance(node, ast.If) and not node.orelse:
         yield node.body
 
@@ -345,7 +345,7 @@ def add_to_it(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
             yield from (ast.AugAssign(target, sign, value) for sign in (ast.Add(), ast.Sub()))
 
 
-KINDS: tuple[tuple[str, Change], ...] = (  # by what is said of the line
+KINDS: tuple[tuple[str, Change], ...] = (  # each with its words about the line
     ("With another operator in", change_arithmetic),
     ("With another comparison in", change_comparison),
     ("Without the statement that begins in", leave_out_statement),
@@ -369,7 +369,7 @@ KINDS: tuple[tuple[str, Change], ...] = (  # by what is said of the line
     ("With one more factor in", double),
     ("With one more factor in", add_factor),
 )
-IN_TWINS: tuple[tuple[str, Change], ...] = (  # what is often wrong in both of two lines alike
+IN_TWINS: tuple[tuple[str, Change], ...] = (  # changes of two similar lines at once
     ("With another operator in", change_arithmetic),
     ("With brackets elsewhere in", move_bracket),
     ("With the two sides of an operator exchanged in", swap_operands),

@@ -1,11 +1,11 @@
-"""Find where a submission defines a function, by its text: what Python would run.
+"""Find the function that Python would run, by the text of a submission.
 
-A folder often holds more than runs: a kept copy of the starter, a second try, a file of notes. So
-the names of imports are followed from the program's module to the one definition that counts.
+A folder often holds other files too: a copy of the starter, a second try, notes. So the search
+follows imports from the program's module to the definition.
 
-The text may be made to cost its reader much. So one file is parsed at a time, and no tree is kept;
-files have a greatest size, alone and together; a name is looked up once in each module; and of
-names too long, or of too many that stand for each other, nothing is known.
+A text may be written to cost much time and memory. So one file is parsed at a time, and no tree is
+kept; sizes of files are limited, alone and in sum; a name is looked up once in each module; and
+names that are too long, or have too many aliases, count as unknown.
 """
 
 import ast
@@ -22,8 +22,8 @@ from grader.source.regions import parsed
 
 MAX_READ = 1024 * 1024  # characters of a submission that are parsed, in all
 MAX_CALLED = 200  # names that are followed from a function
-MAX_HOPS = 50  # from module to module, or from a name to what it stands for; real ones take three
-MAX_TRIED = 2000  # bindings that one question may try; real ones take ten
+MAX_HOPS = 50  # from module to module, or from alias to alias; real names need three
+MAX_TRIED = 2000  # bindings that one search may try; real ones try ten
 MAX_NAME = 1000  # characters of a dotted name; real ones have twenty
 
 
@@ -39,7 +39,7 @@ class Function:
 
 @dataclass(frozen=True, slots=True)
 class Definition:
-    """The module in which a name ends up, and its function there, if the module can be read."""
+    """The module that defines a name, and its function there, if the module can be read."""
 
     module: str
     function: Function | None
@@ -47,7 +47,7 @@ class Definition:
 
 @dataclass(frozen=True, slots=True)
 class Alias:
-    """Another name for what has one already, as in `step = world_step` or `World.step = step`."""
+    """Another name of something, as in `step = world_step` or `World.step = step`."""
 
     target: str
     path: str
@@ -61,7 +61,7 @@ class Class:
 
 @dataclass(frozen=True, slots=True)
 class Imported:
-    """A name of another module; all of its names for `*`, and the module itself without one."""
+    """A name of another module, `*` for all of its names; empty for the module itself."""
 
     module: str
     name: str = ""
@@ -75,14 +75,14 @@ Try = TypeVar("Try")
 class Module:
     """The bindings of a module's names, and the modules that its import loads."""
 
-    empty: bool = True  # nothing in it, or no Python
-    refused: bool = False  # whether it may be no Python, or has statements where none may be
+    empty: bool = True  # without statements, or no Python
+    refused: bool = False  # it may be no Python, or has statements in places where none may be
     names: dict[str, list[tuple[int, Binding]]] = field(default_factory=lambda: defaultdict(list))
     stars: list[tuple[int, Binding]] = field(default_factory=list)
     imports: dict[str, None] = field(default_factory=dict)
 
     def bindings(self, path: str, first: str) -> Iterator[Binding]:
-        """Yield the bindings that may define this dotted name, latest first."""
+        """Yield the bindings that may define this dotted name, the latest first."""
         lists = [self.names.get(first, []), self.stars]
         if path != first:
             lists.append(self.names.get(path, []))
@@ -91,10 +91,10 @@ class Module:
 
 
 class Program:
-    """The modules of a submission, and what their names stand for.
+    """The modules of a submission, and the definitions of their names.
 
-    A file is parsed when a name leads to it: most of what lies about never is. `unread` are those
-    that a name led to and that were too much.
+    A file is parsed when a name leads to it. `unread` are files that a name led to after the limit
+    was reached.
     """
 
     def __init__(self, texts: Mapping[Path, str]) -> None:
@@ -107,12 +107,12 @@ class Program:
         self.modules: dict[str, Module] = {}
         self.unread: list[Path] = []
         self.read = 0  # characters that were parsed
-        self.found: dict[tuple[str, str], Definition | None] = {}  # of one question
-        self.tried = 0  # bindings, for one question
-        self.parts: dict[str, list[str]] = {}  # what importing a module loads, by its name
+        self.found: dict[tuple[str, str], Definition | None] = {}  # by one search
+        self.tried = 0  # bindings, by one search
+        self.parts: dict[str, list[str]] = {}  # modules that an import loads, by its name
 
     def tree(self, module: str) -> list[ast.stmt]:
-        """Return the statements of a module; none where it is no Python."""
+        """Return the statements of a module; none if it is no Python."""
         return statements(self.texts[self.paths[module]])
 
     def source(self, module: str, function: Function) -> str:
@@ -120,17 +120,17 @@ class Program:
         return source_of(self.texts[self.paths[module]], function)
 
     def definition(self, module: str, path: str) -> Definition | None:
-        """Find where `module` gets `name` or `Class.name` from."""
+        """Find the definition of `name` or `Class.name` in `module`."""
         self.found, self.tried = {}, 0
         found = self._bound(module, path)
         if found is not None and found.function is not None:
             return found
-        # A package need not pass the name on: any part of it that runs may have it.
+        # A package may not import the name itself: search all parts that it loads.
         others = (self._bound(each, path) for each in self.loaded(module))
         return next((each for each in others if each and each.function), found)
 
     def loaded(self, module: str) -> list[str]:
-        """Return the submission's modules that importing `module` loads, by name."""
+        """Return the names of the submission's modules that importing `module` loads."""
         if module not in self.parts:
             seen: set[str] = set()
             waiting = [module]
@@ -143,7 +143,7 @@ class Program:
         return self.parts[module]
 
     def names_used(self, module: str, path: str) -> set[str]:
-        """Return the names in a function and in those that it calls, as far as the text tells."""
+        """Return the names in a function and in the functions that it calls."""
         found: set[str] = set()
         seen: set[tuple[str, str]] = set()
         read: set[Definition] = set()  # a function may have many names
@@ -217,7 +217,7 @@ class Program:
         return module
 
     def _imports(self, module: str, tree: list[ast.stmt]) -> Iterator[str]:
-        """Yield the submission's modules that imports anywhere in a file load."""
+        """Yield the submission's modules that the imports in a file load."""
         for node in ast.walk(ast.Module(tree, [])):
             if isinstance(node, ast.Import):
                 for alias in node.names:
@@ -229,13 +229,13 @@ class Program:
                 yield from (each for each in names if each in self.paths)
 
     def _known(self, name: str) -> Iterator[str]:
-        """Yield a module and the packages around it, as far as they are the submission's."""
+        """Yield a module and the packages around it, if they are the submission's."""
         parts = name.split(".", self.depth)[: self.depth]
         paths = (".".join(parts[: number + 1]) for number in range(len(parts)))
         return (each for each in paths if each in self.paths)
 
     def _source(self, module: str, node: ast.ImportFrom) -> str:
-        """Return the module that a `from ... import` takes its names from."""
+        """Return the module of a `from ... import`."""
         if not node.level:
             return node.module or ""
         package = module.split(".")
@@ -246,11 +246,11 @@ class Program:
     # ------------------------------------------------------------ following a name
 
     def _bound(self, module: str, path: str, hops: int = 0) -> Definition | None:
-        """Return what a name of a module, or `Class.name`, is bound to at last."""
+        """Follow a name of a module, or `Class.name`, to its definition."""
         if module not in self.paths or hops > MAX_HOPS or len(path) > MAX_NAME:
             return None
         if (module, path) not in self.found:
-            self.found[module, path] = None  # a name in a circle stands for nothing
+            self.found[module, path] = None  # for names that refer to each other in a circle
             self.found[module, path] = self._looked_up(module, path, hops + 1)
         return self.found[module, path]
 
@@ -282,10 +282,10 @@ class Program:
                         found = self._bound(source, ".".join(filter(None, [name, rest])), hops)
             if found is not None:
                 return found
-        return Definition(module, None) if known.empty else None  # nothing to tell
+        return Definition(module, None) if known.empty else None
 
     def _in_class(self, module: str, owner: Class, name: str, hops: int) -> Definition | None:
-        """Return a method of a class, its own or one that it inherits."""
+        """Return a method of a class, which it defines or inherits."""
         match owner.members.get(name):
             case Function() as function:
                 return Definition(module, function)
@@ -296,7 +296,7 @@ class Program:
         return next((found for found in inherited if found is not None), None)
 
     def _limit(self, tries: Iterable[Try]) -> Iterator[Try]:
-        """Yield as many of these as one question may still try."""
+        """Yield as many of these as one search may still try."""
         for each in tries:
             self.tried += 1
             if self.tried > MAX_TRIED:
@@ -321,7 +321,7 @@ def class_at(node: ast.ClassDef) -> Class:
 
 
 def dotted_name(node: ast.expr) -> str:
-    """Return a name with its dots, as `a.b.c`; empty for what is no name."""
+    """Return a name with its dots, as `a.b.c`; empty for other expressions."""
     parts = []
     while isinstance(node, ast.Attribute):
         parts.append(node.attr)
@@ -336,9 +336,9 @@ def dotted(path: PurePath) -> str:
 
 
 def top_level(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
-    """Yield the statements that run when a module or class is made, those under `if` and `try` too.
+    """Yield the statements that run when a module or class is made, also under `if` and `try`.
 
-    In the order of the text; without recursion, since an `elif` may follow on thousands of others.
+    There is no recursion, since an `elif` may follow thousands of others.
     """
     waiting = list(reversed(body))
     while waiting:
@@ -357,7 +357,7 @@ def top_level(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
 
 
 def statements(text: str) -> list[ast.stmt]:
-    """Return the statements of a source text; none where it is no Python."""
+    """Return the statements of a source text; none if it is no Python."""
     tree = parsed(text)
     return tree.body if tree else []
 

@@ -1,8 +1,7 @@
-"""Given code that a submission has changed: which functions and constants, and how to undo it.
+"""Find given code that a submission has changed, and undo the changes.
 
-A TODO cannot explain what a changed line outside of it does. So what was handed out is compared
-with what is there, piece by piece: functions outside their TODO regions, constants, imports.
-Layout, comments and docstrings are nobody's business.
+The given files are compared piece by piece: functions outside their TODO regions, constants and
+imports. Layout, comments and docstrings do not count.
 """
 
 import ast
@@ -31,7 +30,7 @@ MISPLACED = (
     "Line {line} of {file}, `{text}`, stands outside the region of TODO {id}: move your code "
     "between its two marker lines."
 )
-MAX_COMPARED = 1000  # lines of code, with those that were given; no function has a tenth
+MAX_COMPARED = 1000  # lines of code that are compared; no function has a tenth
 Definition = ast.FunctionDef | ast.ClassDef
 
 
@@ -41,28 +40,28 @@ class Piece:
 
     start: int
     stop: int
-    owner: str = ""  # the class that it stands in
+    owner: str = ""  # the class around it
     constant: bool = False
     whole_class: bool = False
 
 
 @dataclass(frozen=True)
 class Changed:
-    """A piece that is not as it was handed out: one line that tells, and what undoes it."""
+    """A changed piece of given code: the first line that differs, and the lines that undo it."""
 
-    name: str  # as in solve_normal, World.step or ITERATIONS
+    name: str  # such as solve_normal, World.step or ITERATIONS
     file: str
     line: int
-    theirs: str  # the first line that differs, or nothing where one is missing
-    given: str  # the same as it was handed out, or nothing where there is one too many
-    start: int  # indices of the lines to be replaced
-    stop: int
-    lines: tuple[str, ...] = field(repr=False, default=())  # by these
+    theirs: str  # the first line that differs; empty if one is missing
+    given: str  # that line as it was handed out; empty if one was added
+    start: int  # index of the first line to replace
+    stop: int  # index after the last one
+    lines: tuple[str, ...] = field(repr=False, default=())  # to put in their place
     marker: int = 0  # the line at which a region of the piece begins, or 0
 
     @property
     def to_type(self) -> str:
-        """Return what `check --restore` takes for it; an import goes with its file."""
+        """Return the name for `check --restore`; an import is restored with its file."""
         return self.name if self.name.replace(".", "").isidentifier() else self.file
 
     @property
@@ -73,9 +72,9 @@ class Changed:
 
     @property
     def outside(self) -> str:
-        """Say that a line of a TODO's function stands outside its region; empty where none does.
+        """Return a sentence about a line of a TODO's function outside its region, or nothing.
 
-        What was added above the region is a helper of theirs.
+        A line that was added above the region is a helper, and is allowed.
         """
         helps = not self.given and self.line < self.marker
         if not self.todo or not self.theirs or helps:
@@ -84,7 +83,7 @@ class Changed:
 
     @property
     def how(self) -> str:
-        """Return what is different, in a sentence without its full stop."""
+        """Return a sentence about the difference, without its full stop."""
         if self.theirs and self.theirs == self.given:
             return f"`{self.theirs}` has been moved, to line {self.line} of {self.file}"
         if not self.theirs:
@@ -94,13 +93,13 @@ class Changed:
 
 
 def changes(theirs: Mapping[str, str], given: Mapping[str, str]) -> list[Changed]:
-    """Return what differs in those given files that a submission has, both by their names."""
+    """Return the changes in the given files that a submission has, both by their names."""
     found: list[Changed] = []
     for name, text in given.items():
         own = theirs.get(name)
         if own is None or own == text or len(own) > MAX_SHAPE or outside(own) == outside(text):
             continue
-        with suppress(ValueError, RecursionError, MemoryError):  # code nested beyond all measure
+        with suppress(ValueError, RecursionError, MemoryError):  # the code is nested too deeply
             found += changes_of(name, own, text)
     return found
 
@@ -130,28 +129,28 @@ def outside(text: str) -> list[str]:
 
 
 def changes_of(file: str, text: str, given: str) -> Iterator[Changed]:
-    """Yield what differs in a file; where it is no Python, the file as a whole."""
+    """Yield the changes in a file; if it is no Python, the file as a whole."""
     body = statements(text)
     lines, right = text.splitlines(), given.splitlines()
     if not body:
         yield from change_of_file(file, text, given)
         return
-    own, ours = with_markers(pieces(body), text), given_pieces(given)
+    own, originals = with_markers(pieces(body), text), given_pieces(given)
     elsewhere = imported_names(body)
-    for name, piece in ours.items():
+    for name, piece in originals.items():
         wanted = tuple(right[piece.start : piece.stop])
-        there = own.get(name)
-        if there is None and not {name, piece.owner, "*"} & (elsewhere - {""}):
-            if not piece.owner or piece.owner in own:  # or its class is missed as a whole
-                yield gone(name, file, body, piece, wanted, len(lines))
-        elif there is not None and not piece.whole_class and not there.whole_class:
-            kept = with_regions(wanted, lines[there.start : there.stop])
-            if kept is not None:
-                yield from difference(name, file, lines, there, kept)
+        found = own.get(name)
+        if found is None and not {name, piece.owner, "*"} & (elsewhere - {""}):
+            if not piece.owner or piece.owner in own:  # else its class is missing as a whole
+                yield restore_piece(name, file, body, piece, wanted, len(lines))
+        elif found is not None and not piece.whole_class and not found.whole_class:
+            original = with_regions(wanted, lines[found.start : found.stop])
+            if original is not None:
+                yield from compare_piece(name, file, lines, found, original)
     for missing in missing_imports(body, given, file.endswith("__init__.py")):
         place = end_of_imports(body)
         yield Changed(missing, file, place + 1, "", missing, place, place, (missing,))
-    for name in sorted(own.keys() & imported_names(statements(given)) - ours.keys()):
+    for name in sorted(own.keys() & imported_names(statements(given)) - originals.keys()):
         hides = own[name]
         yield Changed(
             name, file, hides.start + 1, cut(lines[hides.start]), "", hides.start, hides.stop
@@ -159,48 +158,48 @@ def changes_of(file: str, text: str, given: str) -> Iterator[Changed]:
 
 
 def change_of_file(file: str, text: str, given: str) -> Iterator[Changed]:
-    """Yield all that differs outside the regions as one change, what was added included."""
+    """Yield all differences outside the regions as one change."""
     lines = text.splitlines()
     with suppress(RegionError):
         whole = tuple(as_given(text, given).splitlines())
-        yield from difference(file, file, lines, Piece(0, len(lines)), whole)
+        yield from compare_piece(file, file, lines, Piece(0, len(lines)), whole)
 
 
-def gone(
+def restore_piece(
     name: str, file: str, body: list[ast.stmt], piece: Piece, wanted: tuple[str, ...], count: int
 ) -> Changed:
-    """Put a piece that is gone back behind the imports, its class, or all else."""
+    """Return a missing piece, to be put back after the imports, its class, or the whole file."""
     place = end_of_imports(body) if piece.constant else end_of(body, piece.owner, count)
     gap = () if piece.constant else ("",) if piece.owner else ("", "")
     return Changed(name, file, place + 1, "", first_code(wanted), place, place, (*gap, *wanted))
 
 
-def difference(
-    name: str, file: str, lines: list[str], there: Piece, kept: tuple[str, ...]
+def compare_piece(
+    name: str, file: str, lines: list[str], piece: Piece, original: tuple[str, ...]
 ) -> Iterator[Changed]:
-    """Yield the change of a piece, if any; `kept` is the given one with their regions."""
-    mine = tuple(lines[there.start : there.stop])
-    if meaning_of(mine) == meaning_of(kept):
+    """Yield the change of a piece, if any; `original` has the student's regions."""
+    own = tuple(lines[piece.start : piece.stop])
+    if meaning_of(own) == meaning_of(original):
         return
-    line, theirs, given = first_difference(mine, kept)
-    place = there.start + line + 1
-    marker = next((n for n, each in enumerate(mine, there.start + 1) if START.match(each)), 0)
-    yield Changed(name, file, place, theirs, given, there.start, there.stop, kept, marker)
+    line, theirs, given = first_difference(own, original)
+    place = piece.start + line + 1
+    marker = next((n for n, each in enumerate(own, piece.start + 1) if START.match(each)), 0)
+    yield Changed(name, file, place, theirs, given, piece.start, piece.stop, original, marker)
 
 
 def with_regions(given: tuple[str, ...], theirs: Sequence[str]) -> tuple[str, ...] | None:
-    """Return a given function with their regions; None where a marker is missing."""
+    """Return a given function with the student's regions; None if a marker is missing."""
     own = {region.id: region.lines for region in read_regions("\n".join(theirs))[0]}
-    asked = {region.id for region in read_regions("\n".join(given))[0]}
-    if not asked <= own.keys():
+    needed = {region.id for region in read_regions("\n".join(given))[0]}
+    if not needed <= own.keys():
         return None
-    return tuple(replaced("\n".join(given) + "\n", own).splitlines()) if asked else given
+    return tuple(replaced("\n".join(given) + "\n", own).splitlines()) if needed else given
 
 
 def first_difference(mine: Sequence[str], given: Sequence[str]) -> tuple[int, str, str]:
-    """Return the index of their first line that tells, that line, and the given one in its place.
+    """Return the index of the first line that differs, that line, and the given one.
 
-    A line that stands there as often as it was given has been moved, and is both of these.
+    A line that occurs as often as in the given code has been moved; it is both of these.
     """
     own, right = list(islice(code_lines(mine), MAX_COMPARED)), list(code_lines(given))
     matcher = SequenceMatcher(None, [line for _, line in own], [line for _, line in right], False)
@@ -219,7 +218,7 @@ def first_difference(mine: Sequence[str], given: Sequence[str]) -> tuple[int, st
 
 
 def code_lines(lines: Sequence[str]) -> Iterator[tuple[int, str]]:
-    """Yield the lines that are neither empty nor a comment alone, with their indices."""
+    """Yield the lines of code, with their indices."""
     for number, line in enumerate(lines):
         if is_code(line):
             yield number, line.strip()
@@ -235,7 +234,7 @@ def first_code(lines: Sequence[str]) -> str:
 
 
 def cut(line: str) -> str:
-    """Return a line without its comment at the end, and not too long to be told."""
+    """Return a line without its comment at the end, cut to the length of a quote."""
     text = line.strip()
     if '"' not in text and "'" not in text:
         text = text.partition("  #")[0].rstrip()
@@ -251,7 +250,7 @@ def given_pieces(text: str) -> dict[str, Piece]:
 
 
 def with_markers(found: dict[str, Piece], text: str) -> dict[str, Piece]:
-    """Return the pieces with the last region in each, which may stand behind its last statement."""
+    """Return the pieces, each with a last region after its last statement."""
     lines = text.splitlines()
     regions = sorted(read_regions(text)[0], key=lambda each: each.start)
     code = list(accumulate(map(is_code, lines), initial=0))  # lines of code before each line
@@ -266,7 +265,7 @@ def with_last_region(
     for number in range(first, len(regions)):
         region = regions[number]
         if region.start >= stop and code[stop] < code[region.start]:
-            break  # so is it with all that follow
+            break  # the regions that follow are further down
         if indent_of(lines[region.start]) > indent_of(lines[piece.start]):
             stop = max(stop, region.stop + 1)
     return replace(piece, stop=stop)
@@ -277,7 +276,7 @@ def indent_of(line: str) -> int:
 
 
 def pieces(body: Iterable[ast.stmt], owner: str = "") -> dict[str, Piece]:
-    """Return functions, constants and classes by name; of two the last, as Python does."""
+    """Return functions, constants and classes by name; of two, the last one counts."""
     found: dict[str, Piece] = {}
     for node in body:
         start, stop = first_line(node) - 1, node.end_lineno or node.lineno
@@ -299,13 +298,13 @@ def first_line(node: ast.stmt) -> int:
 
 
 def names_in(target: ast.expr) -> str:
-    """Return `WIDTH` or `WIDTH, HEIGHT`; nothing for what is no name."""
+    """Return `WIDTH` or `WIDTH, HEIGHT`; empty for other targets."""
     each = target.elts if isinstance(target, ast.Tuple) else [target]
     return ", ".join(filter(None, map(dotted_name, each)))
 
 
 def meaning_of(lines: Sequence[str]) -> str:
-    """Return the same for two pieces that do the same, whatever layout and comments."""
+    """Return a text that is equal for two pieces that differ in layout and comments alone."""
     body = statements(shifted(lines))
     for node in body:
         if isinstance(node, Definition) and ast.get_docstring(node, clean=False) is not None:
@@ -323,7 +322,7 @@ def shifted(lines: Sequence[str]) -> str:
 
 
 def imports_in(body: Iterable[ast.stmt]) -> Iterator[tuple[str, str, str]]:
-    """Yield each imported name, the module it comes from, and what it is called there."""
+    """Yield each imported name, its module, and its name in the module."""
     for node in body:
         if isinstance(node, ast.Import):
             for each in node.names:
@@ -339,9 +338,9 @@ def imported_names(body: Iterable[ast.stmt]) -> set[str]:
 
 
 def missing_imports(body: list[ast.stmt], given: str, passed_on: bool) -> Iterator[str]:
-    """Yield the given imports of names that this file reads and nothing binds.
+    """Yield the given imports of names that this file reads but does not define.
 
-    Of a file that passes its names on, all of them.
+    Of a file that passes its names on, yield all missing imports.
     """
     bound = imported_names(body) | pieces(body).keys()
     read = {node.id for node in ast.walk(ast.Module(body, [])) if isinstance(node, ast.Name)}
@@ -352,7 +351,7 @@ def missing_imports(body: list[ast.stmt], given: str, passed_on: bool) -> Iterat
 
 
 def end_of_imports(body: list[ast.stmt]) -> int:
-    """Return the index of the line behind the last import, or behind the docstring."""
+    """Return the index of the line after the last import, or after the docstring."""
     ends = [each.end_lineno or 0 for each in body if isinstance(each, ast.Import | ast.ImportFrom)]
     first = body[0]
     doc = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
@@ -360,6 +359,6 @@ def end_of_imports(body: list[ast.stmt]) -> int:
 
 
 def end_of(body: list[ast.stmt], owner: str, count: int) -> int:
-    """Return the index behind the last line of a class, or of the file."""
+    """Return the index after the last line of a class, or of the file."""
     ends = [n.end_lineno or 0 for n in body if isinstance(n, ast.ClassDef) and n.name == owner]
     return ends[-1] if ends else count
