@@ -5,9 +5,9 @@ For programs of your own:
     from grader import CannotGrade, Options, Result, grade, shipped_reference
     from grader import Course, WrongCourse, read_course
 
-`grade(path, options)` takes a folder, an archive or a Python file, as one of a class. It returns a
-`Result`, and raises `CannotGrade`, which says why, where a person must look. It asks all that there
-is, unless `Options(course=read_course())` says otherwise.
+`grade(path, options)` takes a folder, an archive or a Python file. It returns a `Result`, and
+raises `CannotGrade`, with the reason, for a submission that needs manual review. It grades all
+TODOs, unless `Options(course=read_course())` names fewer.
 """
 
 from importlib import import_module
@@ -47,7 +47,7 @@ MODULES = {
 
 
 def __getattr__(name: str) -> object:
-    """Load the judge only when it is asked for: children of the worker import this package too."""
+    """Load the judge when it is first needed: children of the worker import this package too."""
     if name not in MODULES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     module = MODULES[name]

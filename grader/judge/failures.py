@@ -1,4 +1,4 @@
-"""Define how a check fails: the exceptions that carry the words of its result."""
+"""Define the exceptions by which a check fails, with the words of its result."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ REMEMBERS = (
     "earlier calls, or on chance. The answer must follow from what is given to this call alone."
 )
 TRESPASS = "{name} must leave everything as it is but what its docstring names."
-ENDLESS = "it used up its"  # how the words of a check begin that ran out of processor time
+ENDLESS = "it used up its"  # the first words about a check that ran out of processor time
 MOST_NAMES = 3  # in one sentence
 KEPT = (
     "Something is kept from call to call in {names}: an answer that hangs on it is another one "
@@ -35,20 +35,20 @@ class Broke(Exception):
     ) -> None:
         super().__init__(got)
         self.ran, self.got, self.raised = ran, got, raised
-        self.late = late  # it had no time left, which is all that `got` says
+        self.late = late  # its time was over; then `got` has no words of the submission
 
 
 @dataclass(frozen=True)
 class Failing:
-    """A failed check: what ran last, and the pieces of the reference that stood in."""
+    """A failed check, to run it once more."""
 
     todo: Todo
     check: Check
-    again: Callable[..., None]  # takes a lab
-    pieces: list[Piece]
+    again: Callable[..., None]  # runs the example that failed, in a lab
+    pieces: list[Piece]  # of the reference
     secret: str | None = None  # see secret_of
 
 
 def secret_of(seed: int | None, todo: Todo, check: Check) -> str | None:
-    """Return what the numbers of a check are drawn by; None where they are the usual ones."""
+    """Return the text that decides about a check's numbers; None for the usual ones."""
     return None if seed is None else f"{seed} {todo.id} {check.id}"

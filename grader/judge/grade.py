@@ -41,23 +41,24 @@ KIT = Path(__file__).parents[2]
 
 @dataclass(frozen=True)
 class Options:
-    """Options of a grade; without any, those of a student's copy, which has no reference.
+    """Options of a grade; the defaults are those of a student's copy, which has no reference.
 
-    `reference`: a complete tree, whose functions stand in for a submission's unfinished ones;
-    `shipped_reference()` is the one that `make grade` takes. With None, checks that need an
-    unfinished TODO wait for it.
-    `course`: what is asked, and for how many points; without one, all that there is.
-    `isolation`: "auto" confines as well as this machine can and refuses to grade where files would
-    be open, "strict" also where some may be read or the network is open, "none" confines nothing.
-    `trusted`: it is one's own work, and graded with what confinement there is.
+    `reference`: a complete tree, whose functions replace a submission's unfinished ones;
+    `shipped_reference()` is the one of `make grade`. With None, checks that need an unfinished TODO
+    wait for it.
+    `course`: the TODOs and their points; by default all of them.
+    `isolation`: "auto" confines as well as this machine can, and refuses to grade if files would be
+    open to writing; "strict" also if some can be read or the network is open; "none" confines
+    nothing.
+    `trusted`: it is one's own work, and graded with as much isolation as there is.
     `mends`: name the line in which one change makes a failed check pass, which takes seconds; for
     `trusted` work alone.
     `only`: the ids of the TODOs to grade, such as "4" or "7a"; empty for all.
-    `seed`: an instructor's secret, for other examples in the property checks than the fixed ones.
-    `spawn`: start each child anew, as on platforms without fork. Slower, and the same marks.
-    `progress`: called with each check as it ends. What it raises ends the grade.
+    `seed`: an instructor's secret, which changes the examples and numbers of the checks.
+    `spawn`: start a new process for each child, as on platforms without fork. It changes no mark.
+    `progress`: called with each check as it ends. An exception in it ends the grade.
     `jobs`: how many checks run at a time. It changes no mark.
-    `passed`: the programs that have passed and need not run again; for `trusted` work alone.
+    `passed`: programs that have passed and need not run again; for `trusted` work alone.
     """
 
     reference: Path | None = None
@@ -80,7 +81,7 @@ DEFAULT_OPTIONS = Options()
 
 
 def shipped_reference() -> Path | None:
-    """Return the solution beside the grader, where the whole kit is checked out."""
+    """Return the solution beside the grader; None in a copy without one."""
     folder = KIT / "solution"
     return folder if (folder / "mini_engine").is_dir() else None
 
@@ -90,39 +91,39 @@ def grade(
 ) -> Result:
     """Grade the submission at `path`, a folder or a Python file.
 
-    A full grade takes seconds; the same submission and options always give the same marks. What
-    cannot be imported or does not end is graded, with the reason. Raises CannotGrade, with a
-    sentence that says what to do, when there is nothing to grade or not as the options ask.
+    A full grade takes seconds; the same submission and options always give the same marks. A
+    program that cannot be imported or does not end is graded, with the reason. Raises CannotGrade,
+    with a sentence that says what to do, if there is nothing to grade or isolation is missing.
 
-    A `worker` that is handed in, from `start_worker`, serves more than one grade and stays open.
+    A `worker` from `start_worker` can serve several grades, and stays open.
     """
-    with grading(Path(path), options, worker) as ours:
-        return ours.run()
+    with grading(Path(path), options, worker) as run:
+        return run.run()
 
 
 @contextmanager
 def grading(
     path: Path, options: Options, worker: Worker | None = None, rubric: Rubric | None = None
 ) -> Iterator["Grading"]:
-    """Set up what it takes to grade the submission at `path`, by another rubric if given."""
+    """Take in the submission at `path`, and prepare to grade it by a rubric."""
     rubric = rubric or options.course.rubric
     reference = Reference(options.reference, load_rubric())
     with work_folder() as work:
         submission = take_in(path, work / "submission", load_rubric(), load_stubs())
-        ours = worker or start_worker(options.spawn)
+        used = worker or start_worker(options.spawn)
         if options.jobs > 1:
-            ours.helpers(options.jobs - 1)  # to load meanwhile
+            used.helpers(options.jobs - 1)  # they load meanwhile
         try:
-            sandbox = sandbox_for(submission, work, ours, options)
+            sandbox = sandbox_for(submission, work, used, options)
             yield Grading(options, rubric, reference, submission, sandbox)
         finally:
             if worker is None:
-                ours.close()
+                used.close()
 
 
 @contextmanager
 def opened(tree: Path) -> Iterator[Callable[[int], Child]]:
-    """Yield a way to open children of a tree as it is, without grading it."""
+    """Yield a function that opens children of a tree as it is, without grading it."""
     with work_folder() as work:
         worker = start_worker()
         try:
@@ -133,7 +134,7 @@ def opened(tree: Path) -> Iterator[Callable[[int], Child]]:
 
 
 def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) -> Sandbox:
-    """Return the sandbox of a tree, out of whose reach the grader and the reference are."""
+    """Return the sandbox of a tree, which cannot reach the grader and the reference."""
     hidden = [str(KIT / "grader"), str(options.reference or KIT / "solution")]
     return Sandbox(
         tree.folder,
@@ -148,10 +149,9 @@ def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) 
 
 
 def as_in_reference(tree: Path, reference: Path | None) -> list[str]:
-    """Return the folders of a tree that hold no program and are just as the reference has them.
+    """Return the handed-out folders of a tree that hold no program, such as engines to import.
 
-    They were handed out to be used. A folder of the student's own, which a program may write to, is
-    never among them.
+    Children need no copy of them. Their files are those of the reference, and no others.
     """
     if reference is None or os.name != "posix":  # Windows may not allow a link
         return []
@@ -166,13 +166,13 @@ def as_in_reference(tree: Path, reference: Path | None) -> list[str]:
 
 def has_same_files(folder: Path, other: Path) -> bool:
     """Return whether a folder holds the same Python files as another, and nothing else."""
-    ours = {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
-    return ours == {p.relative_to(other): p.read_bytes() for p in python_files(other)}
+    files = {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+    return files == {p.relative_to(other): p.read_bytes() for p in python_files(other)}
 
 
 @cache
 def load_stubs() -> dict[str, str]:
-    """Return the shapes of the starter's stubs: of each region, and of the function around it."""
+    """Return the shapes of the stubs' regions, and of the functions around them."""
     return {name: shape_of(source) for name, source in handed_out().stubs.items()}
 
 
@@ -346,7 +346,7 @@ def charge_whole(loop: "CheckLoop", blamed: Blamed) -> None:
 
 
 def count_guards(todo: Todo, checks: list[CheckResult]) -> list[CheckResult]:
-    """Give no points for a check that a stub passes as well, unless another one passes too."""
+    """Give no points for checks that a stub passes as well, unless another one passes too."""
     guards = {check.id for check in todo.checks if check.guard}
     if any(check.state == "passed" and check.id not in guards for check in checks):
         return checks
@@ -360,7 +360,7 @@ def count_guards(todo: Todo, checks: list[CheckResult]) -> list[CheckResult]:
 
 
 def pass_for_others(wrong: list[str], check: CheckResult) -> CheckResult:
-    """Return a check as passed that failed where other TODOs are wrong; as it is if none is."""
+    """Return a check as passed if it failed for other TODOs, which are wrong; else unchanged."""
     if not wrong or not check.failed:
         return check
     meaning = (
@@ -371,7 +371,7 @@ def pass_for_others(wrong: list[str], check: CheckResult) -> CheckResult:
 
 
 def as_passed(check: CheckResult, meaning: str) -> CheckResult:
-    """Return a failed check that counts all the same, with the sentence that says why."""
+    """Return a failed check as passed, with a sentence that says why."""
     return structs.replace(
         check, state="passed", points=check.max_points, expected="", got="", meaning=meaning
     )

@@ -1,14 +1,11 @@
-"""Cutting Python files: what is not needed goes, what stays is kept letter by letter.
-
-A property draws its examples from its own source text, so the text of a check must not change.
-"""
+"""Cut unneeded definitions out of Python files; the others stay letter by letter."""
 
 import ast
 from collections.abc import Collection, Iterable, Iterator
 
 
 def pruned(source: str, roots: Iterable[str]) -> str:
-    """Return the source without the definitions and imports that none of the `roots` leads to."""
+    """Return the source without the definitions and imports that the `roots` do not need."""
     tree = ast.parse(source)
     definitions = {name: node for node in tree.body for name in defined(node)}
     wanted = set(roots).union(*(used(node) for node in tree.body if not defined(node)))
@@ -31,7 +28,7 @@ def pruned(source: str, roots: Iterable[str]) -> str:
 
 
 def with_bodies(source: str, bodies: dict[str, str]) -> str:
-    """Strip functions of their decorators, and put these lines in place of their bodies."""
+    """Remove the decorators of functions, and replace their bodies by these lines."""
     changes: dict[ast.stmt, str] = {}
     for node in ast.parse(source).body:
         if isinstance(node, ast.FunctionDef) and node.name in bodies:
@@ -91,7 +88,7 @@ def used(node: ast.AST) -> set[str]:
 
 
 def prune_modules(sources: dict[str, str], roots: dict[str, set[str]]) -> dict[str, str]:
-    """Return the modules that the roots lead to, each without what nothing there leads to.
+    """Return the modules that the roots need, each without unneeded definitions.
 
     `sources` are texts by the modules' full names, and `roots` names in some of them.
     """
@@ -110,7 +107,7 @@ def prune_modules(sources: dict[str, str], roots: dict[str, set[str]]) -> dict[s
 def list_uses(source: str, modules: Collection[str]) -> Iterator[tuple[str, str]]:
     """Yield the names that a file takes from these modules, each with its module.
 
-    A module that is imported itself has the empty name, and what is asked of it as an attribute.
+    A module that is imported itself yields the empty name, and each attribute that is used.
     """
     tree = ast.parse(source)
     bound: dict[str, str] = {}  # names of modules in the file

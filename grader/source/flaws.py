@@ -1,6 +1,6 @@
-"""Finds what Python refuses in a file, and says what to do about it.
+"""Find code that Python refuses in a file, and say what to do about it.
 
-The judge's own Python decides. A line that only a newer one understands is said to be so.
+The judge's own Python decides. The advice names syntax that only a newer Python has.
 """
 
 import ast
@@ -14,13 +14,13 @@ from io import BytesIO
 
 from grader.source.regions import CHAIN, MAX_SOURCE, is_usual, number_lines
 
-UNDECODED = "\ufffd"  # what stands in a text for bytes that are none
+UNDECODED = "\ufffd"  # replaces bytes that are no text
 UNUSUAL = "the file says that it is in {encoding}: save it as UTF-8, and leave that out"
 MAX_LINE = 80  # characters of a line that are quoted
-MAX_SAID = 300  # characters of Python's words: they may quote a name of any length
+MAX_SAID = 300  # characters of Python's message: it may quote a name of any length
 Version = tuple[int, int]
 
-# Syntax by the first Python that has it, and what says the same in an older one.
+# Syntax by the first Python that has it, and how to write the same in an older one.
 NEWER: tuple[tuple[Version, re.Pattern[str], str], ...] = (
     ((3, 12), re.compile(r"^\s*type\s+\w+\s*(\[.*\])?\s*="), "leave out the word type"),
     ((3, 12), re.compile(r"^\s*(async\s+)?(def|class)\s+\w+\["), "leave out the [...]"),
@@ -37,8 +37,7 @@ NEWER: tuple[tuple[Version, re.Pattern[str], str], ...] = (
 
 ELSE_IF = re.compile(r"\belse if\b")
 
-# What to do, by what Python says.
-ADVICE = (
+ADVICE = (  # by a part of Python's message
     (r"was never closed", "Add the bracket that is missing there."),
     (r"unmatched|does not match opening", "Remove that bracket, or add its partner."),
     (r"unterminated", "Add the quote that ends the text."),
@@ -54,13 +53,13 @@ LOOK = "Look at this line and the one above: a sign may be missing, or one too m
 
 @dataclass(frozen=True)
 class Flaw:
-    """Something that Python refuses: where it says so, and its words."""
+    """A line that Python refuses, and its message."""
 
     line: int
     message: str
     text: str = ""  # the line
     file: str = ""
-    undecoded: bool = False  # its bytes are no text
+    undecoded: bool = False  # the file's bytes are no text
 
     @property
     def words(self) -> str:
@@ -85,10 +84,10 @@ class Flaw:
 
 
 def find_flaw(text: str) -> Flaw | None:
-    """Return the first thing in a text that Python refuses; None where it accepts all.
+    """Return the first line of a text that Python refuses; None if it accepts all.
 
-    A text too long to be parsed has none. Nothing is compiled: a compiler can be made to work
-    for hours. So of the errors that only a compiler finds, the usual ones are looked for.
+    A text that is too long counts as accepted. It is parsed and not compiled, since compiling can
+    take hours: of the errors that only a compiler finds, the usual ones are looked for.
     """
     if len(text) > MAX_SOURCE or CHAIN.search(text):
         return None
@@ -114,7 +113,7 @@ def flaw_at(text: str, line: int, message: str) -> Flaw:
 
 
 def misplaced(tree: ast.Module) -> Iterator[tuple[int, str]]:
-    """Yield the lines of statements outside the block that they need, and why."""
+    """Yield the lines of statements outside the block that they need, with a message."""
     waiting: list[tuple[ast.AST, bool, bool]] = [(tree, False, False)]
     while waiting:
         node, in_function, in_loop = waiting.pop()

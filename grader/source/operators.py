@@ -1,7 +1,7 @@
-"""Make small changes to a piece of code: swap, drop, shift or negate one thing at a time.
+"""Make small changes to code: swap, drop, shift or negate one thing at a time.
 
-Each operator looks at one node of the syntax tree and offers others in its place. The result is
-code that a hurried student could have written, and that a good check should notice.
+Each operator takes one node of the syntax tree and yields others for its place. The result is code
+that a hurried student could have written, and that a good check should notice.
 """
 
 import ast
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 Code = list[ast.stmt]
-Offer = ast.AST | Code  # what stands in the place of one node
+Offer = ast.AST | Code  # for the place of one node
 Operator = Callable[[ast.AST, frozenset[str]], Iterator[Offer]]
 
 ARITHMETIC: dict[type[ast.operator], type[ast.operator]] = {

@@ -12,23 +12,23 @@ from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 
-# No lesson file comes near these. What is parsed takes up to a thousand times its length in memory.
+# The lesson's files are much smaller. A parsed text takes up to a thousand times its length.
 MAX_SOURCE = 128 * 1024  # bytes of a file
-MAX_SHAPE = 32 * 1024  # characters of a region or function of which more is kept than the text
+MAX_SHAPE = 32 * 1024  # characters of a region or function that is parsed
 # Fifty names with dots between them: in an import, Python's parser keeps each beginning of these.
 CHAIN = re.compile(r"(?:\.[\s\\]*+\w++[\s\\]*+){50}")
-# Encodings of text that editors write; others may cost more than their length to read.
+# Encodings that editors write; others may take long to read.
 USUAL = re.compile(r"iso8859-\d+|cp\d+|koi8-[ru]|mac-\w+|gb\w+|big5\w*|shift_jis\w*|euc_\w+")
 TODO_ID = r"[0-9]+[a-z]?|B[0-9]+"  # the ids of TODOs, here and nowhere else
 START = re.compile(rf"[ \t]*# TODO (?P<id>{TODO_ID}): (?P<task>\S.*)$")
 END = re.compile(rf"[ \t]*# END TODO (?P<id>{TODO_ID})\s{{0,80}}$")
-# What is meant for a marker: an id with a colon, or at the end.
+# A mistyped marker: an id with a colon, or at the end.
 MEANT = re.compile(
     r"[ \t]*# ?(?:TODO ?(?=\w*[0-9])\w++:|END ?TODO ?(?=\w*[0-9])\w++\s{0,80}$)", re.IGNORECASE
 )
-# What ends a line for `str.splitlines` and not for Python, which refuses it outside of texts.
+# Characters that end a line for `str.splitlines` and not for Python, which refuses them in code.
 NO_END = dict.fromkeys(map(ord, "\v\x1c\x1d\x1e\x85\u2028\u2029"), "\u2424")
-# A space to Python, and at the start of a line nothing, with what stands before it.
+# Python reads it as a space, and at the start of a line as nothing, with the spaces before it.
 PAGE_BREAK = re.compile(r"(?P<start>^[ \t\f]*\f)|\f", re.MULTILINE)
 
 
@@ -44,16 +44,16 @@ class Region:
     task: str
     start: int
     stop: int
-    lines: tuple[str, ...]  # between the markers, as they stand
+    lines: tuple[str, ...]  # between the markers
 
     @property
     def shape(self) -> str:
-        """Return the region's code without comments and layout; its text if no Python."""
+        """Return the region's code without comments and layout; its text if it is no Python."""
         return shape_of("\n".join(self.lines))
 
 
 def shape_of(source: str) -> str:
-    """Return a text that is equal for two pieces of code if they differ in layout alone."""
+    """Return a text that is equal for two pieces of code that differ in layout alone."""
     text = textwrap.dedent(source)
     tree = parsed(text, MAX_SHAPE)
     with suppress(ValueError, RecursionError, MemoryError):
@@ -62,9 +62,9 @@ def shape_of(source: str) -> str:
 
 
 def parsed(text: str, most: int = MAX_SOURCE) -> ast.Module | None:
-    """Return the tree of a source text; None where it is no Python, or longer than any program's.
+    """Return the tree of a source text; None if it is no Python, or too long.
 
-    The judge parses what students wrote here and nowhere else.
+    The judge parses students' code here and nowhere else.
     """
     if len(text) > most or CHAIN.search(text):
         return None
@@ -78,8 +78,8 @@ def parsed(text: str, most: int = MAX_SOURCE) -> ast.Module | None:
 def regions_in(text: str, file: str = "") -> list[Region]:
     """Return the regions of a file in order.
 
-    Raises RegionError, which names the file and the line, for markers that do not pair up, that
-    are nested, or that are not written as markers are.
+    Raises RegionError, with the file and the line, for markers that are mistyped, nested, or do not
+    pair up.
     """
     found, wrong = read_regions(text)
     if wrong:
@@ -89,7 +89,7 @@ def regions_in(text: str, file: str = "") -> list[Region]:
 
 
 def read_regions(text: str) -> tuple[list[Region], list[tuple[int, str]]]:
-    """Return the regions of a file that pair up, and by line what is wrong with other markers."""
+    """Return the regions of a file, and the faults of markers that do not pair up, by line."""
     found: dict[str, Region] = {}
     wrong: list[tuple[int, str]] = []
     lines = text.splitlines() if "TODO" in text else []
@@ -137,26 +137,26 @@ def python_files(tree: Path) -> Iterator[Path]:
 
 
 def read_source(path: Path) -> str:
-    """Return a file as text, whatever its bytes: BOM, CRLF and bad encodings included."""
+    """Return a file as text, also with a BOM, CRLF or bytes of another encoding."""
     data = path.read_bytes()
     return number_lines(data.decode(encoding_of(data), "replace").replace("\r\n", "\n"))
 
 
 def number_lines(text: str) -> str:
-    """Return a source text in which lines have the same numbers for Python and `splitlines`."""
+    """Return a source text whose lines have the same numbers for Python and `splitlines`."""
     text = text.translate(NO_END)
     return PAGE_BREAK.sub(lambda found: " " if found["start"] is None else "", text)
 
 
 def encoded(text: str) -> bytes:
-    """Return a source's bytes as Python will read them: in the encoding that it declares."""
+    """Return a source's bytes in the encoding that it declares."""
     data = text.encode("utf-8", "replace")
     encoding = encoding_of(data)
     return data if encoding == "utf-8-sig" else text.encode(encoding, "replace")
 
 
 def encoding_of(data: bytes) -> str:
-    """Return the encoding that a source declares (PEP 263), and UTF-8 where it is no usual one."""
+    """Return the encoding that a source declares (PEP 263), or UTF-8 if that is unusual."""
     try:
         declared, _ = tokenize.detect_encoding(BytesIO(data).readline)
         name = codecs.lookup(declared).name
@@ -166,6 +166,6 @@ def encoding_of(data: bytes) -> str:
 
 
 def is_usual(encoding: str) -> bool:
-    """Return whether an encoding is UTF-8 or an editor's; others hide code, or take long."""
+    """Return whether an encoding is UTF-8 or another that editors write."""
     name = codecs.lookup(encoding).name
     return name in ("utf-8", "utf-8-sig", "ascii") or USUAL.fullmatch(name) is not None

@@ -1,9 +1,9 @@
-"""Puts something else in the place of the code that Python refuses, so that the rest can run.
+"""Replace code that Python refuses, so that the rest can run.
 
-A file with one missing bracket is no Python at all, and neither is a program that imports it. So
-parts of it are replaced until it parses: TODO regions by what was handed out, one at a time and
+Python refuses the whole of a file with one missing bracket, and each program that imports it. So
+parts of it are replaced until it parses: TODO regions by the handed-out stubs, one at a time and
 then several; other functions by the given ones; then all of the file but its regions. Lines keep
-their numbers wherever that is possible.
+their numbers if possible.
 """
 
 import ast
@@ -19,7 +19,7 @@ from grader.source.given import given_pieces, pieces, with_regions
 from grader.source.regions import parsed, read_regions, regions_in, replaced
 
 MAX_REPAIR = 4 * 1024 * 1024  # characters that are parsed to repair one submission
-MAX_FUNCTIONS = 200  # of a file that are looked at
+MAX_FUNCTIONS = 200  # of a file
 NEAREST = 8  # parts of a file that are replaced in pairs
 REFUSED = "\0"  # no file of Python may have one
 OUTSIDE = ""  # in the place of a TODO's id: the flaw is in no TODO
@@ -33,10 +33,9 @@ CLOSES = re.compile(r"[ \t]*[)\]}]")
 
 @dataclass(frozen=True)
 class HandedOut:
-    """The code that students were given: files by name, and stubs by the ids of TODOs.
+    """The given code: files by name, stubs by TODO, and the path of each TODO's function.
 
     `stubs` has the region of a TODO under its id, and the function around it under `def ID`.
-    `functions` has the path of each TODO's function, such as World.apply_damping.
     """
 
     files: Mapping[str, str]
@@ -46,23 +45,23 @@ class HandedOut:
 
 @dataclass(frozen=True)
 class Patch:
-    """Lines that can stand in the place of some lines of a file."""
+    """Lines that can replace some lines of a file."""
 
     start: int
     stop: int
     lines: tuple[str, ...]
-    todo: str = OUTSIDE  # whose code is replaced
-    invented: bool = False  # it was never handed out
+    todo: str = OUTSIDE  # the TODO whose code is replaced
+    invented: bool = False  # the new lines are no given code
 
     def distance(self, line: int) -> tuple[bool, int]:
-        """Return how far this piece ends from a line; one that begins after the line is far."""
+        """Return a sort key for the distance from a line; a patch after the line comes last."""
         index = line - 1
         return self.start > index, 0 if self.start <= index < self.stop else abs(index - self.stop)
 
 
 @dataclass(frozen=True)
 class Repaired:
-    """A file's text that Python accepts, and what was wrong with it, by the ids of TODOs."""
+    """A file's text that Python accepts, and the flaws that it had, by the ids of TODOs."""
 
     text: str
     flaws: Mapping[str, Flaw]
@@ -76,7 +75,7 @@ class Repairer:
     read: int = field(default=0, init=False)
 
     def repair(self, flaw: Flaw, text: str) -> Repaired | None:
-        """Return the file with as little replaced as possible; None where nothing helps."""
+        """Return the file with as few parts replaced as possible; None if nothing helps."""
         file = flaw.file
         patches = [*self._patches(file, text), *line_patches(text, flaw)]
         original = self.given.files.get(file)
@@ -96,7 +95,7 @@ class Repairer:
         )
 
     def _by_given_file(self, text: str, flaw: Flaw, original: str) -> Repaired | None:
-        """Keep only the regions; a TODO that has none any more is handed out anew."""
+        """Keep only the regions; a TODO without a region gets its stub."""
         regions = {region.id: region.lines for region in read_regions(text)[0]}
         base = replaced(original, regions)
         lost = {region.id: flaw for region in regions_in(original) if region.id not in regions}
@@ -131,7 +130,7 @@ class Repairer:
         self.read += len(text)
         return find_flaw(text)
 
-    # ------------------------------------------------------------ what can be replaced
+    # ------------------------------------------------------------ parts that can be replaced
 
     def _patches(self, file: str, text: str) -> Iterator[Patch]:
         """Yield the parts of a file that can be replaced, regions first."""
@@ -163,7 +162,7 @@ class Repairer:
     def _given_function(
         self, file: str, module: str, path: str, theirs: Sequence[str]
     ) -> str | None:
-        """Return a given function with their regions in it; a single file has those of all."""
+        """Return a given function with the student's regions; a single file has all functions."""
         own = file in self.given.files
         for name, text in self.given.files.items():
             if name != file and (own or name.partition("/")[0] != module):
@@ -177,7 +176,7 @@ class Repairer:
 
 
 def choices(text: str, flaw: Flaw, patches: list[Patch]) -> Iterator[list[Patch]]:
-    """Yield which parts to replace together, the likely ones first."""
+    """Yield the parts to replace together, the likely ones first."""
     near = sorted(patches, key=lambda each: (each.todo == OUTSIDE, each.distance(flaw.line)))
     lines = text.splitlines()
     bad = [p for p in near if p.todo and is_no_code(lines[p.start : p.stop])]
@@ -199,7 +198,7 @@ def is_no_code(lines: Sequence[str]) -> bool:
 
 
 def apart(patches: Sequence[Patch]) -> bool:
-    """Return whether no patch reaches into another one."""
+    """Return whether no patches overlap."""
     order = sorted(patches, key=lambda each: each.start)
     return all(a.stop <= b.start for a, b in pairwise(order))
 
@@ -212,14 +211,14 @@ def patched(text: str, patches: Sequence[Patch]) -> str:
 
 
 def lacks_given(text: str, chosen: Sequence[Patch], original: str | None) -> bool:
-    """Return whether an invented function leaves a given file without some of its names."""
+    """Return whether an invented function hides names of a given file."""
     if original is None or not any(each.invented for each in chosen):
         return False
     return not given_pieces(original).keys() <= pieces(statements(text)).keys()
 
 
 def within(patch: Patch, text: str, flaw: Flaw) -> Flaw:
-    """Return the flaw at a line of the replaced code: Python may notice it further down."""
+    """Return the flaw with a line of the replaced code: Python may notice it further down."""
     if patch.start < flaw.line <= patch.stop or not patch.todo:
         return flaw
     lines = text.splitlines()
@@ -230,7 +229,7 @@ def within(patch: Patch, text: str, flaw: Flaw) -> Flaw:
 
 
 def flaw_in(text: str, todo: str) -> Flaw | None:
-    """Return what is wrong inside a region, at its line in the file."""
+    """Return the flaw of a region, with its line in the file."""
     for region in read_regions(text)[0]:
         if region.id == todo:
             own = textwrap.indent(textwrap.dedent("\n".join(region.lines)), "    ")
@@ -240,7 +239,7 @@ def flaw_in(text: str, todo: str) -> Flaw | None:
 
 
 def line_patches(text: str, flaw: Flaw) -> Iterator[Patch]:
-    """Yield patches of a single line: the one that Python complains of, and the first one."""
+    """Yield patches of a single line: the one that Python refuses, and the first one."""
     lines = text.splitlines()
     for index in dict.fromkeys((flaw.line - 1, 0)):
         line = lines[index]
@@ -249,14 +248,14 @@ def line_patches(text: str, flaw: Flaw) -> Iterator[Patch]:
         yield Patch(index, index + 1, (indented(new, line),), invented=True)
 
 
-# ---------------------------------------------------------------- reading what is no Python
+# ---------------------------------------------------------------- finding functions by layout
 
 
 def functions_in(lines: Sequence[str]) -> Iterator[tuple[str, int, int]]:
-    """Yield each function's path and the indices of its lines, as far as the layout tells.
+    """Yield each function's path and the indices of its lines, by the layout of the text.
 
-    A function ends where the next one begins, or where a line stands further to the left. A line
-    of it may do so by mistake, so each is found twice where these differ.
+    A function ends where the next one begins, or at a line further to the left. Such a line may be
+    a mistake: if the two ends differ, yield the function with both.
     """
     owner, inside = "", -1
     for number, line in enumerate(lines):
@@ -287,7 +286,7 @@ def stands_left(line: str, indent: int) -> bool:
     return bool(text) and len(line) - len(line.lstrip()) <= indent and not CLOSES.match(line)
 
 
-# ---------------------------------------------------------------- what stands in
+# ---------------------------------------------------------------- new lines
 
 
 def without_docstring(source: str) -> ast.stmt:
@@ -308,6 +307,6 @@ def indented(source: str, like: str) -> str:
 
 
 def fitted(source: str, count: int) -> tuple[str, ...]:
-    """Return the lines of a source with empty ones behind them, so that there are as many."""
+    """Return the lines of a source, filled up with empty ones to `count` lines."""
     lines = source.splitlines()
     return (*lines, *[""] * (count - len(lines)))
