@@ -15,6 +15,7 @@ from typing import Protocol
 import msgspec
 import psutil
 
+from grader.judge.processes import end_family
 from grader.protocol import (
     ENVIRONMENT,
     NOT_A_MESSAGE,
@@ -408,11 +409,7 @@ class WarmWorker:
     def _kill(self) -> None:
         """End the process with all its children, whatever state they are in."""
         self.control.close()
-        with suppress(psutil.NoSuchProcess):
-            for process in psutil.Process(self.process.pid).children(recursive=True):
-                with suppress(psutil.NoSuchProcess):
-                    process.kill()
-        self.process.kill()
+        end_family(self.process.pid)
         self.process.wait()
 
     def close(self) -> None:
@@ -481,19 +478,13 @@ class SpawnWorker:
         if gone:
             with suppress(subprocess.TimeoutExpired):
                 process.wait(0.5)
-        left = []
         with suppress(psutil.Error):
             times = psutil.Process(process.pid).cpu_times()
             child.cpu = times.user + times.system
-        with suppress(psutil.NoSuchProcess):
-            left = psutil.Process(process.pid).children(recursive=True)
+        end_family(process.pid)
         if hasattr(os, "killpg"):
             with suppress(ProcessLookupError, PermissionError):
                 os.killpg(process.pid, 9)
-        for each in left:
-            with suppress(psutil.NoSuchProcess):
-                each.kill()
-        process.kill()
         code = process.wait()
         child.cpu = max(child.cpu, reaped_seconds() - reaped)
         return code

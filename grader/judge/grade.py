@@ -186,8 +186,7 @@ class Grading:
     submission: Submission
     sandbox: Sandbox
     surveys_all: bool = False  # run each check to its end, to collect all that it may ask
-    failing: dict[Key, Failing] = field(default_factory=dict)  # failed checks, for replays
-    observations: dict[str, list[Observation]] = field(default_factory=dict)  # answers, by TODO
+    loop: "CheckLoop" = field(init=False)  # once it runs
 
     def run(self) -> Result:
         """Run the checks, give back points that changed given code cost, and word the failures."""
@@ -197,21 +196,25 @@ class Grading:
         from grader.judge.loop import CheckLoop
         from grader.judge.reasons import Reasons
 
-        loop = CheckLoop(self)
-        loop.run()
-        blamed = self.put_given_code_back(loop)
-        reasons = Reasons(self, loop, blamed)
-        todos = [todo for todo in self.rubric.todos if self.options.wants(todo)]
-        self.failing = {key: each.failing for key, each in loop.outcomes.items() if each.failing}
-        self.observations = {todo.id: loop.list_observations(todo.id) for todo in todos}
-        return self.make_result(todos, loop, reasons)
+        self.loop = CheckLoop(self)
+        self.loop.run()
+        blamed = self.put_given_code_back()
+        return self.make_result(Reasons(self, self.loop, blamed))
 
-    def make_result(self, todos: list[Todo], loop: "CheckLoop", reasons: "Reasons") -> Result:
+    @property
+    def failing(self) -> dict[Key, Failing]:
+        """Return the failed checks, for replays."""
+        return {key: each.failing for key, each in self.loop.outcomes.items() if each.failing}
+
+    @property
+    def observations(self) -> dict[str, list[Observation]]:
+        """Return all answers of the submission, by TODO."""
+        return {todo.id: self.loop.list_observations(todo.id) for todo in self.rubric.todos}
+
+    def make_result(self, reasons: "Reasons") -> Result:
         """Return the marks, and the reasons of the checks that failed."""
-        checks = {
-            todo.id: count_guards(todo, self.pass_spoilt_scenes(todo, loop, reasons))
-            for todo in todos
-        }
+        todos = [todo for todo in self.rubric.todos if self.options.wants(todo)]
+        checks = {todo.id: count_guards(todo, self.pass_spoilt_scenes(todo)) for todo in todos}
         unfinished = {id for id, some in checks.items() if state_of(some) != "passed"}
         nothing = Result(
             schema=1,
@@ -225,15 +228,15 @@ class Grading:
         results = [make_todo_result(todo, checks[todo.id], reasons, unfinished) for todo in todos]
         return nothing.with_todos(results).in_bounds()
 
-    def put_given_code_back(self, loop: "CheckLoop") -> Mapping[Key, Blamed]:
-        """Run failed checks with changed given code undone; return what they depend on.
+    def put_given_code_back(self) -> Mapping[Key, Blamed]:
+        """Run failed checks with changed given code undone; return the changes that matter.
 
-        A TODO's own check that passes then has passed.
+        If a TODO's own check passes then, it counts as passed.
         """
-        failed = loop.failed
-        unusable = loop.unusable.values()
+        loop, failed = self.loop, self.loop.failed
         if not failed:
             return {}
+        unusable = loop.unusable.values()
         given = attempt(lambda: find_changes(self.submission, unusable), list[Changed]())
         if not given:
             return {}
@@ -261,16 +264,14 @@ class Grading:
             charge_whole(loop, costly[0])
         return blame.found
 
-    def pass_spoilt_scenes(
-        self, todo: Todo, loop: "CheckLoop", reasons: "Reasons"
-    ) -> list[CheckResult]:
+    def pass_spoilt_scenes(self, todo: Todo) -> list[CheckResult]:
         """Return the results of a TODO; a scene that another TODO spoils counts as the rest does.
 
-        That is where no right version could replace the other TODO, as in a program that has
-        another function for it or none. Of the whole, the rest are checks without such TODOs.
+        Another TODO spoils a scene if it is wrong and no right version could replace it, as in a
+        program without its function. Of the whole, the rest are checks without such TODOs.
         """
-        results = [loop.outcomes[todo.id, each.id].result for each in todo.checks]
-        wrong = {id for (id, _) in loop.failed if not reasons.was_replaced(id)}
+        results = [self.loop.outcomes[todo.id, each.id].result for each in todo.checks]
+        wrong = {id for (id, _) in self.loop.failed if not self.was_replaced(id)}
         spoilt = [
             sorted(wrong & {*check.runs, *(() if todo.function else check.needs)})
             for check in todo.checks
@@ -280,6 +281,10 @@ class Grading:
         if {each.id for each in rest} <= guards or any(r.state != "passed" for r in rest):
             return results  # nothing of its own is right
         return [pass_for_others(*pair) for pair in zip(spoilt, results, strict=True)]
+
+    def was_replaced(self, todo: str) -> bool:
+        """Return whether a right version of a TODO replaced it."""
+        return bool(self.reference.pieces) and todo in self.submission.functions
 
     @cached_property
     def names(self) -> Names:

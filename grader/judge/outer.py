@@ -31,6 +31,7 @@ from msgspec import Struct
 
 from grader.errors import Stop, say_error
 from grader.judge.children import command
+from grader.judge.processes import end_family
 from grader.judge.workplace import work_folder
 
 try:
@@ -173,15 +174,6 @@ def add_shares(family: Family) -> int:
                 memory = min(memory, int(found[1]) * 1024)
         total += memory
     return total
-
-
-def end_family(pid: int) -> None:
-    """Kill a process and all that it started."""
-    with suppress(psutil.NoSuchProcess):
-        top = psutil.Process(pid)
-        for each in [top, *top.children(recursive=True)]:
-            with suppress(psutil.NoSuchProcess):
-                each.kill()
 
 
 def limit_addresses(allowance: Allowance) -> None:

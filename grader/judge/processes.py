@@ -1,10 +1,22 @@
-"""Prepare the processes that grade side by side."""
+"""Prepare processes that grade side by side, and end processes with all that they started."""
 
 import multiprocessing
 import os
 import signal
 import threading
+from contextlib import suppress
 from typing import NoReturn
+
+import psutil
+
+
+def end_family(pid: int) -> None:
+    """Kill a process and all that it started."""
+    with suppress(psutil.NoSuchProcess):
+        top = psutil.Process(pid)
+        for each in [top, *top.children(recursive=True)]:
+            with suppress(psutil.NoSuchProcess):
+                each.kill()
 
 
 def stop_grading(number: int, _: object) -> NoReturn:

@@ -175,13 +175,14 @@ class Reasons:
         A check of the whole also waits for what it needs and no right version could replace.
         """
         found = {}
-        replaced = {each.id for each in self.grading.rubric.todos if self.was_replaced(each.id)}
+        todos = self.grading.rubric.todos
+        replaced = {each.id for each in todos if self.grading.was_replaced(each.id)}
         if not todo.function:
             replaced &= self.loop.replaceable
         for id, outcome in outcomes.items():
             others = [
                 each.id
-                for each in self.grading.rubric.todos
+                for each in todos
                 if each.id in unfinished - {todo.id}
                 and each.module == outcome.job.module
                 and each.function
@@ -194,10 +195,6 @@ class Reasons:
             if ids and outcome.result.failed:
                 found[id] = ids
         return found
-
-    def was_replaced(self, todo: str) -> bool:
-        """Return whether a right version of a TODO replaced it."""
-        return bool(self.grading.reference.pieces) and todo in self.submission.functions
 
     # ------------------------------------------------------------ the line that one change mends
 

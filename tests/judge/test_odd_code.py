@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from grader.bank.verify import shared_worker
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.source.regions import read_source, replaced
@@ -32,7 +33,7 @@ def graded(folder: Path, code: str) -> Result:
     options = Options(
         shipped_reference(), only=frozenset({"8a", "8b"}), trusted=True
     )  # its prints, too
-    return grade(folder, options)
+    return grade(folder, options, shared_worker())
 
 
 @pytest.mark.parametrize("what", ODD)

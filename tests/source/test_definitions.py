@@ -136,17 +136,9 @@ def follow_names(texts: dict[str, str]) -> None:
         assert all(len(name) <= MAX_NAME for _, name in program.found)
 
 
-@settings(max_examples=50, deadline=None)
-@given(PROGRAMS)
-def test_no_name_is_followed_without_end(texts: dict[str, str]):
-    follow_names(texts)
-
-
-@pytest.mark.soak
-@settings(max_examples=5000, deadline=None)
-@given(PROGRAMS)
-def test_no_name_of_many_programs_is_followed_without_end(texts: dict[str, str]):
-    follow_names(texts)
+@pytest.mark.parametrize("examples", [50, pytest.param(5000, marks=pytest.mark.soak)])
+def test_no_name_is_followed_without_end(examples: int):
+    settings(max_examples=examples, deadline=None)(given(PROGRAMS)(follow_names))()
 
 
 def test_a_function_of_many_names_is_read_once(monkeypatch: pytest.MonkeyPatch):
@@ -166,16 +158,12 @@ def test_a_function_of_many_names_is_read_once(monkeypatch: pytest.MonkeyPatch):
 # ---------------------------------------------------------------- given files
 
 
-def test_a_given_file_that_is_missing_is_supplied(hand_in: HandIn, tmp_path: Path):
-    missing = {"lab_runtime_py": None, "mini_engine__validate_py": None}
-    submission = taken_in(hand_in("solution", **missing), tmp_path)
-    for name in ("lab_runtime.py", "mini_engine/validate.py"):
-        assert (submission.folder / name).read_text() == (KIT / "starter" / name).read_text()
-
-
-def test_a_given_file_that_is_there_is_the_students_own(hand_in: HandIn, tmp_path: Path):
-    submission = taken_in(hand_in("solution", lab_runtime_py="frames = 1\n"), tmp_path)
-    assert (submission.folder / "lab_runtime.py").read_text() == "frames = 1\n"
+def test_a_given_file_is_supplied_only_if_it_is_missing(hand_in: HandIn, tmp_path: Path):
+    files = {"lab_runtime_py": "frames = 1\n", "mini_engine__validate_py": None}
+    folder = taken_in(hand_in("solution", **files), tmp_path).folder
+    given = (KIT / "starter" / "mini_engine" / "validate.py").read_text()
+    assert (folder / "mini_engine" / "validate.py").read_text() == given
+    assert (folder / "lab_runtime.py").read_text() == "frames = 1\n"
 
 
 def test_nothing_is_put_where_something_else_is_in_the_way(hand_in: HandIn, tmp_path: Path):
