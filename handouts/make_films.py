@@ -25,7 +25,7 @@ from make_figures import BLUE, GREY, INK, Svg
 from make_pictures import environment_in
 
 from grader.bank.members import make_mistake
-from grader.source.regions import python_files, regions_in, replaced
+from grader.source.regions import python_files, regions_in, replace_regions
 
 KIT = Path(__file__).resolve().parents[1]
 FILMS = KIT / "handouts" / "touch" / "films"
@@ -46,7 +46,7 @@ def tree_of(todo, variant, folder):
             target = tree / path.relative_to(KIT / "starter")
             stubs = {r.id: r.lines for r in regions_in(path.read_text("utf-8")) if r.id == todo}
             if stubs:
-                text = replaced(target.read_text(encoding="utf-8"), stubs)
+                text = replace_regions(target.read_text(encoding="utf-8"), stubs)
                 target.write_text(text, encoding="utf-8", newline="\n")
     elif variant != RIGHT:
         make_mistake(f"{todo}-{variant}", tree)

@@ -43,7 +43,7 @@ SHOTS = {
 
 def tree_with(done, folder):
     """Copy the starter with these TODOs solved; return the folder."""
-    from grader.source.regions import python_files, regions_in, replaced
+    from grader.source.regions import python_files, regions_in, replace_regions
 
     tree = folder / "tree"
     shutil.rmtree(tree, ignore_errors=True)
@@ -51,7 +51,7 @@ def tree_with(done, folder):
     for path in python_files(tree):
         solved = (KIT / "solution" / path.relative_to(tree)).read_text(encoding="utf-8")
         contents = {r.id: r.lines for r in regions_in(solved) if r.id in done}
-        text = replaced(path.read_text(encoding="utf-8"), contents)
+        text = replace_regions(path.read_text(encoding="utf-8"), contents)
         path.write_text(text, encoding="utf-8", newline="\n")
     return tree
 

@@ -18,7 +18,7 @@ from page_readers import chromium
 from grader.bank.sync import list_students_files
 from grader.bank.verify import shared_worker
 from grader.judge.course import FULL
-from grader.judge.grade import Options, grade, opened, shipped_reference
+from grader.judge.grade import Options, grade, open_tree, shipped_reference
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import Rubric, load_rubric
 from grader.player import replay
@@ -177,7 +177,7 @@ def expected_runs(once: Once) -> bytes:
     """
 
     def fill(folder: Path) -> None:
-        with opened(KIT / "solution") as open_child:
+        with open_tree(KIT / "solution") as open_child:
             runs = replay.record_expected(open_child, only_some(load_rubric()))
         (folder / "expected_runs.json").write_bytes(runs)
 
@@ -215,5 +215,5 @@ def result_of(tree: str, once: Once, todos: tuple[str, ...] = ()) -> Result:
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
     """A browser, where this machine has one."""
-    with chromium() as opened:
-        yield opened
+    with chromium() as browser:
+        yield browser

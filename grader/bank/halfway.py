@@ -38,7 +38,7 @@ from grader.bank.members import (
 from grader.judge.children import Worker
 from grader.judge.grade import KIT, Options, grading
 from grader.judge.result import CheckResult, Result
-from grader.judge.rubric import load_rubric, visible
+from grader.judge.rubric import drop_hidden, load_rubric
 from grader.judge.submission import handed_out
 from grader.source.regions import python_files, read_source, regions_in
 
@@ -164,5 +164,5 @@ def graded(state: Halfway, folder: Path, worker: Worker | None, tree: str = "sol
     """Grade it as students do: without the reference and without hidden checks."""
     state.build(folder / state.name, tree)
     options = Options(reference=None, only=frozenset({state.todo}), trusted=True)
-    with grading(folder / state.name, options, worker, visible(load_rubric())) as run:
+    with grading(folder / state.name, options, worker, drop_hidden(load_rubric())) as run:
         return run.run()

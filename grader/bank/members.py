@@ -56,7 +56,7 @@ from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT
 from grader.judge.result import Result, is_bonus
 from grader.judge.rubric import load_rubric
-from grader.source.regions import Region, python_files, read_source, regions_in, replaced
+from grader.source.regions import Region, python_files, read_source, regions_in, replace_regions
 
 Kind = Literal["wrong", "right", "hostile", "ladder"]
 Form = Literal["package", "single file"]
@@ -487,7 +487,7 @@ def fill_every_todo(folder: Path, code: str) -> None:
     for path in python_files(folder):
         text = read_source(path)
         if here := {region.id: indented(lines, text, region) for region in regions_in(text)}:
-            path.write_text(replaced(text, here), encoding="utf-8")
+            path.write_text(replace_regions(text, here), encoding="utf-8")
 
 
 def make_mistake(name: str, folder: Path) -> None:
@@ -516,7 +516,7 @@ def put_regions(regions: Regions, folder: Path) -> None:
             if region.id in wanted
         }
         if here:
-            path.write_text(replaced(text, here), encoding="utf-8")
+            path.write_text(replace_regions(text, here), encoding="utf-8")
     if wanted:
         raise ValueError(f"no file has TODO {', '.join(wanted)}")
 

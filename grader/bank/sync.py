@@ -12,7 +12,7 @@ from pathlib import Path
 from grader.errors import Stop
 from grader.judge.rubric import CHECKS, load_rubric
 from grader.source.definitions import function_named, source_of, statements
-from grader.source.regions import regions_in, replaced
+from grader.source.regions import regions_in, replace_regions
 
 LAID_IN = {"accuracy.py", "experiments", "stable_engine"}
 SKIPPED = {
@@ -128,7 +128,7 @@ def merge_regions(source: Path, target: Path) -> bytes:
     for region in regions:
         if region.id not in stubs:
             raise OutOfStep(f"{target} has no stub for TODO {region.id}: write one there first")
-    return replaced(text, stubs).encode()
+    return replace_regions(text, stubs).encode()
 
 
 def read_stub_sources(starter: dict[str, str]) -> dict[str, str]:

@@ -20,7 +20,7 @@ from grader.intake.names import make_portable
 from grader.intake.roster import ClassList, Roster
 from grader.judge.course import FULL, Course
 from grader.judge.result import Result
-from grader.judge.wording import reasons, withhold_reasons
+from grader.judge.wording import format_reasons, withhold_reasons
 from grader.report.files import put_in
 from grader.report.html import list_failed_first
 from grader.text import clean, format_csv
@@ -122,7 +122,7 @@ def write_text(outcome: Outcome, result: Result | None, course: Course) -> str:
         points = f"{todo.points} / {todo.max_points}"
         lines += ["", f"TODO {todo.id} {todo.title}: {todo.state}, {points}"]
         for check in todo.failed:
-            why = (f"    {line}" for line in reasons(check))
+            why = (f"    {line}" for line in format_reasons(check))
             lines += [f"  {check.title} ({check.points} / {check.max_points})", *why]
     return "\n".join(lines) + "\n"
 

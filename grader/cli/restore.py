@@ -12,13 +12,13 @@ from grader.judge.submission import load_given
 from grader.judge.wording import command
 from grader.report.files import write_whole
 from grader.source.flaws import find_flaw
-from grader.source.given import Changed, as_given, changes, restored
-from grader.source.regions import RegionError, encoded, read_source
+from grader.source.given import Changed, compare_files, keep_regions, undo_changes
+from grader.source.regions import RegionError, encode, read_source
 
 
 def find_changes(tree: Path) -> list[Changed]:
     own = {name: tree / name for name in load_given() if (tree / name).is_file()}
-    return changes({name: read_source(path) for name, path in own.items()}, load_given())
+    return compare_files({name: read_source(path) for name, path in own.items()}, load_given())
 
 
 def list_notes(tree: Path, result: Result) -> list[str]:
@@ -72,7 +72,7 @@ def make_texts(tree: Path, name: str) -> dict[str, str]:
     if file in given:
         own = read_source(tree / file) if (tree / file).is_file() else given[file]
         try:
-            text = as_given(own, given[file])
+            text = keep_regions(own, given[file])
         except RegionError as error:
             raise Stop(f"the TODO markers of {file} do not pair up: {error}") from None
         return {file: text} if text != own or not (tree / file).is_file() else {}
@@ -84,7 +84,7 @@ def make_texts(tree: Path, name: str) -> dict[str, str]:
         raise Stop(f"no given function, constant or file is called {name}; {more}")
     files = dict.fromkeys(each.file for each in named)
     return {
-        file: restored(read_source(tree / file), [each for each in named if each.file == file])
+        file: undo_changes(read_source(tree / file), [each for each in named if each.file == file])
         for file in files
     }
 
@@ -96,7 +96,7 @@ def is_given(name: str, texts: Iterable[str]) -> bool:
 
 def write_text(tree: Path, name: str, file: str, text: str) -> str:
     """Write a file, keep a copy of the one before, and return what was done."""
-    path, content = tree / file, encoded(text)
+    path, content = tree / file, encode(text)
     if link := find_link(tree, file):
         raise Stop(f"{link} is a link, and links are not followed: put there what it leads to")
     if not path.is_file():

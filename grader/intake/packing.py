@@ -36,7 +36,7 @@ from grader.intake.places import (
 from grader.intake.systems import SYSTEMS
 from grader.judge.outer import READING, Exceeded, Failed, Lost, call_within
 from grader.judge.plain import copy_plain, open_plain, size_of
-from grader.judge.submission import CannotGrade, module_of, plain_files, unreadable
+from grader.judge.submission import CannotGrade, explain_unreadable, module_of, plain_files
 from grader.judge.workplace import work_folder
 from grader.source.flaws import find_bad_bytes
 
@@ -95,7 +95,7 @@ def read_package(found: Found, asked: Collection[str] = ()) -> Package:
                     if bounds.take(name, length := size_of(file)):
                         files.append((name, file.read(length)))
     except OSError as error:
-        raise CannotTake(unreadable(error, found.sources[0])) from error
+        raise CannotTake(explain_unreadable(error, found.sources[0])) from error
     except CannotTake:
         raise
     except CannotGrade as error:
@@ -262,7 +262,7 @@ def open_inside(source: Path, path: Path) -> BufferedReader:
     try:
         return open_plain(source.parent, path.relative_to(source.parent))
     except OSError as error:
-        raise CannotTake(unreadable(error, source)) from error
+        raise CannotTake(explain_unreadable(error, source)) from error
 
 
 def copy_file(file: BufferedReader, name: str, target: Path, bounds: Bounds) -> None:

@@ -11,10 +11,10 @@ from grader.judge.children import Child
 from grader.judge.failures import Broke, NotYet
 from grader.judge.jobs import Key
 from grader.judge.lab import Lab, Observation
-from grader.judge.numbers import readable, tidied
+from grader.judge.numbers import shorten_both, shorten_numbers
 from grader.judge.result import CheckResult, Where
 from grader.judge.submission import Submission, load_given
-from grader.source.given import Changed, change_of_file, changes, restored
+from grader.source.given import Changed, compare_files, compare_whole_file, undo_changes
 from grader.source.regions import read_source
 
 MOST_ALONE = 8  # changes that are each put back alone, to find the one that matters
@@ -72,16 +72,16 @@ def find_changes(submission: Submission, unusable: Iterable[Broke | NotYet] = ()
     own = {n: read_source(folder / n) for n in given if (folder / n).is_file()}
     raised = [each.raised for each in unusable if isinstance(each, Broke) and each.raised]
     fails = {each.frames[-1].file for each in raised if each.frames} & own.keys()
-    whole = [c for name in sorted(fails) for c in change_of_file(name, own[name], given[name])]
+    whole = [c for name in sorted(fails) for c in compare_whole_file(name, own[name], given[name])]
     others = {name: text for name, text in own.items() if name not in fails}
-    return [*whole, *changes(others, given)]
+    return [*whole, *compare_files(others, given)]
 
 
 def undo(submission: Submission, undone: Sequence[Changed]) -> dict[str, str]:
     """Return the changed files with these changes undone, as texts by name."""
     texts = {each.file: read_source(submission.folder / each.file) for each in undone}
     return {
-        name: restored(text, [each for each in undone if each.file == name])
+        name: undo_changes(text, [each for each in undone if each.file == name])
         for name, text in texts.items()
     }
 
@@ -154,5 +154,5 @@ def makes_a_difference(lab: Lab, check: CheckResult) -> bool:
         return True
     if lab.connection.pieces or lab.ended or not isinstance(failure, NotYet):
         return False
-    got = readable(failure.expected, failure.got)[1]
-    return (tidied(failure.ran), got) != (check.ran, check.got)
+    got = shorten_both(failure.expected, failure.got)[1]
+    return (shorten_numbers(failure.ran), got) != (check.ran, check.got)

@@ -131,7 +131,7 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
         if self.bonus == "left out":
             known = [todo.id for todo in load_rubric().todos] if todos is None else todos
             todos = tuple(todo for todo in known if not is_bonus(todo))
-        return chosen(todos, tuple(self.points.items()))
+        return choose_todos(todos, tuple(self.points.items()))
 
     @property
     def given(self) -> list[Todo]:
@@ -169,7 +169,7 @@ FULL = Course()
 
 
 @cache
-def chosen(todos: tuple[str, ...] | None, points: tuple[tuple[str, int], ...]) -> Rubric:
+def choose_todos(todos: tuple[str, ...] | None, points: tuple[tuple[str, int], ...]) -> Rubric:
     """Return the rubric with these TODOs alone, in its own order, and with these points.
 
     Of the whole program, the checks remain that run a program with a TODO. One that needs none of
@@ -184,7 +184,7 @@ def chosen(todos: tuple[str, ...] | None, points: tuple[tuple[str, int], ...]) -
         todo if todo.function else structs.replace(todo, checks=keep_checks(todo, programs, names))
         for todo in asked
     ]
-    return Rubric([with_points(todo, worth[todo.id]) for todo in kept])
+    return Rubric([set_points(todo, worth[todo.id]) for todo in kept])
 
 
 def keep_checks(whole: Todo, programs: set[str], todos: frozenset[str]) -> list[Check]:
@@ -200,14 +200,14 @@ def keep_checks(whole: Todo, programs: set[str], todos: frozenset[str]) -> list[
     ]
 
 
-def with_points(todo: Todo, points: int) -> Todo:
+def set_points(todo: Todo, points: int) -> Todo:
     """Return a TODO with these points, spread over its checks in the rubric's proportions."""
-    shares = spread(points, [check.points for check in todo.checks])
+    shares = spread_points(points, [check.points for check in todo.checks])
     pairs = zip(todo.checks, shares, strict=True)
     return structs.replace(todo, checks=[structs.replace(c, points=p) for c, p in pairs])
 
 
-def spread(points: int, weights: Sequence[int]) -> list[int]:
+def spread_points(points: int, weights: Sequence[int]) -> list[int]:
     """Return whole numbers that add up to `points`, by the largest remainder.
 
     None is 0 unless there are fewer points than weights.
@@ -358,7 +358,9 @@ def faults_between(course: Course) -> Iterator[str]:
         asked = [todo for todo in load_rubric().todos if todo.id in course.todos]
         if not any(todo.function and not todo.bonus for todo in asked):
             yield "todos: nobody could earn a point without a bonus: add one of TODO 1 to 8c"
-        whole = next((todo for todo in chosen(course.todos, ()).todos if not todo.function), None)
+        whole = next(
+            (todo for todo in choose_todos(course.todos, ()).todos if not todo.function), None
+        )
         if whole and all(check.guard for check in whole.checks):
             yield (
                 "todos: none of the checks of the whole program needs one of these TODOs, so it "

@@ -15,12 +15,12 @@ from grader.judge.misconceptions import (
     Mistake,
     Undecided,
     are_close,
+    keep_simplest,
     known_mistakes,
     load_known,
     part_names,
     predict,
     separate_questions,
-    simplest,
 )
 from grader.judge.narrowing import (
     FEWEST,
@@ -50,7 +50,7 @@ class Finding:
         return self.mistake.meaning + shows
 
 
-def merge(findings: Iterable[Finding]) -> list[Finding]:
+def merge_findings(findings: Iterable[Finding]) -> list[Finding]:
     """Merge findings of one mistake in the same part of the answer."""
     found: dict[tuple[Mistake, str], Finding] = {}
     for each in findings:
@@ -93,16 +93,16 @@ class Diagnosis:
             if each.wrong and (each.about, key(each.inputs)) in asked
         ]
         if not numbers:  # its answers are nearly right: take the findings of other checks
-            return join_words(each.meaning for each in merge(self.findings))
+            return join_words(each.meaning for each in merge_findings(self.findings))
         first = self.questions[numbers[0]]
         here = [each for each in self.findings if each.explains.intersection(numbers)]
         explained = [each.changed for each in here if numbers[0] in each.explains]
-        words = [each.meaning for each in merge(here)] if explained else []
+        words = [each.meaning for each in merge_findings(here)] if explained else []
         unexplained = first.wrong.difference(*explained)
         narrowed = narrow(self.questions, first, unexplained) if unexplained else Narrowed()
         if not words and not narrowed.is_local:
             same = [each for each in self.findings if each.mistake.about == first.about]
-            words = [each.meaning for each in merge(same)]
+            words = [each.meaning for each in merge_findings(same)]
         if narrowed.is_local or not words:
             words.append(narrowed.words)
         return join_words(words)
@@ -245,11 +245,11 @@ class Diagnosis:
         order = sorted({changed for _, changed in fit}, key=lambda c: (-len(c), sorted(c)))
         for changed in order:
             best = [each for each, some in fit if some == changed]
-            if len(simplest({each.id for each in best})) > 1:
+            if len(keep_simplest({each.id for each in best})) > 1:
                 best = [each for each in best if self.find_changes(each, numbers) <= changed]
-            if len(simplest({each.id for each in best})) > 1:
+            if len(keep_simplest({each.id for each in best})) > 1:
                 best = [each for each in best if not self.is_denied(each, changed)]
-            left = simplest({each.id for each in best})
+            left = keep_simplest({each.id for each in best})
             if len(left) == 1 and not changed <= tied:
                 return next(each for each in best if each.id == left[0]), changed
             tied |= changed

@@ -122,7 +122,7 @@ def grading(
 
 
 @contextmanager
-def opened(tree: Path) -> Iterator[Callable[[int], Child]]:
+def open_tree(tree: Path) -> Iterator[Callable[[int], Child]]:
     """Yield a function that opens children of a tree as it is, without grading it."""
     with work_folder() as work:
         worker = start_worker()

@@ -21,7 +21,7 @@ KEEPS_FILES = LAYERS["files"] | {"own-user"}
 ONE_PROCESS = "one-process"  # no layer: submission and grader share a process
 
 
-def refusal(isolation: Isolation, layers: list[str], trusted: bool) -> str:
+def find_refusal(isolation: Isolation, layers: list[str], trusted: bool) -> str:
     """Return why these layers are not enough to grade; empty if they are.
 
     `trusted`: the submission is one's own work, which one may run without a grader as well.
@@ -32,7 +32,7 @@ def refusal(isolation: Isolation, layers: list[str], trusted: bool) -> str:
             "change its marks. Grade it with `grade`, on a machine that can start processes."
         )
     has = f"(it has {', '.join(layers)})"
-    open_to_it = [what for what in unconfined(layers) if what in STRICT]
+    open_to_it = [what for what in list_unconfined(layers) if what in STRICT]
     if isolation == "strict" and open_to_it:
         return (
             f"--isolation=strict: this machine cannot confine {' and '.join(open_to_it)} {has}. "
@@ -47,7 +47,7 @@ def refusal(isolation: Isolation, layers: list[str], trusted: bool) -> str:
     return ""
 
 
-def unconfined(layers: list[str]) -> list[str]:
+def list_unconfined(layers: list[str]) -> list[str]:
     """Return the things that a submission can still reach."""
     return [what for what, any_of in LAYERS.items() if not any_of & set(layers)]
 

@@ -154,7 +154,7 @@ class Lab(Decoder):
         target = name if ":" in name else f"{self.module}:{name}"
         named = {key: plain(value) for key, value in kwargs.items()}
         values = [plain(each) for each in args]
-        framed, states = changes is not None, refs(changes or (), sees)
+        framed, states = changes is not None, list_refs(changes or (), sees)
         request = Call(target, values, named, framed=framed, twice=twice, states=states)
         return self._framed(name, request, changes).value
 
@@ -168,7 +168,7 @@ class Lab(Decoder):
     ) -> Value:
         """Call a method of an object in the child; the arguments are those of `call`."""
         target, values = f"#{thing.ref}.{method}", [plain(each) for each in args]
-        framed, states = changes is not None, refs(changes or (), sees)
+        framed, states = changes is not None, list_refs(changes or (), sees)
         request = Call(target, values, framed=framed, states=states)
         return self._framed(method, request, changes).value
 
@@ -182,7 +182,11 @@ class Lab(Decoder):
                 if each.name not in changes.get(Thing(each.ref), "").split()
             ]
             self.overstepped = self._trespass(name, changes, beyond)
-        if request.twice and self.overstepped is None and not same(returned.value, returned.again):
+        if (
+            request.twice
+            and self.overstepped is None
+            and not are_same(returned.value, returned.again)
+        ):
             self.overstepped = NotYet(
                 self.running,
                 "the same answer when the same question is asked again",
@@ -196,7 +200,7 @@ class Lab(Decoder):
         if not beyond:
             return None
         allowed = ", ".join(
-            f"{in_words(fields)} of {self.names.get(thing.ref, 'an object')}"
+            f"{name_fields(fields)} of {self.names.get(thing.ref, 'an object')}"
             for thing, fields in changes.items()
         )
         return NotYet(
@@ -211,7 +215,7 @@ class Lab(Decoder):
             return f"its argument number {-change.ref}"
         if change.ref == 0:
             return f"the constant {change.name}"
-        return f"the {in_words(change.name)} of {self.names.get(change.ref, 'another object')}"
+        return f"the {name_fields(change.name)} of {self.names.get(change.ref, 'another object')}"
 
     def advance(self, world: Thing, accumulator: float, seconds: float) -> "Advance":
         """Call the program's `advance` for a frame of some seconds, in which no step runs.
@@ -539,7 +543,7 @@ class Moment:
         return math.hypot(self.vx, self.vy)
 
 
-def same(first: Value, second: Value) -> bool:
+def are_same(first: Value, second: Value) -> bool:
     """Return whether two answers are equal, apart from the identity of new objects."""
     if isinstance(first, ContactValue) and isinstance(second, ContactValue):
         return msgspec.structs.replace(first, ref=second.ref) == second
@@ -551,11 +555,11 @@ def same(first: Value, second: Value) -> bool:
 FIELDS = {"pos": "position", "vel": "velocity", "omega": "spin", "inv_mass": "mass"}
 
 
-def refs(*groups: Iterable[Thing]) -> list[int]:
+def list_refs(*groups: Iterable[Thing]) -> list[int]:
     return list(dict.fromkeys(thing.ref for group in groups for thing in group))
 
 
-def in_words(fields: str) -> str:
+def name_fields(fields: str) -> str:
     """Return the names of fields in the lesson's words."""
     return ", ".join(FIELDS.get(each, each) for each in fields.split())
 

@@ -136,7 +136,7 @@ def name_mistake(todo: str, observations: Sequence[Observation]) -> Mistake | No
     expected = {(each.id, each.about) for each in of_todo if each.about in kinds}
     denied = {id for id, _ in expected - fits}  # other answers would show it, and do not
     found = [each for each in found if each.id not in denied]
-    if load_recorded() is not None and len(simplest({each.id for each in found})) > 1:
+    if load_recorded() is not None and len(keep_simplest({each.id for each in found})) > 1:
         return None
     return found[0] if found else None
 
@@ -147,7 +147,7 @@ def says_nothing(observations: Sequence[Observation]) -> bool:
     return bool(answers) and all(each is None for each in answers)
 
 
-def simplest(ids: Collection[str]) -> list[str]:
+def keep_simplest(ids: Collection[str]) -> list[str]:
     """Drop the ids of two mistakes, `one+other`, if one of them is in the list by itself."""
     return [each for each in ids if "+" not in each or not set(each.split("+")) & set(ids)]
 

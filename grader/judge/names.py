@@ -131,13 +131,13 @@ class Names:
             folder = self.submission.folder
             package, single = folder / module, folder / f"{module}.py"
             paths = python_files(package) if package.is_dir() else [single]
-            texts = bounded(path for path in paths if path.is_file())
+            texts = read_bounded(path for path in paths if path.is_file())
             all_of_them = (each for text in texts for each in signatures(text))
             self.found[module] = {each.path: each for each in islice(all_of_them, MOST)}
         return self.found[module]
 
 
-def bounded(paths: Iterable[Path]) -> Iterator[str]:
+def read_bounded(paths: Iterable[Path]) -> Iterator[str]:
     """Yield the texts of files until their sizes add up to MAX_READ."""
     read = 0
     for path in paths:

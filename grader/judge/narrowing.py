@@ -302,15 +302,15 @@ def find_relation(name: str, wrong: list[Question]) -> str:
     return compare(pairs)
 
 
-def times(factor: float) -> Callable[[Numbers], bool]:
+def is_multiple(factor: float) -> Callable[[Numbers], bool]:
     return lambda pairs: all(are_close(ours, factor * theirs) for ours, theirs in pairs)
 
 
 RELATIONS: tuple[tuple[Callable[[Numbers], bool], str], ...] = (
-    (times(0.0), "is 0"),
-    (times(-1.0), "is turned round: it has the opposite sign"),
-    (times(2.0), "is twice what it must be"),
-    (times(0.5), "is half of what it must be"),
+    (is_multiple(0.0), "is 0"),
+    (is_multiple(-1.0), "is turned round: it has the opposite sign"),
+    (is_multiple(2.0), "is twice what it must be"),
+    (is_multiple(0.5), "is half of what it must be"),
 )
 
 

@@ -8,21 +8,21 @@ MAX_DIGITS = 9  # in all, if they are enough to tell *Expected* from *Got*
 NUMBER = re.compile(r"(?<![\w.])-?\d+(?P<rest>\.\d+)?(?P<power>e[-+]?\d+)?(?![\w]|\.\d)")
 
 
-def readable(expected: str, got: str) -> tuple[str, str]:
+def shorten_both(expected: str, got: str) -> tuple[str, str]:
     """Return *Expected* and *Got* with short numbers; if they differ, they still do."""
     for digits in (MAX_DIGITS, 17):
-        short = tidied(expected, digits), tidied(got, digits)
+        short = shorten_numbers(expected, digits), shorten_numbers(got, digits)
         if short[0] != short[1] or expected == got:
             return short
     return expected, got
 
 
-def tidied(text: str, digits: int = MAX_DIGITS) -> str:
+def shorten_numbers(text: str, digits: int = MAX_DIGITS) -> str:
     """Return a text with its numbers shortened."""
-    return NUMBER.sub(lambda found: tidy(found, digits), text)
+    return NUMBER.sub(lambda found: shorten_number(found, digits), text)
 
 
-def tidy(found: re.Match[str], digits: int) -> str:
+def shorten_number(found: re.Match[str], digits: int) -> str:
     """Return one number as a short text."""
     text = found[0]
     whole = len(re.match(r"-?(\d+)", text)[1])  # type: ignore[index]

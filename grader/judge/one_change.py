@@ -27,7 +27,7 @@ from grader.source.operators import (
     unwrap,
     walk_places,
 )
-from grader.source.regions import Region, regions_in, replaced
+from grader.source.regions import Region, regions_in, replace_regions
 
 MOST_TRIED = 150  # changes
 LONGEST, MOST_LETTERS = 80, 6000  # lines of a region, and letters; an answer has a dozen lines
@@ -203,7 +203,7 @@ def put_into(text: str, region: Region, code: str) -> str:
     """Return a file's text with other code in the region."""
     indents = [len(each) - len(each.lstrip()) for each in region.lines if each.strip()]
     new = textwrap.indent(code, " " * min(indents, default=0)).split("\n")
-    return replaced(text, {region.id: tuple(new)})
+    return replace_regions(text, {region.id: tuple(new)})
 
 
 # ---------------------------------------------------------------- the changes

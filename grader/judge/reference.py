@@ -76,7 +76,9 @@ class Reference:
             return other.id in failed if begun else other.id not in asked
 
         return [
-            without(todo.path, msgspec.structs.replace(self.pieces[other.id], asked=todo.function))
+            drop_function(
+                todo.path, msgspec.structs.replace(self.pieces[other.id], asked=todo.function)
+            )
             for other in self.todos
             if other.id != todo.id
             and other.module == module
@@ -86,7 +88,7 @@ class Reference:
         ]
 
 
-def without(function: str, piece: Piece) -> Piece:
+def drop_function(function: str, piece: Piece) -> Piece:
     """Return a piece without this function, which the check is about.
 
     A piece brings along the functions that it calls, and a child can read all that is sent to it.

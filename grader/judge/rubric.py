@@ -79,7 +79,7 @@ def load_rubric() -> Rubric:
     return msgspec.toml.decode((CHECKS / "rubric.toml").read_bytes(), type=Rubric)
 
 
-def visible(rubric: Rubric) -> Rubric:
+def drop_hidden(rubric: Rubric) -> Rubric:
     """Return the rubric of the students' copy, without hidden checks."""
     todos = []
     for todo in rubric.todos:

@@ -8,11 +8,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from grader.judge.children import Child, ChildEnded, Worker
-from grader.judge.isolation import ONE_PROCESS, Isolation, refusal
+from grader.judge.isolation import ONE_PROCESS, Isolation, find_refusal
 from grader.judge.submission import CannotGrade
 from grader.judge.workplace import remove
 from grader.protocol import ChildSetup, Limits
-from grader.source.regions import encoded
+from grader.source.regions import encode
 
 COMPILING_SECONDS = 5  # of processor time, for all files of a submission
 LATER = 10  # s
@@ -81,7 +81,7 @@ class Sandbox:
         path = self.tree / name
         later = path.stat().st_mtime + LATER
         path.chmod(0o644)
-        path.write_bytes(encoded(text))
+        path.write_bytes(encode(text))
         os.utime(path, (later, later))
         path.chmod(0o444)
 
@@ -127,7 +127,7 @@ class Sandbox:
             return ["processes"]
         else:
             layers = ["processes", *child.ready.layers, *self.worker.layers]
-        if why := refusal(self.isolation, layers, self.trusted):
+        if why := find_refusal(self.isolation, layers, self.trusted):
             child.end()
             raise CannotGrade(why)
         return layers

@@ -26,7 +26,7 @@ from grader.source.given import MISPLACED, first_difference
 from grader.source.regions import (
     MAX_SOURCE,
     Region,
-    encoded,
+    encode,
     python_files,
     read_regions,
     read_source,
@@ -136,7 +136,7 @@ def copy_tree(path: Path, submission: Submission) -> None:
         except OSError as error:  # such as a path that is too long
             if error.errno in FULL:
                 raise
-            raise CannotGrade(unreadable(error, path)) from error
+            raise CannotGrade(explain_unreadable(error, path)) from error
 
 
 def weight(inside: PurePath) -> tuple[bool, bool, int, PurePath]:
@@ -195,7 +195,7 @@ def plain_files(path: Path) -> Iterator[Path]:
         except FileNotFoundError:  # it went away
             continue
         except OSError as error:
-            raise CannotGrade(unreadable(error, path)) from error
+            raise CannotGrade(explain_unreadable(error, path)) from error
         with entries:
             for entry in entries:
                 seen += 1
@@ -208,7 +208,7 @@ def plain_files(path: Path) -> Iterator[Path]:
                     yield here / entry.name
 
 
-def unreadable(error: OSError, within: Path) -> str:
+def explain_unreadable(error: OSError, within: Path) -> str:
     """Return why a file or folder cannot be read, with its name inside the submission."""
     why = error.strerror or type(error).__name__
     name = os.fspath(error.filename) if isinstance(error.filename, (str, os.PathLike)) else ""
@@ -263,7 +263,7 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
         submission.folder / inside for inside in texts
     }
     paths = [*sorted(giants), *(submission.folder / inside for inside in program.unread)]
-    submission.unread = [in_words(path, submission.folder) for path in paths]
+    submission.unread = [describe_unread(path, submission.folder) for path in paths]
 
 
 def repair_programs(submission: Submission, texts: dict[Path, str]) -> Program:
@@ -299,7 +299,7 @@ def repair_file(
         submission.outside.setdefault(module, flaw)
         return
     texts[path] = repaired.text
-    (submission.folder / path).write_bytes(encoded(repaired.text))
+    (submission.folder / path).write_bytes(encode(repaired.text))
     for todo, each in repaired.flaws.items():
         if todo == OUTSIDE:
             submission.outside.setdefault(module, each)
@@ -319,7 +319,7 @@ def handed_out() -> HandedOut:
     return HandedOut(load_given(), stubs, functions)
 
 
-def in_words(path: Path, folder: Path) -> str:
+def describe_unread(path: Path, folder: Path) -> str:
     size = math.ceil(path.stat().st_size / 1024)
     return (
         f"{path.relative_to(folder).as_posix()} has {size} KB and was not looked into: "

@@ -5,7 +5,7 @@ from typing import Any
 
 from grader.judge.failures import Broke, NotYet
 from grader.judge.jobs import Job
-from grader.judge.numbers import readable, tidied
+from grader.judge.numbers import shorten_both, shorten_numbers
 from grader.judge.result import CheckResult, State, Where, in_bounds
 from grader.judge.rubric import Todo
 from grader.judge.submission import Submission, load_given
@@ -46,8 +46,8 @@ def word_failure(submission: Submission, job: Job, failure: NotYet | Broke) -> C
     unread = submission.unread[:MOST_UNREAD] if job.todo.function and where is None else []
     got = "; ".join([failure.got, *unread])
     if isinstance(failure, NotYet):
-        expected, got = readable(failure.expected, got)
-        ran, meaning = tidied(failure.ran), failure.meaning
+        expected, got = shorten_both(failure.expected, got)
+        ran, meaning = shorten_numbers(failure.ran), failure.meaning
         words = {"ran": ran, "expected": expected, "got": got, "meaning": meaning}
         return make_result(job, "not yet", where=where, **words)
     frames = failure.raised.frames if failure.raised is not None else []

@@ -23,7 +23,7 @@ NAMES = 10  # columns up to the words of *Got* and the like
 # ---------------------------------------------------------------- why a check failed
 
 
-def named_reasons(check: CheckResult, task: str = "") -> list[tuple[str, str]]:
+def list_reasons(check: CheckResult, task: str = "") -> list[tuple[str, str]]:
     """Return why a check failed, in named lines; `task` follows a place in the TODO's code."""
     place = place_of(check) + task * (not check.where.given) if check.where else ""
     words = (
@@ -37,9 +37,9 @@ def named_reasons(check: CheckResult, task: str = "") -> list[tuple[str, str]]:
     return [(name, text) for name, text in words if text]
 
 
-def reasons(check: CheckResult, task: str = "") -> list[str]:
+def format_reasons(check: CheckResult, task: str = "") -> list[str]:
     """Return why a check failed, as lines of text."""
-    return [f"{name:<{NAMES}}{clean(words)}" for name, words in named_reasons(check, task)]
+    return [f"{name:<{NAMES}}{clean(words)}" for name, words in list_reasons(check, task)]
 
 
 def place_of(check: CheckResult) -> str:
@@ -47,7 +47,7 @@ def place_of(check: CheckResult) -> str:
     return f"{check.where.file}:{check.where.line}" if check.where else ""
 
 
-def named(todo: TodoResult, title: str) -> str:
+def add_task(todo: TodoResult, title: str) -> str:
     """Return a title with the number of its TODO; the whole program has none."""
     return title if todo.id == "whole" else f"TODO {todo.id}: {title}"
 

@@ -27,7 +27,7 @@ def work_folder() -> Iterator[Path]:
     """Make a folder, and remove it afterwards even if a submission made parts read-only."""
     remove_leftovers(tempfile.gettempdir())
     work = Path(tempfile.mkdtemp(prefix=PREFIX)).resolve()
-    lock = locked(work)
+    lock = lock_folder(work)
     try:
         yield work
     finally:
@@ -46,13 +46,13 @@ def remove_leftovers(place: str) -> None:
             about = folder.lstat()
             ours = stat.S_ISDIR(about.st_mode) and about.st_uid == os.getuid()
             if ours and time.time() - about.st_mtime > NEW_SECONDS:
-                lock = locked(folder)
+                lock = lock_folder(folder)
                 if lock is not None:
                     remove(folder)
                     os.close(lock)
 
 
-def locked(folder: Path) -> int | None:
+def lock_folder(folder: Path) -> int | None:
     """Return a descriptor that holds the folder's lock; None if another process holds it."""
     if fcntl is None:
         return None

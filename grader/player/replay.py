@@ -18,7 +18,7 @@ from grader.judge.failures import Failing
 from grader.judge.grade import Options, grading
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import CHECKS, Rubric, load_rubric
-from grader.judge.wording import named_reasons
+from grader.judge.wording import list_reasons
 from grader.player.page import make_page
 from grader.player.pairing import pair_runs
 from grader.player.recording import OpenChild, record_again
@@ -116,7 +116,7 @@ class Replays:
         title = f"{task}: {check.title}"
         words = [f"Expected: {check.expected}", f"Got: {check.got}"]
         again = write_script(title, recorder.translator, steps, words, self._has_pacing(lab.module))
-        made = [make_page(title, named_reasons(check), both, again), again]
+        made = [make_page(title, list_reasons(check), both, again), again]
         return made if len(made[0]) <= MAX_CHARACTERS else None
 
     def _has_pacing(self, module: str) -> bool:

@@ -14,7 +14,7 @@ from msgspec import Struct
 
 from grader.questions.program import FUNCTIONS, Program
 from grader.questions.question import Question
-from grader.source.regions import parsed
+from grader.source.regions import parse
 from grader.text import printable
 
 MOST_CODE_TO_SEARCH = 8000  # characters of a function that is looked through
@@ -86,7 +86,7 @@ def ask_reason(todo: str, program: Program, points: int) -> Question:
 def quote_line(program: Program, todo: str) -> str:
     """Return the line of the student's function to ask about, as they wrote it; or nothing."""
     text = program.own.find_function(FUNCTIONS[todo])
-    module = parsed(text.source, MOST_CODE_TO_SEARCH) if text else None
+    module = parse(text.source, MOST_CODE_TO_SEARCH) if text else None
     if text is None or module is None or not module.body:
         return ""
     function = module.body[0]

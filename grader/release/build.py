@@ -28,9 +28,9 @@ from grader.bank.verify import check_kit, count_unproven
 from grader.errors import Stop
 from grader.judge.course import COURSE_FILE, FULL, Course
 from grader.judge.fingerprint import fingerprint
-from grader.judge.grade import KIT, opened
+from grader.judge.grade import KIT, open_tree
 from grader.judge.result import Result
-from grader.judge.rubric import visible
+from grader.judge.rubric import drop_hidden
 from grader.player.replay import record_expected
 from grader.release.handed_out import FOR_CI, make_students_tree, write_tree
 from grader.release.leaks import find_leaks, find_secrets
@@ -151,7 +151,7 @@ def write_right_runs(copy: Path, course: Course, record: Record) -> None:
 
 
 def record_right_runs(course: Course) -> bytes:
-    with opened(KIT / "solution") as open_child:
+    with open_tree(KIT / "solution") as open_child:
         return record_expected(open_child, course.rubric)
 
 
@@ -161,8 +161,8 @@ def lay_out(tree: Path, course: Course) -> None:
     left = {"requirements.txt", *FOR_CI, *filter(is_laid_in, files)}
     write_tree({name: files[name] for name in files.keys() - left}, tree)
     notebooks = make_notebooks(KIT / "starter" / "notebooks", course)
-    opened = {name: notebooks[name] for name in notebooks.keys() - {ENGINE, MEASURING}}
-    write_tree(opened, tree / "notebooks")
+    shown = {name: notebooks[name] for name in notebooks.keys() - {ENGINE, MEASURING}}
+    write_tree(shown, tree / "notebooks")
     write_pages(KIT / "handouts", tree / "handouts", course)
 
 
@@ -245,7 +245,7 @@ def prove(package: Path, tree: Path = KIT / "starter", course: Course = FULL) ->
 
     `package` is the folder that the copy lies in.
     """
-    most = visible(course.rubric).max_points
+    most = drop_hidden(course.rubric).max_points
     for what, path, points in (("solution", KIT / "solution", most), ("starter", tree, 0)):
         result = grade_with(package, path)
         if (result.points, result.max_points) != (points, most):

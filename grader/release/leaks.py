@@ -20,11 +20,11 @@ from typing import Any
 
 from grader.bank.sync import is_laid_in
 from grader.judge.course import FULL, Course
-from grader.judge.rubric import CHECKS, Rubric, visible
+from grader.judge.rubric import CHECKS, Rubric, drop_hidden
 from grader.release.notebooks import is_in_course
 from grader.release.students_copy import cut_checks, list_hidden_checks, read_checks
 from grader.source.definitions import statements
-from grader.source.regions import python_files, read_source, regions_in, replaced
+from grader.source.regions import python_files, read_source, regions_in, replace_regions
 
 WORD = re.compile(r"[^\W\d]\w*|\d+(?:\.\d+)?|\*\*|//|<=|>=|==|!=|[-+*/]=|\S")
 NAME = r"[^\W\d]\w*(?: \. [^\W\d]\w*)*"  # any name, also one with dots
@@ -166,7 +166,9 @@ def read_given(solution: Path, asked: set[str]) -> list[tuple[str, str]]:
     found = []
     for path in python_files(solution):
         text = read_source(path)
-        around = replaced(text, {each.id: () for each in regions_in(text) if each.id in asked})
+        around = replace_regions(
+            text, {each.id: () for each in regions_in(text) if each.id in asked}
+        )
         found.append((path.relative_to(solution).as_posix(), around))
     for path in list_notebooks(solution / "notebooks"):
         found += [(path.name, MARKED.sub("", text)) for _, text in read_cells(path)]
@@ -287,7 +289,7 @@ def find_hidden_secrets(rubric: Rubric) -> Iterator[Secret]:
     for name in list_hidden_checks(rubric):
         yield make_secret("a hidden check", name, set())
     whole = cut_checks(rubric, read_checks())
-    for file, kept in cut_checks(visible(rubric)).items():
+    for file, kept in cut_checks(drop_hidden(rubric)).items():
         # What belongs to the checks of other TODOs is no secret; the closed forms always are.
         source = read_source(CHECKS / file) if file == "exact.py" else whole[file]
         shown = {ast.dump(function) for function in find_functions(kept)}

@@ -26,14 +26,14 @@ from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grading
 from grader.judge.lab import Observation
 from grader.judge.recorded import Answers, Recorded, RecordedMistake, key, oracles
-from grader.judge.rubric import CHECKS, Check, Rubric, load_rubric, visible
+from grader.judge.rubric import CHECKS, Check, Rubric, drop_hidden, load_rubric
 from grader.questions.practice import FILE as PRACTICE
 from grader.release.handed_out import make_students_tree
 from grader.release.handouts import make_handouts, make_tasks
 from grader.release.practice import make_practice
 from grader.release.recordings import Record, record_anew
 from grader.report.screen import TASKS
-from grader.source.cut import prune_modules, with_bodies
+from grader.source.cut import prune_modules, replace_bodies
 from grader.source.regions import read_source
 
 NOT_FOR_STUDENTS = (
@@ -50,7 +50,7 @@ Tree = tuple[Path, frozenset[str]]  # a submission, and the TODOs to ask it abou
 
 def list_hidden_checks(rubric: Rubric) -> list[str]:
     """List the functions that no TODO shows to students."""
-    shown = {check.id for todo in visible(rubric).todos for check in todo.checks}
+    shown = {check.id for todo in drop_hidden(rubric).todos for check in todo.checks}
     named = [check.id for todo in rubric.todos for check in todo.checks if check.hidden]
     return [name for name in dict.fromkeys(named) if name not in shown]
 
@@ -66,7 +66,9 @@ def write_copy(
     checks = write_code(folder, course)
     # First, while nothing notes what the closed forms are asked: it asks hidden checks as well.
     (checks / PRACTICE).write_bytes(record("practice", lambda: make_practice(course)))
-    answers = record("answers", lambda: encode_table(record_answers(wrong, visible(course.rubric))))
+    answers = record(
+        "answers", lambda: encode_table(record_answers(wrong, drop_hidden(course.rubric)))
+    )
     noted = json.loads(answers)
     exacts = checks / "exact.py"
     text = read_source(exacts) if exacts.exists() else ""
@@ -88,7 +90,7 @@ def write_code(folder: Path, course: Course = FULL, whole: bool = False) -> Path
     """
     checks = folder / "grader" / "checks"
     shutil.copytree(KIT / "grader", checks.parent, ignore=skip_files)
-    rubric = visible(course.rubric)
+    rubric = drop_hidden(course.rubric)
     texts = cut_checks(rubric, read_checks() if whole else replace_oracles(read_checks()))
     remove_unneeded(checks, texts)
     texts["rubric.toml"] = write_rubric(rubric)
@@ -193,7 +195,7 @@ def replace_oracles(sources: dict[str, str]) -> dict[str, str]:
         code = getattr(exact, name).__code__
         inputs = ", ".join(code.co_varnames[: code.co_argcount])
         bodies[name] = f'return recorded.answer("{name}", {inputs})'
-    return sources | {exact.__name__: with_bodies(sources[exact.__name__], bodies)}
+    return sources | {exact.__name__: replace_bodies(sources[exact.__name__], bodies)}
 
 
 def record_answers(wrong: Iterable[Tree], rubric: Rubric) -> Recorded:

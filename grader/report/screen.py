@@ -11,7 +11,7 @@ from rich.console import Console
 
 from grader.judge.result import FAILED, CheckResult, Result, State, TodoResult
 from grader.judge.rubric import CHECKS
-from grader.judge.wording import NAMES, command, named_reasons, task_of, total
+from grader.judge.wording import NAMES, command, list_reasons, task_of, total
 from grader.report.terminal import (
     FIRST,
     MARGIN,
@@ -168,7 +168,7 @@ class Screen:
         """Explain why a check failed: a line for each text; the rest of `room` is for the cause."""
         texts = {
             name: wrap(f"{' ' * MARGIN}{name:<{NAMES}}{clean(text)}", self.console, MARGIN + NAMES)
-            for name, text in named_reasons(check, task_of(todo))
+            for name, text in list_reasons(check, task_of(todo))
             if text not in OBVIOUS and not text.startswith(READING)
         }
         rerun, replay = locate_replay(check, self.replays, self.console)

@@ -12,16 +12,16 @@ from rich.console import Console
 from rich.text import Text
 
 from grader.judge.failures import ENDLESS
-from grader.judge.isolation import unconfined
+from grader.judge.isolation import list_unconfined
 from grader.judge.result import FAILED, CheckResult, Result, State, TodoResult
 from grader.judge.wording import (
     MEANINGS,
     NAMES,
     command,
+    format_reasons,
     hidden_points_note,
     place_of,
     python_command,
-    reasons,
     task_of,
     total,
 )
@@ -43,7 +43,7 @@ MAX_COLUMNS = 80
 
 def show_isolation(result: Result, console: Console) -> None:
     say(f"isolation: {', '.join(result.isolation)}", console, indent=11, style="bright_black")
-    if lacking := unconfined(result.isolation):
+    if lacking := list_unconfined(result.isolation):
         words = f"not confined here: {', '.join(lacking)}. Grade only submissions you trust."
         say(words, console, style="yellow")
 
@@ -84,7 +84,7 @@ class Printer:
         if ("meaning", first.meaning) in self.printed:
             first = msgspec.structs.replace(first, meaning="")
         self.printed |= {find_reason(first), ("meaning", first.meaning)}
-        for line in reasons(first, task_of(todo)):
+        for line in format_reasons(first, task_of(todo)):
             say(f"{' ' * MARGIN}{line}", self.console, indent=MARGIN + NAMES)
         for line in chain(*locate_replay(first, self.replays, self.console)):
             write(line, self.console)

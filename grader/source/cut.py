@@ -4,30 +4,30 @@ import ast
 from collections.abc import Collection, Iterable, Iterator
 
 
-def pruned(source: str, roots: Iterable[str]) -> str:
+def prune(source: str, roots: Iterable[str]) -> str:
     """Return the source without the definitions and imports that the `roots` do not need."""
     tree = ast.parse(source)
-    definitions = {name: node for node in tree.body for name in defined(node)}
-    wanted = set(roots).union(*(used(node) for node in tree.body if not defined(node)))
+    definitions = {name: node for node in tree.body for name in list_defined(node)}
+    wanted = set(roots).union(*(find_used(node) for node in tree.body if not list_defined(node)))
     needed: set[str] = set()
     while wanted:
         needed |= wanted
         nodes = {id(definitions[name]): definitions[name] for name in wanted if name in definitions}
-        reached: set[str] = set().union(*map(used, nodes.values()))
+        reached: set[str] = set().union(*map(find_used, nodes.values()))
         wanted = reached - needed
     changes: dict[ast.stmt, str] = {}
     for node in tree.body:
-        names = list(defined(node))
+        names = list(list_defined(node))
         kept = [name for name in names if name in needed]
         if isinstance(node, ast.Import | ast.ImportFrom) and kept and kept != names:
-            node.names = [each for each in node.names if bound_by(each) in needed]
+            node.names = [each for each in node.names if find_bound_name(each) in needed]
             changes[node] = ast.unparse(node)
         elif names and not kept:
             changes[node] = ""
-    return replaced_nodes(source, changes)
+    return replace_nodes(source, changes)
 
 
-def with_bodies(source: str, bodies: dict[str, str]) -> str:
+def replace_bodies(source: str, bodies: dict[str, str]) -> str:
     """Remove the decorators of functions, and replace their bodies by these lines."""
     changes: dict[ast.stmt, str] = {}
     for node in ast.parse(source).body:
@@ -37,10 +37,10 @@ def with_bodies(source: str, bodies: dict[str, str]) -> str:
             last = node.body[0].end_lineno if documented else node.body[0].lineno - 1
             head = lines[node.lineno - 1 : last]
             changes[node] = "\n".join([*head, f"    {bodies[node.name]}"])
-    return replaced_nodes(source, changes)
+    return replace_nodes(source, changes)
 
 
-def replaced_nodes(source: str, changes: dict[ast.stmt, str]) -> str:
+def replace_nodes(source: str, changes: dict[ast.stmt, str]) -> str:
     """Replace the lines of whole statements; their comments above go with them."""
     lines = source.splitlines()
     for node, text in sorted(changes.items(), key=lambda each: -each[0].lineno):
@@ -49,10 +49,10 @@ def replaced_nodes(source: str, changes: dict[ast.stmt, str]) -> str:
         while not text and start and lines[start - 1].startswith("#"):
             start -= 1
         lines[start : node.end_lineno] = text.splitlines()
-    return "\n".join(without_gaps(lines)) + "\n"
+    return "\n".join(drop_gaps(lines)) + "\n"
 
 
-def without_gaps(lines: list[str]) -> Iterator[str]:
+def drop_gaps(lines: list[str]) -> Iterator[str]:
     """Yield lines with at most two empty ones in a row, and none at the end."""
     text = "\n".join(lines).rstrip()
     empty = 0
@@ -62,12 +62,12 @@ def without_gaps(lines: list[str]) -> Iterator[str]:
             yield line
 
 
-def defined(node: ast.stmt) -> Iterator[str]:
+def list_defined(node: ast.stmt) -> Iterator[str]:
     match node:
         case ast.FunctionDef(name=name) | ast.ClassDef(name=name):
             yield name
         case ast.Import(names=names) | ast.ImportFrom(names=names):
-            yield from map(bound_by, names)
+            yield from map(find_bound_name, names)
         case ast.Assign(targets=targets):
             for target in targets:
                 yield from (each.id for each in ast.walk(target) if isinstance(each, ast.Name))
@@ -75,11 +75,11 @@ def defined(node: ast.stmt) -> Iterator[str]:
             yield name
 
 
-def bound_by(alias: ast.alias) -> str:
+def find_bound_name(alias: ast.alias) -> str:
     return alias.asname or alias.name.partition(".")[0]
 
 
-def used(node: ast.AST) -> set[str]:
+def find_used(node: ast.AST) -> set[str]:
     return {
         each.id
         for each in ast.walk(node)
@@ -96,7 +96,7 @@ def prune_modules(sources: dict[str, str], roots: dict[str, set[str]]) -> dict[s
     texts: dict[str, str] = {}
     grown = set(wanted)
     while grown:
-        texts |= {module: pruned(sources[module], wanted[module]) for module in grown}
+        texts |= {module: prune(sources[module], wanted[module]) for module in grown}
         uses = [each for module in grown for each in list_uses(texts[module], sources)]
         grown = {module for module, name in uses if name not in wanted.get(module, ())}
         for module, name in uses:
@@ -116,7 +116,7 @@ def list_uses(source: str, modules: Collection[str]) -> Iterator[tuple[str, str]
             case ast.ImportFrom(module=str(module), names=names) if module in modules:
                 yield from ((module, each.name) for each in names)
             case ast.ImportFrom(module=module, names=names):
-                whole = {bound_by(each): f"{module}.{each.name}" for each in names}
+                whole = {find_bound_name(each): f"{module}.{each.name}" for each in names}
                 bound |= {name: each for name, each in whole.items() if each in modules}
     yield from ((module, "") for module in bound.values())
     for node in ast.walk(tree):

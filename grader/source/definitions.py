@@ -18,7 +18,7 @@ from pathlib import Path, PurePath
 from typing import TypeVar
 
 from grader.source.flaws import misplaced
-from grader.source.regions import parsed
+from grader.source.regions import parse
 
 MAX_READ = 1024 * 1024  # characters of a submission that are parsed, in all
 MAX_CALLED = 200  # names that are followed from a function
@@ -358,7 +358,7 @@ def top_level(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
 
 def statements(text: str) -> list[ast.stmt]:
     """Return the statements of a source text; none if it is no Python."""
-    tree = parsed(text)
+    tree = parse(text)
     return tree.body if tree else []
 
 

@@ -22,7 +22,7 @@ from grader.source.regions import (
     RegionError,
     read_regions,
     regions_in,
-    replaced,
+    replace_regions,
     shape_of,
 )
 
@@ -92,7 +92,7 @@ class Changed:
         return f"line {self.line} of {self.file}, `{self.theirs}`, {before}"
 
 
-def changes(theirs: Mapping[str, str], given: Mapping[str, str]) -> list[Changed]:
+def compare_files(theirs: Mapping[str, str], given: Mapping[str, str]) -> list[Changed]:
     """Return the changes in the given files that a submission has, both by their names."""
     found: list[Changed] = []
     for name, text in given.items():
@@ -100,11 +100,11 @@ def changes(theirs: Mapping[str, str], given: Mapping[str, str]) -> list[Changed
         if own is None or own == text or len(own) > MAX_SHAPE or outside(own) == outside(text):
             continue
         with suppress(ValueError, RecursionError, MemoryError):  # the code is nested too deeply
-            found += changes_of(name, own, text)
+            found += compare_file(name, own, text)
     return found
 
 
-def restored(text: str, undone: Iterable[Changed]) -> str:
+def undo_changes(text: str, undone: Iterable[Changed]) -> str:
     """Return a file's text with these changes of it undone."""
     lines = text.splitlines()
     for each in sorted(undone, key=lambda change: (-change.start, -change.stop)):
@@ -112,9 +112,9 @@ def restored(text: str, undone: Iterable[Changed]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def as_given(text: str, given: str) -> str:
+def keep_regions(text: str, given: str) -> str:
     """Return a given file with the TODO regions of another one; may raise RegionError."""
-    return replaced(given, {region.id: region.lines for region in regions_in(text)})
+    return replace_regions(given, {region.id: region.lines for region in regions_in(text)})
 
 
 def outside(text: str) -> list[str]:
@@ -128,12 +128,12 @@ def outside(text: str) -> list[str]:
 # ---------------------------------------------------------------- one file
 
 
-def changes_of(file: str, text: str, given: str) -> Iterator[Changed]:
+def compare_file(file: str, text: str, given: str) -> Iterator[Changed]:
     """Yield the changes in a file; if it is no Python, the file as a whole."""
     body = statements(text)
     lines, right = text.splitlines(), given.splitlines()
     if not body:
-        yield from change_of_file(file, text, given)
+        yield from compare_whole_file(file, text, given)
         return
     own, originals = with_markers(pieces(body), text), given_pieces(given)
     elsewhere = imported_names(body)
@@ -157,11 +157,11 @@ def changes_of(file: str, text: str, given: str) -> Iterator[Changed]:
         )
 
 
-def change_of_file(file: str, text: str, given: str) -> Iterator[Changed]:
+def compare_whole_file(file: str, text: str, given: str) -> Iterator[Changed]:
     """Yield all differences outside the regions as one change."""
     lines = text.splitlines()
     with suppress(RegionError):
-        whole = tuple(as_given(text, given).splitlines())
+        whole = tuple(keep_regions(text, given).splitlines())
         yield from compare_piece(file, file, lines, Piece(0, len(lines)), whole)
 
 
@@ -193,7 +193,7 @@ def with_regions(given: tuple[str, ...], theirs: Sequence[str]) -> tuple[str, ..
     needed = {region.id for region in read_regions("\n".join(given))[0]}
     if not needed <= own.keys():
         return None
-    return tuple(replaced("\n".join(given) + "\n", own).splitlines()) if needed else given
+    return tuple(replace_regions("\n".join(given) + "\n", own).splitlines()) if needed else given
 
 
 def first_difference(mine: Sequence[str], given: Sequence[str]) -> tuple[int, str, str]:
@@ -305,14 +305,14 @@ def names_in(target: ast.expr) -> str:
 
 def meaning_of(lines: Sequence[str]) -> str:
     """Return a text that is equal for two pieces that differ in layout and comments alone."""
-    body = statements(shifted(lines))
+    body = statements(shift_left(lines))
     for node in body:
         if isinstance(node, Definition) and ast.get_docstring(node, clean=False) is not None:
             node.body = node.body[1:]
     return ast.dump(ast.Module(body, [])) if body else shape_of("\n".join(lines))
 
 
-def shifted(lines: Sequence[str]) -> str:
+def shift_left(lines: Sequence[str]) -> str:
     """Move lines to the left by the indent of the first."""
     indent = indent_of(lines[0]) if lines else 0
     return "\n".join(line[indent:] if not line[:indent].strip() else line for line in lines)

@@ -55,13 +55,13 @@ class Region:
 def shape_of(source: str) -> str:
     """Return a text that is equal for two pieces of code that differ in layout alone."""
     text = textwrap.dedent(source)
-    tree = parsed(text, MAX_SHAPE)
+    tree = parse(text, MAX_SHAPE)
     with suppress(ValueError, RecursionError, MemoryError):
         return ast.dump(tree) if tree else text.strip()
     return text.strip()
 
 
-def parsed(text: str, most: int = MAX_SOURCE) -> ast.Module | None:
+def parse(text: str, most: int = MAX_SOURCE) -> ast.Module | None:
     """Return the tree of a source text; None if it is no Python, or too long.
 
     The judge parses students' code here and nowhere else.
@@ -117,7 +117,7 @@ def read_regions(text: str) -> tuple[list[Region], list[tuple[int, str]]]:
     return list(found.values()), wrong
 
 
-def replaced(text: str, contents: dict[str, tuple[str, ...]]) -> str:
+def replace_regions(text: str, contents: dict[str, tuple[str, ...]]) -> str:
     """Return the text with new lines in the regions named in `contents`."""
     lines = text.splitlines(keepends=True)
     for region in reversed(regions_in(text)):
@@ -148,7 +148,7 @@ def number_lines(text: str) -> str:
     return PAGE_BREAK.sub(lambda found: " " if found["start"] is None else "", text)
 
 
-def encoded(text: str) -> bytes:
+def encode(text: str) -> bytes:
     """Return a source's bytes in the encoding that it declares."""
     data = text.encode("utf-8", "replace")
     encoding = encoding_of(data)

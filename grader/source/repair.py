@@ -16,7 +16,7 @@ from itertools import combinations, islice, pairwise
 from grader.source.definitions import statements
 from grader.source.flaws import MAX_LINE, UNDECODED, Flaw, find_flaw
 from grader.source.given import given_pieces, pieces, with_regions
-from grader.source.regions import parsed, read_regions, regions_in, replaced
+from grader.source.regions import parse, read_regions, regions_in, replace_regions
 
 MAX_REPAIR = 4 * 1024 * 1024  # characters that are parsed to repair one submission
 MAX_FUNCTIONS = 200  # of a file
@@ -97,7 +97,7 @@ class Repairer:
     def _by_given_file(self, text: str, flaw: Flaw, original: str) -> Repaired | None:
         """Keep only the regions; a TODO without a region gets its stub."""
         regions = {region.id: region.lines for region in read_regions(text)[0]}
-        base = replaced(original, regions)
+        base = replace_regions(original, regions)
         lost = {region.id: flaw for region in regions_in(original) if region.id not in regions}
         again = self._flaw(base)
         if again is None:
@@ -115,14 +115,14 @@ class Repairer:
         for chosen in choices(text, flaw, patches):
             if self.read > MAX_REPAIR:
                 break
-            repaired = patched(text, chosen)
+            repaired = apply_patches(text, chosen)
             if self._flaw(repaired) is not None or lacks_given(repaired, chosen, original):
                 continue
             flaws = {}
             for each in chosen:
                 others = [other for other in chosen if other is not each]
-                left = self._flaw(patched(text, others)) if others else flaw
-                flaws[each.todo] = within(each, text, left or flaw)
+                left = self._flaw(apply_patches(text, others)) if others else flaw
+                flaws[each.todo] = move_into(each, text, left or flaw)
             return Repaired(repaired, flaws)
         return None
 
@@ -141,14 +141,14 @@ class Repairer:
             todo = next((t for t, p in self.given.functions.items() if p == f"{module}:{path}"), "")
             lines = text.splitlines()[start:stop]
             if todo and todo not in marked:
-                stub = ast.unparse(without_docstring(self.given.stubs[f"def {todo}"]))
-                yield Patch(start, stop, fitted(indented(stub, lines[0]), stop - start), todo)
+                stub = ast.unparse(drop_docstring(self.given.stubs[f"def {todo}"]))
+                yield Patch(start, stop, fill_up(indent_like(stub, lines[0]), stop - start), todo)
             elif (wanted := self._given_function(file, module, path, lines)) is not None:
-                yield Patch(start, stop, fitted(indented(wanted, lines[0]), stop - start))
+                yield Patch(start, stop, fill_up(indent_like(wanted, lines[0]), stop - start))
             else:
                 name = path.rpartition(".")[2]
                 refuses = f"def {name}(*_, **__): raise SyntaxError('{name} is no Python')"
-                new = fitted(indented(refuses, lines[0]), stop - start)
+                new = fill_up(indent_like(refuses, lines[0]), stop - start)
                 yield Patch(start, stop, new, invented=True)
 
     def _region_patches(self, text: str) -> Iterator[Patch]:
@@ -156,7 +156,7 @@ class Repairer:
         for region in read_regions(text)[0]:
             if region.id in self.given.stubs and region.lines:
                 stub = one_line(self.given.stubs[region.id])
-                new = fitted(indented(stub, lines[region.start]), len(region.lines))
+                new = fill_up(indent_like(stub, lines[region.start]), len(region.lines))
                 yield Patch(region.start + 1, region.stop, new, region.id)
 
     def _given_function(
@@ -184,26 +184,26 @@ def choices(text: str, flaw: Flaw, patches: list[Patch]) -> Iterator[list[Patch]
         yield bad
     yield from ([each] for each in near)
     if bad:
-        yield from ([*bad, each] for each in near if each not in bad and apart([*bad, each]))
+        yield from ([*bad, each] for each in near if each not in bad and are_apart([*bad, each]))
     closest = [each for each in near if each.todo][:NEAREST]
-    yield from (list(pair) for pair in combinations(closest, 2) if apart(pair))
+    yield from (list(pair) for pair in combinations(closest, 2) if are_apart(pair))
     regions = [each for each in near if each.todo]
-    if len(regions) > 2 and apart(regions):
+    if len(regions) > 2 and are_apart(regions):
         yield regions
 
 
 def is_no_code(lines: Sequence[str]) -> bool:
     text = textwrap.dedent("\n".join(lines))
-    return bool(text.strip()) and parsed(text) is None
+    return bool(text.strip()) and parse(text) is None
 
 
-def apart(patches: Sequence[Patch]) -> bool:
+def are_apart(patches: Sequence[Patch]) -> bool:
     """Return whether no patches overlap."""
     order = sorted(patches, key=lambda each: each.start)
     return all(a.stop <= b.start for a, b in pairwise(order))
 
 
-def patched(text: str, patches: Sequence[Patch]) -> str:
+def apply_patches(text: str, patches: Sequence[Patch]) -> str:
     lines = text.splitlines()
     for each in sorted(patches, key=lambda patch: -patch.start):
         lines[each.start : each.stop] = each.lines
@@ -217,7 +217,7 @@ def lacks_given(text: str, chosen: Sequence[Patch], original: str | None) -> boo
     return not given_pieces(original).keys() <= pieces(statements(text)).keys()
 
 
-def within(patch: Patch, text: str, flaw: Flaw) -> Flaw:
+def move_into(patch: Patch, text: str, flaw: Flaw) -> Flaw:
     """Return the flaw with a line of the replaced code: Python may notice it further down."""
     if patch.start < flaw.line <= patch.stop or not patch.todo:
         return flaw
@@ -245,7 +245,7 @@ def line_patches(text: str, flaw: Flaw) -> Iterator[Patch]:
         line = lines[index]
         head = CLASS.match(line)
         new = f"class {head[1]}:" if head else MAIN if line.startswith("if __name__") else "pass"
-        yield Patch(index, index + 1, (indented(new, line),), invented=True)
+        yield Patch(index, index + 1, (indent_like(new, line),), invented=True)
 
 
 # ---------------------------------------------------------------- finding functions by layout
@@ -289,7 +289,7 @@ def stands_left(line: str, indent: int) -> bool:
 # ---------------------------------------------------------------- new lines
 
 
-def without_docstring(source: str) -> ast.stmt:
+def drop_docstring(source: str) -> ast.stmt:
     (node,) = statements(textwrap.dedent(source))
     assert isinstance(node, ast.FunctionDef)
     if ast.get_docstring(node) is not None:
@@ -302,11 +302,11 @@ def one_line(source: str) -> str:
     return "; ".join(map(ast.unparse, statements(textwrap.dedent(source)))) or "pass"
 
 
-def indented(source: str, like: str) -> str:
+def indent_like(source: str, like: str) -> str:
     return textwrap.indent(source, like[: len(like) - len(like.lstrip())])
 
 
-def fitted(source: str, count: int) -> tuple[str, ...]:
+def fill_up(source: str, count: int) -> tuple[str, ...]:
     """Return the lines of a source, filled up with empty ones to `count` lines."""
     lines = source.splitlines()
     return (*lines, *[""] * (count - len(lines)))

@@ -35,7 +35,7 @@ from grader.judge.lab import Observation
 from grader.judge.rubric import load_rubric
 from grader.source.definitions import function_named, statements
 from grader.source.operators import OPERATORS, make_changes
-from grader.source.regions import replaced
+from grader.source.regions import replace_regions
 from mini_engine import game_loop, scenes
 from mini_engine.bonus import window
 from mini_engine.bonus.world import with_bonus
@@ -141,7 +141,7 @@ def put_in_place(mutant: Mutant, function: FunctionType, path: str) -> None:
     text, region = regions_of("solution")[mutant.todo]
     indent = " " * text.splitlines()[region.start].index("#")
     lines = textwrap.indent(mutant.code, indent).splitlines()
-    found = function_named(statements(replaced(text, {mutant.todo: tuple(lines)})), path)
+    found = function_named(statements(replace_regions(text, {mutant.todo: tuple(lines)})), path)
     assert found is not None
     made: dict[str, FunctionType] = {}
     exec(compile(ast.Module([found], []), mutant.todo, "exec"), function.__globals__, made)

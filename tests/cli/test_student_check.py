@@ -24,7 +24,7 @@ from grader.judge.rubric import load_rubric
 from grader.judge.wording import command
 from grader.report.progress import CheckProgress
 from grader.source.definitions import statements
-from grader.source.regions import replaced, shape_of
+from grader.source.regions import replace_regions, shape_of
 
 WORLD, INTEGRATORS = "mini_engine/world.py", "integrators.py"
 
@@ -39,7 +39,7 @@ def fill_in(tree: Path, file: str, **regions: str) -> None:
     """Write lines into TODO regions of a file: `_5="..."`."""
     lines = {name[1:]: tuple(text.splitlines()) for name, text in regions.items()}
     text = (tree / file).read_text(encoding="utf-8")
-    (tree / file).write_text(replaced(text, lines), encoding="utf-8")
+    (tree / file).write_text(replace_regions(text, lines), encoding="utf-8")
 
 
 # ---------------------------------------------------------------- the first minute

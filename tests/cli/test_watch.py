@@ -19,7 +19,7 @@ from grader.judge.children import WarmWorker, start_worker
 from grader.judge.grade import KIT, Options, grade
 from grader.judge.rubric import load_rubric
 from grader.report.files import as_json
-from grader.source.regions import regions_in, replaced
+from grader.source.regions import regions_in, replace_regions
 
 WORLD, SOLVER = "mini_engine/world.py", "mini_engine/solver.py"
 INTEGRATORS = "integrators.py"
@@ -70,7 +70,7 @@ def solved(file: str, *todos: str) -> Callable[[str], str]:
     """Puts the solution of these TODOs into a file."""
     text = (KIT / "solution" / file).read_text(encoding="utf-8")
     lines = {region.id: region.lines for region in regions_in(text) if region.id in todos}
-    return lambda source: replaced(source, lines)
+    return lambda source: replace_regions(source, lines)
 
 
 def put(old: str, new: str) -> Callable[[str], str]:

@@ -5,7 +5,7 @@ from collections.abc import Collection
 from pathlib import Path
 
 from grader.judge.grade import KIT
-from grader.source.regions import python_files, regions_in, replaced
+from grader.source.regions import python_files, regions_in, replace_regions
 
 
 def mixed(folder: Path, base: str, donor: str, todos: Collection[str]) -> Path:
@@ -16,6 +16,6 @@ def mixed(folder: Path, base: str, donor: str, todos: Collection[str]) -> Path:
         lines = {each.id: each.lines for each in regions if each.id in todos}
         if lines:
             target = folder / path.relative_to(KIT / donor)
-            text = replaced(target.read_text(encoding="utf-8"), lines)
+            text = replace_regions(target.read_text(encoding="utf-8"), lines)
             target.write_text(text, encoding="utf-8")
     return folder

@@ -44,7 +44,7 @@ from grader.protocol import (
 )
 from grader.source import definitions
 from grader.source.definitions import MAX_READ, MAX_TRIED, Program
-from grader.source.regions import MAX_SHAPE, MAX_SOURCE, parsed, shape_of
+from grader.source.regions import MAX_SHAPE, MAX_SOURCE, parse, shape_of
 
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells the most memory")
 
@@ -168,8 +168,8 @@ LONG = "0;" * (MAX_SOURCE // 2)
 
 
 def test_what_is_longer_than_a_program_is_not_parsed():
-    assert parsed(LONG) is not None
-    assert parsed(LONG + "0") is None
+    assert parse(LONG) is not None
+    assert parse(LONG + "0") is None
     assert shape_of("0;" * MAX_SHAPE) == ("0;" * MAX_SHAPE)
 
 

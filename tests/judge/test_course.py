@@ -32,7 +32,7 @@ from grader.classroom.marks import load_marking
 from grader.cli.hand_in import PROGRAMS
 from grader.errors import Stop
 from grader.intake.found import Found, Intake
-from grader.judge.course import FULL, Course, Late, WrongCourse, read_course, spread
+from grader.judge.course import FULL, Course, Late, WrongCourse, read_course, spread_points
 from grader.judge.grade import Options, grade, shipped_reference
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import load_rubric
@@ -87,11 +87,11 @@ def test_a_date_without_a_zone_is_over_where_it_is_over_last(
 
 @given(st.lists(st.integers(1, 9), min_size=1, max_size=12), st.integers(1, 60))
 def test_points_are_spread_in_whole_numbers(weights: list[int], points: int):
-    shares = spread(points, weights)
+    shares = spread_points(points, weights)
     assert sum(shares) == points and min(shares) >= 0
     assert 0 not in shares or points < len(weights)
-    assert spread(sum(weights), weights) == weights
-    assert spread(7, [9, 1, 1]) == [5, 1, 1]  # the largest remainder, and none of them 0
+    assert spread_points(sum(weights), weights) == weights
+    assert spread_points(7, [9, 1, 1]) == [5, 1, 1]  # the largest remainder, and none of them 0
 
 
 def test_todos_stand_in_the_order_of_the_rubric_and_points_add_up():

@@ -33,7 +33,7 @@ from grader.judge.submission import load_given
 from grader.protocol import NOT_A_MESSAGE, Answered
 from grader.source.definitions import Program
 from grader.source.flaws import find_bad_bytes, find_flaw
-from grader.source.given import changes
+from grader.source.given import compare_files
 from grader.source.regions import regions_in, shape_of
 from grader.source.suspects import RegionCode, find_dead_end, find_leftover, find_suspects
 from grader.text import clean, escape_inside, format_csv
@@ -187,7 +187,7 @@ def read_source(text: str) -> None:
     find_leftover(code, STUB)
     find_dead_end(code)
     find_suspects(code)
-    changes({"integrators.py": text}, load_given())
+    compare_files({"integrators.py": text}, load_given())
     program = Program({Path("integrators.py"): text})
     program.definition("integrators", "step")
     program.names_used("integrators", "step")

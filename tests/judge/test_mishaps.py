@@ -15,7 +15,7 @@ from grader.intake.listing import open_class
 from grader.judge import children
 from grader.judge.children import ChildEnded, WarmWorker, start_worker
 from grader.judge.grade import KIT
-from grader.judge.workplace import PREFIX, locked, remove_leftovers, work_folder
+from grader.judge.workplace import PREFIX, lock_folder, remove_leftovers, work_folder
 from grader.protocol import Call, ChildSetup, Import, Limits, Returned
 
 soak = pytest.mark.soak
@@ -106,7 +106,7 @@ def test_what_a_killed_grade_left_goes_with_the_next(tmp_path: Path, killed: boo
     os.utime(living, (1, 1))
     stranger = place / "notes"
     stranger.mkdir()
-    lock = locked(living)
+    lock = lock_folder(living)
     remove_leftovers(str(place))
     assert sorted(place.iterdir()) == [stranger, living]
     assert lock is not None
@@ -116,7 +116,7 @@ def test_what_a_killed_grade_left_goes_with_the_next(tmp_path: Path, killed: boo
 @posix
 def test_a_folder_that_is_in_use_is_nobodys_leftover():
     with work_folder() as work:
-        assert locked(work) is None
+        assert lock_folder(work) is None
     assert not work.exists()
 
 

@@ -9,7 +9,7 @@ import pytest
 from grader.bank.verify import shared_worker
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
-from grader.source.regions import read_source, replaced
+from grader.source.regions import read_source, replace_regions
 
 BRANCHES = ["if x == 0:\n        return x, v"]
 BRANCHES += [f"elif x == {number}:\n        return x, v" for number in range(1, 1500)]
@@ -29,7 +29,9 @@ ODD = {
 def graded(folder: Path, code: str) -> Result:
     shutil.copytree(KIT / "solution", folder, ignore=shutil.ignore_patterns("__pycache__"))
     file = folder / "integrators.py"
-    file.write_text(replaced(read_source(file), {"8a": tuple(code.split("\n"))}), encoding="utf-8")
+    file.write_text(
+        replace_regions(read_source(file), {"8a": tuple(code.split("\n"))}), encoding="utf-8"
+    )
     options = Options(
         shipped_reference(), only=frozenset({"8a", "8b"}), trusted=True
     )  # its prints, too

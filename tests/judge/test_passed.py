@@ -13,7 +13,7 @@ from grader.judge.passed import PassedPrograms, program_key
 from grader.judge.reference import Reference
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import take_in
-from grader.source.regions import replaced
+from grader.source.regions import replace_regions
 
 SOAK = pytest.mark.soak
 DAMPING = "mini_engine/world.py"
@@ -39,7 +39,7 @@ def key_for(tree: Path, copy: Path) -> str:
 
 def test_a_wrong_todo_leaves_the_others_the_program_that_they_were(tmp_path: Path):
     text = (KIT / "solution" / "integrators.py").read_text("utf-8")
-    wrong = replaced(text, {"8b": ("    x = x + v * dt",)})
+    wrong = replace_regions(text, {"8b": ("    x = x + v * dt",)})
     tree = changed(tmp_path / "tree", "integrators.py", wrong)
     passed = PassedPrograms(tmp_path / "passed")
     options = Options(shipped_reference(), only=TODOS, trusted=True)

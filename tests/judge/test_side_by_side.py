@@ -11,7 +11,7 @@ from grader.bank.verify import shared_worker
 from grader.judge.budget import Budget
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import CheckResult
-from grader.source.regions import replaced
+from grader.source.regions import replace_regions
 
 WRONG = "        keep_vel = keep_omega = 1 - self.linear_damping * dt"
 ENDLESS = "        while True:", "            pass"
@@ -21,7 +21,7 @@ def broken(folder: Path, code: tuple[str, ...]) -> Path:
     """Return the solution with other code in TODO 5."""
     shutil.copytree(KIT / "solution", folder, ignore=shutil.ignore_patterns("notebooks"))
     path = folder / "mini_engine" / "world.py"
-    path.write_text(replaced(path.read_text("utf-8"), {"5": code}), "utf-8")
+    path.write_text(replace_regions(path.read_text("utf-8"), {"5": code}), "utf-8")
     return folder
 
 

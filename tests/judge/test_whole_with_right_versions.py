@@ -7,7 +7,7 @@ import pytest
 from grader.bank.verify import shared_worker
 from grader.judge.grade import Options, grade, shipped_reference
 from grader.judge.result import Result, TodoResult
-from grader.source.regions import read_source, replaced
+from grader.source.regions import read_source, replace_regions
 
 WORLD, SOLVER = "mini_engine/world.py", "mini_engine/solver.py"
 NO_DAMPING = {"5": ("        keep_vel = 1.0 - 0.9", "        keep_omega = 1.0 - 0.9")}
@@ -15,7 +15,7 @@ NO_SPIN = {"2": ("    total += 0.0 * cross(ra, axis)",)}
 
 
 def with_regions(tree: Path, file: str, regions: dict[str, tuple[str, ...]]) -> Path:
-    text = replaced(read_source(tree / file), regions)
+    text = replace_regions(read_source(tree / file), regions)
     (tree / file).write_text(text, encoding="utf-8")
     return tree
 

@@ -11,7 +11,7 @@ from command_line import run_grader
 
 from grader.judge.course import Course, faults_between
 from grader.judge.grade import KIT
-from grader.judge.rubric import load_rubric, visible
+from grader.judge.rubric import drop_hidden, load_rubric
 from grader.release import build as releases
 from grader.release.build import Refused, prove_cut
 from grader.release.handed_out import make_students_tree
@@ -19,7 +19,7 @@ from grader.release.handouts import make_handouts
 from grader.release.leaks import find_given_answers, find_hidden_secrets, read_texts
 from grader.release.notebooks import make_notebooks
 from grader.release.students_copy import cut_checks, cut_course_files
-from grader.source.cut import defined, list_uses
+from grader.source.cut import list_defined, list_uses
 
 
 def draw_courses(count: int, seed: int = 1) -> Iterator[Course]:
@@ -42,7 +42,7 @@ def find_missing(texts: dict[str, str]) -> list[str]:
         (module, defined_name)
         for module, name in modules.items()
         for node in ast.parse(texts[name]).body
-        for defined_name in defined(node)
+        for defined_name in list_defined(node)
     } | {(module, "") for module in modules}
     return [
         f"{name} takes {part or 'all'} of {module}"
@@ -54,14 +54,14 @@ def find_missing(texts: dict[str, str]) -> list[str]:
 
 @pytest.mark.parametrize("todos", [("1", "B4"), ("4", "B2"), ("3", "7c", "B2")], ids=",".join)
 def test_a_bonus_task_keeps_what_it_takes_from_another_file(todos):
-    texts = cut_checks(visible(Course(todos=todos).rubric))
+    texts = cut_checks(drop_hidden(Course(todos=todos).rubric))
     assert find_missing(texts) == []
     assert ("todo_7/checks.py" in texts) == ("B4" in todos or "7c" in todos)
 
 
 def test_what_drawn_courses_import_is_there():
     for course in draw_courses(3):
-        assert find_missing(cut_checks(visible(course.rubric))) == [], course
+        assert find_missing(cut_checks(drop_hidden(course.rubric))) == [], course
 
 
 def test_what_only_other_todos_need_is_no_secret():
@@ -133,5 +133,5 @@ def test_an_asked_todo_that_answers_another_is_none():
 @pytest.mark.parametrize("number", range(200))
 def test_each_of_many_courses_can_be_released(number: int, tmp_path: Path):
     (course,) = draw_courses(1, number)
-    assert find_missing(cut_checks(visible(course.rubric))) == []
+    assert find_missing(cut_checks(drop_hidden(course.rubric))) == []
     prove_cut(course, tmp_path)

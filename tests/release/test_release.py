@@ -28,7 +28,7 @@ from grader.judge import misconceptions, recorded
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.judge.rubric import CHECKS, Rubric, load_rubric, visible
+from grader.judge.rubric import CHECKS, Rubric, drop_hidden, load_rubric
 from grader.release import build as releases
 from grader.release import students_copy
 from grader.release.build import (
@@ -42,8 +42,8 @@ from grader.release.handed_out import FOR_CI
 from grader.release.leaks import Secret, find_leaks_in_text, find_secrets, read_texts
 from grader.release.pages import MEASURED, make_page
 from grader.release.students_copy import Tree, cut_checks, list_hidden_checks, record_answers
-from grader.source.cut import pruned, with_bodies
-from grader.source.regions import replaced
+from grader.source.cut import prune, replace_bodies
+from grader.source.regions import replace_regions
 
 WRONG = [m for m in bank() if m.kind == "wrong" and m.form == "package" and m.is_patch]
 REGIONS = {todo.id: todo.folder for todo in load_rubric().todos if todo.function}
@@ -134,7 +134,7 @@ def released(once, expected_runs: bytes, practice_file: bytes, secrets: list[Sec
     """
 
     def fill(work: Path) -> None:
-        most = visible(load_rubric()).max_points
+        most = drop_hidden(load_rubric()).max_points
         marks = {"solution": most}
         with pytest.MonkeyPatch.context() as patched:
             patched.setattr(releases, "record_expected", lambda *_: expected_runs)
@@ -255,7 +255,7 @@ def test_a_machine_with_other_things_on_it_changes_nothing(
         (tree / "build" / "replays").mkdir(parents=True)
         (tree / "build" / "replays" / ".gitignore").write_text("*\n", encoding="utf-8")
         (tree / "own_helper.py").write_text("", encoding="utf-8")
-        mine = replaced(text, {"8a": tuple(f"    {body}".splitlines())})
+        mine = replace_regions(text, {"8a": tuple(f"    {body}".splitlines())})
         if name == "uses-changed-given-code":
             mine = mine.replace("    return x + v * dt, v + accel(x) * dt", "    return x, v", 1)
         (tree / "integrators.py").write_text(mine, encoding="utf-8")
@@ -271,7 +271,7 @@ def test_so_it_is_for_all_wrong_submissions(tmp_path: Path):
 
 
 def test_the_points_of_both_graders_belong_together():
-    shown = visible(load_rubric())
+    shown = drop_hidden(load_rubric())
     assert shown.max_points + shown.hidden_points == load_rubric().max_points
     assert load_rubric().hidden_points == 0
     assert shown.max_points >= 0.8 * load_rubric().max_points
@@ -280,7 +280,7 @@ def test_the_points_of_both_graders_belong_together():
 
 def test_the_wheel_has_the_visible_rubric(released: Released):
     text = (released.installed / "grader" / "checks" / "rubric.toml").read_bytes()
-    assert msgspec.toml.decode(text, type=Rubric) == visible(load_rubric())
+    assert msgspec.toml.decode(text, type=Rubric) == drop_hidden(load_rubric())
 
 
 def test_a_release_is_proved_by_the_course_in_it_and_refused_if_it_marks_wrongly(
@@ -289,7 +289,7 @@ def test_a_release_is_proved_by_the_course_in_it_and_refused_if_it_marks_wrongly
     """`make release COURSE_FILE=…` hands the file on, and with it points of checks left out."""
     monkeypatch.setenv("COURSE_FILE", str(KIT / "tests" / "courses" / "integrators.toml"))
     none = releases.grade_with(released.installed, KIT / "starter")
-    assert none.max_points == visible(load_rubric()).max_points
+    assert none.max_points == drop_hidden(load_rubric()).max_points
     monkeypatch.setattr(releases, "grade_with", lambda *_: none)
     with pytest.raises(Refused, match=rf"the solution 0 / \d+ instead of {none.max_points} / "):
         prove(released.installed)
@@ -695,26 +695,26 @@ def helper(x: float) -> float:
 
 
 def test_what_nobody_needs_is_cut_and_the_rest_is_kept_letter_by_letter():
-    cut = pruned(SOURCE, ["a"])
+    cut = prune(SOURCE, ["a"])
     compile(cut, "cut", "exec")
     assert cut.startswith('"""What it is."""\n\nfrom typing import Any\n\nA = 1\n\n\ndef a(')
     assert "import math" not in cut and "NamedTuple" not in cut and "# of b alone" not in cut
     assert "Above" not in cut and "two lines" not in cut and "decorated" not in cut
     kept = SOURCE[SOURCE.index("def a(") : SOURCE.index("# Above")].strip()
     assert kept in cut and cut.endswith("def helper(x: float) -> float:\n    return x\n")
-    assert pruned(SOURCE, ["a", "b"]).count("import math") == 1
+    assert prune(SOURCE, ["a", "b"]).count("import math") == 1
 
 
 def test_a_body_is_replaced_below_its_docstring():
-    changed = with_bodies(SOURCE, {"a": "return 5", "b": "return 6"})
+    changed = replace_bodies(SOURCE, {"a": "return 5", "b": "return 6"})
     assert 'def a(x: Any) -> float:\n    """Uses A."""\n    return 5\n' in changed
     assert "def b() -> float:\n    return 6\n" in changed and "@decorated" not in changed
 
 
 def test_visible_checks_are_cut_out_unchanged():
     """A property draws its examples from its own text, so that text must stay as it is."""
-    cut = cut_checks(visible(load_rubric()))
-    for todo in visible(load_rubric()).todos:
+    cut = cut_checks(drop_hidden(load_rubric()))
+    for todo in drop_hidden(load_rubric()).todos:
         text = (CHECKS / todo.folder / "checks.py").read_text(encoding="utf-8")
         for check in todo.checks:
             pattern = rf"(?:^@.+\n)*^def {check.id}\([\s\S]*?(?=\n\S|\Z)"

@@ -31,7 +31,7 @@ from grader.errors import Stop
 from grader.judge.course import FULL
 from grader.judge.grade import KIT
 from grader.judge.result import Result, TodoResult
-from grader.judge.rubric import Rubric, visible
+from grader.judge.rubric import Rubric, drop_hidden
 from grader.release import students_copy, tab_page
 from grader.release.build import Refused, make_command
 from grader.release.handed_out import make_students_tree
@@ -515,7 +515,9 @@ def test_a_few_members_get_the_same_without_pymunk(tmp_path: Path, monkeypatch: 
     monkeypatch.setattr(tab_page, "look_for_own_leaks", lambda *_: None)
     record_all = students_copy.record_answers
     monkeypatch.setattr(
-        students_copy, "record_answers", lambda wrong, _: record_all(wrong, visible(Rubric(asked)))
+        students_copy,
+        "record_answers",
+        lambda wrong, _: record_all(wrong, drop_hidden(Rubric(asked))),
     )
 
     def record(name: str, make: Callable[[], bytes]) -> bytes:

@@ -15,10 +15,10 @@ import pytest
 from test_release import make
 
 from grader.judge.grade import KIT
-from grader.judge.rubric import load_rubric, visible
+from grader.judge.rubric import drop_hidden, load_rubric
 from grader.release import build as releases
 from grader.release.pages import write_pages
-from grader.source.regions import regions_in, replaced
+from grader.source.regions import regions_in, replace_regions
 
 PYTHONS = [sys.executable, *filter(None, map(shutil.which, ("python3.13", "python3.14")))]
 FRAMES = "40"  # of a program that a person would look at
@@ -77,7 +77,7 @@ class Student:
         right = (KIT / "solution" / file).read_text(encoding="utf-8")
         lines = {region.id: region.lines for region in regions_in(right) if region.id == todo}
         path = self.tree / file
-        path.write_text(replaced(path.read_text(encoding="utf-8"), lines), encoding="utf-8")
+        path.write_text(replace_regions(path.read_text(encoding="utf-8"), lines), encoding="utf-8")
 
     def changes(self, file: str, old: str, new: str) -> None:
         text = (self.tree / file).read_text(encoding="utf-8")
@@ -130,7 +130,7 @@ def test_the_lab_is_walked_from_the_zip_to_full_marks(
     (tree.parent / "no fork").mkdir()
     (tree.parent / "no fork" / "sitecustomize.py").write_text("import os\ndel os.fork\n", "ascii")
     student = Student(tree, environment_of(tree, python), forks)
-    page, most = sheet_of(tree), visible(load_rubric()).max_points
+    page, most = sheet_of(tree), drop_hidden(load_rubric()).max_points
     programs, check = next(blocks(page)), student.command("make check")
     for line in programs:
         student.types(line)

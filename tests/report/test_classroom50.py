@@ -15,7 +15,7 @@ import pytest
 
 from grader.bank.members import make_mistake
 from grader.judge.grade import KIT
-from grader.judge.rubric import load_rubric, visible
+from grader.judge.rubric import drop_hidden, load_rubric
 from grader.release.students_copy import list_hidden_checks
 from grader.report.sinks.classroom50 import BUNDLE, write_bundle
 
@@ -117,7 +117,7 @@ def test_the_solution_succeeds(tmp_path: Path):
 
 
 def test_the_pages_name_the_points_of_hidden_checks():
-    most = visible(load_rubric()).max_points
+    most = drop_hidden(load_rubric()).max_points
     folder = KIT / "handouts" / "instructor"
     page, guide = (
         " ".join((folder / f"{name}.md").read_text(encoding="utf-8").split())

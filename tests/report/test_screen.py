@@ -10,7 +10,7 @@ import pytest
 from rich.console import Console
 
 from grader.judge.grade import KIT
-from grader.judge.numbers import readable, tidied
+from grader.judge.numbers import shorten_both, shorten_numbers
 from grader.judge.result import CheckResult, Result, State, TodoResult, Where, state_of
 from grader.report.screen import LINES, Screen, choose_todo
 
@@ -124,7 +124,7 @@ def test_make_says_nothing_of_its_own(hand_in):
     ],
 )
 def test_a_number_has_the_digits_that_tell_something(text: str, told: str):
-    assert tidied(text) == told
+    assert shorten_numbers(text) == told
 
 
 @pytest.mark.parametrize(
@@ -132,5 +132,5 @@ def test_a_number_has_the_digits_that_tell_something(text: str, told: str):
     [("0.3 px", "0.30000000000000004 px"), ("0 px", "7.9e-33 px"), ("0.0 px", "-0.0 px")],
 )
 def test_what_differs_is_told_apart(expected: str, got: str):
-    first, second = readable(expected, got)
+    first, second = shorten_both(expected, got)
     assert first != second

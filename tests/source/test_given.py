@@ -14,17 +14,17 @@ from grader.judge.failures import NotYet
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import CheckResult
 from grader.judge.submission import load_given
-from grader.judge.wording import named_reasons
+from grader.judge.wording import list_reasons
 from grader.source.definitions import statements
 from grader.source.given import (
     Changed,
-    changes,
+    compare_files,
     first_difference,
     pieces,
-    restored,
+    undo_changes,
     with_markers,
 )
-from grader.source.regions import regions_in, replaced
+from grader.source.regions import regions_in, replace_regions
 
 SOLVER, CONSTANTS = "mini_engine/solver.py", "mini_engine/constants.py"
 DOUBLED = (SOLVER, "    c.jn = total\n", "    c.jn += total\n")
@@ -45,8 +45,8 @@ def only(file: str, old: str, new: str) -> Changed:
     """Return the one change that is found after a replacement in a file as it was handed out."""
     text = load_given()[file]
     assert text.count(old) == 1
-    (found,) = changes({file: text.replace(old, new)}, load_given())
-    assert restored(text.replace(old, new), [found]).split() == text.split() or not found.theirs
+    (found,) = compare_files({file: text.replace(old, new)}, load_given())
+    assert undo_changes(text.replace(old, new), [found]).split() == text.split() or not found.theirs
     return found
 
 
@@ -107,7 +107,7 @@ def test_a_change_is_told_by_its_piece_and_its_line(file, old, new, name, theirs
 def test_what_is_in_regions_or_changes_nothing_is_no_change(old, new):
     text = load_given()[SOLVER]
     assert text.count(old) == 1
-    assert not changes({SOLVER: text.replace(old, new)}, load_given())
+    assert not compare_files({SOLVER: text.replace(old, new)}, load_given())
 
 
 def test_what_stands_elsewhere_or_is_not_needed_is_not_missed():
@@ -116,10 +116,10 @@ def test_what_stands_elsewhere_or_is_not_needed_is_not_missed():
     text = given[SOLVER]
     start, stop = text.index("def friction_limit"), text.index("def solve_friction")
     moved = "from .limits import friction_limit\n" + text[:start] + text[stop:]
-    assert not changes({SOLVER: moved.replace("import math\n", "")}, given)
+    assert not compare_files({SOLVER: moved.replace("import math\n", "")}, given)
     name = "mini_engine/__init__.py"  # which passes all of them on
     lacking = given[name].replace("from .body import Body\n", "")
-    (found,) = changes({name: lacking}, given)
+    (found,) = compare_files({name: lacking}, given)
     assert found.given == "from .body import Body"
 
 
@@ -131,7 +131,7 @@ def test_another_change_in_a_file_says_nothing_of_its_todos():
     """Also where the last marker of a region stands below the last statement of its function."""
     given, added = load_given(), "\n\nclass Circle:\n    pass\n"
     mine = {name: (KIT / "solution" / name).read_text(encoding="utf-8") for name in given}
-    found = changes({name: text + added for name, text in mine.items()}, given)
+    found = compare_files({name: text + added for name, text in mine.items()}, given)
     assert found and {each.name for each in found} == {"Circle"}
 
 
@@ -143,7 +143,7 @@ def told(tree: Path, *todos: str, reference: Path | None = None) -> dict[str, li
     options = Options(reference=reference, only=frozenset(todos), trusted=True)
     result = grade(tree, options, shared_worker())
     return {
-        todo.id: [dict(named_reasons(check, ", TODO")) for check in todo.failed]
+        todo.id: [dict(list_reasons(check, ", TODO")) for check in todo.failed]
         for todo in result.todos
     }
 
@@ -202,7 +202,7 @@ def test_a_todo_that_is_done_in_given_code_earns_nothing_by_what_is_put_back(han
     world = "mini_engine/world.py"
     text = (tree / world).read_text(encoding="utf-8")
     empty = "        keep_vel = 1.0 + 0.0\n        keep_omega = 1.0 - 0.0".splitlines()
-    (tree / world).write_text(replaced(text, {"5": tuple(empty)}), encoding="utf-8")
+    (tree / world).write_text(replace_regions(text, {"5": tuple(empty)}), encoding="utf-8")
     change(tree, world, "        self.move(dt)\n", "        self.move(dt * 1.01)\n")
     only = frozenset({"5"})
     (todo,) = grade(tree, Options(shipped_reference(), only=only), shared_worker()).todos
@@ -218,7 +218,7 @@ def integrators(tree: Path, region: str, given: str) -> None:
     """Return TODO 8a with a region that calls given code, which is another one."""
     path = tree / "integrators.py"
     text = path.read_text(encoding="utf-8").replace(EULER, given, 1)
-    path.write_text(replaced(text, {"8a": tuple(region.splitlines())}), encoding="utf-8")
+    path.write_text(replace_regions(text, {"8a": tuple(region.splitlines())}), encoding="utf-8")
 
 
 def test_an_instructor_reads_the_same(hand_in):
@@ -365,5 +365,5 @@ def test_a_marker_behind_the_last_statement_belongs_to_the_function():
 )
 def test_a_line_of_a_todos_function_outside_its_region_is_told(old: str, new: str, says: str):
     given = load_given()[SOLVER]
-    (change,) = changes({SOLVER: given.replace(old, new, 1)}, {SOLVER: given})
+    (change,) = compare_files({SOLVER: given.replace(old, new, 1)}, {SOLVER: given})
     assert change.todo == "4" and says in change.outside and bool(says) == bool(change.outside)

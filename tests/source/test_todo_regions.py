@@ -6,11 +6,11 @@ import pytest
 
 from grader.source.regions import (
     RegionError,
-    encoded,
+    encode,
     read_regions,
     read_source,
     regions_in,
-    replaced,
+    replace_regions,
     shape_of,
 )
 
@@ -65,7 +65,7 @@ def test_a_comment_is_no_marker(line: str):
 
 
 def test_a_region_can_be_replaced_and_the_rest_stays():
-    assert replaced(TEXT, {"4": ("    limit = 2",)}) == TEXT.replace("= 1", "= 2")
+    assert replace_regions(TEXT, {"4": ("    limit = 2",)}) == TEXT.replace("= 1", "= 2")
 
 
 def test_layout_and_comments_do_not_change_the_shape():
@@ -90,4 +90,4 @@ def test_a_source_is_read_and_written_as_it_declares(tmp_path: Path, head: str, 
     path = tmp_path / "a.py"
     path.write_bytes(text.encode(encoding))
     assert read_source(path) == text
-    assert encoded(text) == text.encode(encoding)
+    assert encode(text) == text.encode(encoding)

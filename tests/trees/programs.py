@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from grader.judge.rubric import load_rubric
-from grader.source.regions import python_files, regions_in, replaced
+from grader.source.regions import python_files, regions_in, replace_regions
 
 HERE = Path(__file__).parent
 SOLUTION, STARTER = (HERE.parents[1] / name for name in ("solution", "starter"))
@@ -62,7 +62,7 @@ def mixed(tree: Path, other: Path, todo: str, folder: Path) -> Path:
     """A copy of the tree with one TODO as it stands in the other tree."""
     name, region = regions(other)[todo]
     path = copy_of(tree, folder) / name
-    text = replaced(path.read_text(encoding="utf-8"), {todo: region.lines})
+    text = replace_regions(path.read_text(encoding="utf-8"), {todo: region.lines})
     path.write_text(text, encoding="utf-8", newline="\n")
     return folder / tree.name
 

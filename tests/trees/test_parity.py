@@ -16,7 +16,7 @@ from grader.bank.sync import (
     list_students_files,
     sync,
 )
-from grader.source.regions import RegionError, python_files, regions_in, replaced
+from grader.source.regions import RegionError, python_files, regions_in, replace_regions
 
 IN_BOTH = [name for name in list_given_files(SOLUTION) if not is_laid_in(name)]
 TREES = pytest.mark.parametrize("tree", [SOLUTION, STARTER], ids=["solution", "starter"])
@@ -28,7 +28,7 @@ def emptied(path: Path) -> bytes:
     if path.suffix != ".py":
         return content
     text = content.decode()
-    return replaced(text, {region.id: () for region in regions_in(text)}).encode()
+    return replace_regions(text, {region.id: () for region in regions_in(text)}).encode()
 
 
 # ---------------------------------------------------------------- as they are

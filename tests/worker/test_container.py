@@ -14,7 +14,7 @@ import pytest
 
 from grader.judge.children import WarmWorker
 from grader.judge.grade import KIT, Options, grade, shipped_reference
-from grader.judge.isolation import KEEPS_FILES, refusal
+from grader.judge.isolation import KEEPS_FILES, find_refusal
 from grader.judge.submission import CannotGrade
 from grader.protocol import ChildSetup
 
@@ -23,12 +23,12 @@ INSTRUCTIONS = (KIT / "Containerfile").read_text(encoding="utf-8")
 
 
 def test_somebody_elses_work_is_refused_where_files_are_open():
-    assert "--isolation none" in refusal("auto", [*BARE, "system-calls"], trusted=False)
-    assert refusal("auto", BARE, trusted=True) == ""
-    assert refusal("none", ["processes"], trusted=False) == ""
+    assert "--isolation none" in find_refusal("auto", [*BARE, "system-calls"], trusted=False)
+    assert find_refusal("auto", BARE, trusted=True) == ""
+    assert find_refusal("none", ["processes"], trusted=False) == ""
     for layer in KEEPS_FILES:
-        assert refusal("auto", [*BARE, layer], trusted=False) == ""
-    assert "cannot confine files" in refusal("strict", [*BARE, "own-user"], trusted=True)
+        assert find_refusal("auto", [*BARE, layer], trusted=False) == ""
+    assert "cannot confine files" in find_refusal("strict", [*BARE, "own-user"], trusted=True)
 
 
 def without_walls(usual):

@@ -19,7 +19,7 @@ from whole_bank import bank
 
 from grader.judge.children import Child, WarmWorker, Worker, start_worker
 from grader.judge.grade import KIT
-from grader.judge.isolation import unconfined
+from grader.judge.isolation import list_unconfined
 from grader.protocol import Call, ChildSetup, Import, Limits, Raised, Returned
 from grader.worker import confinement
 from grader.worker.filter import ALLOWED, AUDIT_ARCH, CHECKED
@@ -440,8 +440,8 @@ def test_the_name_of_the_machine_is_not_told(probe: Prober):
 
 
 def test_what_is_open_is_named():
-    assert unconfined(["processes", "rlimits"]) == ["files", "network", "other processes"]
-    assert unconfined(sorted(expected_layers())) == []
+    assert list_unconfined(["processes", "rlimits"]) == ["files", "network", "other processes"]
+    assert list_unconfined(sorted(expected_layers())) == []
 
 
 def test_the_page_is_short_and_names_what_is_there():

@@ -17,7 +17,7 @@ from whole_bank import bank, member_named
 from grader.bank.verify import shared_worker
 from grader.judge.grade import Options, grade
 from grader.judge.inline import InlineWorker
-from grader.judge.isolation import ONE_PROCESS, refusal
+from grader.judge.isolation import ONE_PROCESS, find_refusal
 from grader.judge.result import CheckResult, Result
 from grader.judge.submission import CannotGrade
 from grader.source.regions import read_source
@@ -157,5 +157,5 @@ def test_nothing_that_a_submission_changes_stays(tab: InlineWorker, hand_in: Han
 def test_it_refuses_other_peoples_work(tab: InlineWorker):
     with pytest.raises(CannotGrade, match="may not run inside the grader's own process"):
         grade(KIT / "starter", Options(), tab)
-    assert refusal("none", [ONE_PROCESS], trusted=False)
-    assert not refusal("none", [ONE_PROCESS], trusted=True)
+    assert find_refusal("none", [ONE_PROCESS], trusted=False)
+    assert not find_refusal("none", [ONE_PROCESS], trusted=True)

@@ -15,7 +15,7 @@ from grader.errors import Stop
 from grader.intake.names import fold, split_login
 from grader.intake.roster import Roster, list_people
 from grader.judge.result import Result, TodoResult
-from grader.judge.wording import reasons
+from grader.judge.wording import format_reasons
 from grader.report.files import read_result
 
 
@@ -140,7 +140,7 @@ def write_comment(todo: TodoResult) -> str:
     for check in todo.checks:
         if check.state != "passed":
             lines.append(f"{check.title} ({check.points} / {check.max_points})")
-            lines += [f"  {line}" for line in reasons(check)]
+            lines += [f"  {line}" for line in format_reasons(check)]
     return "\n".join(f"    {line}" for line in lines)
 
 

@@ -21,7 +21,7 @@ from grader.intake.packing import lay_out, open_found
 from grader.judge.grade import KIT, Options
 from grader.judge.outer import READING, call_alone
 from grader.judge.plain import copy_plain, open_plain, size_of
-from grader.judge.submission import plain_files, unreadable
+from grader.judge.submission import explain_unreadable, plain_files
 
 ASSIGNMENT = "physics-engine"
 NOTEBOOKS = "notebooks"  # the folder of both trees
@@ -105,7 +105,7 @@ def copy_one(top: Path, source: Path, target: Path) -> None:
     try:
         file = open_plain(top, source.relative_to(top))
     except OSError as error:
-        raise Stop(unreadable(error, top)) from error
+        raise Stop(explain_unreadable(error, top)) from error
     with file:
         copy_plain(file, target, size_of(file))
 

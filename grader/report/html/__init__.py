@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from grader.judge.isolation import unconfined
+from grader.judge.isolation import list_unconfined
 from grader.judge.result import Result, TodoResult
-from grader.judge.wording import named_reasons
+from grader.judge.wording import list_reasons
 from grader.player.page import clean_line, fill_template
 from grader.report.files import write_whole
 from grader.text import harmless
@@ -68,10 +68,10 @@ def render(result: Result, replays: Mapping[str, str], standing: Standing | None
         todos=list_failed_first(result),
         replays=replays,
         standing=standing,
-        unconfined=unconfined(result.isolation),
+        unconfined=list_unconfined(result.isolation),
         clean=clean_line,
         harmless=harmless,
-        reasons=named_reasons,
+        reasons=list_reasons,
     )
 
 

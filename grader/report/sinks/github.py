@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
 from grader.judge.result import Result, TodoResult
-from grader.judge.wording import named, reasons
+from grader.judge.wording import add_task, format_reasons
 from grader.report.sinks.reporter import write_reporter
 from grader.text import clean
 
@@ -33,10 +33,10 @@ def write_annotation(kind: str, todo: TodoResult, inside: str) -> str:
     if check.where:
         file = "/".join(filter(None, (inside, clean(check.where.file))))
         place = f"file={escape_property(file)},line={check.where.line},"
-    words = [check.title, *reasons(check)]
+    words = [check.title, *format_reasons(check)]
     if others:
         words.append(f"Checks of this TODO that failed as well: {len(others)}")
-    title = escape_property(named(todo, todo.title))
+    title = escape_property(add_task(todo, todo.title))
     return f"::{kind} {place}title={title}::{escape_message(chr(10).join(words))}"
 
 

@@ -4,7 +4,7 @@ import msgspec
 
 from grader.judge.course import FULL, Course
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.judge.wording import named, points_in_words, reasons
+from grader.judge.wording import add_task, format_reasons, points_in_words
 from grader.text import clean
 
 SHOWN = {"output_format": "text", "visibility": "visible"}  # to the student
@@ -46,7 +46,7 @@ def make_test(todo: TodoResult, check: CheckResult, number: int) -> dict[str, ob
         **make_points(todo, check),
         "status": "passed" if check.state == "passed" else "failed",
         "number": f"{todo.id}.{number}",
-        "output": "\n".join(reasons(check)) if check.state != "passed" else "",
+        "output": "\n".join(format_reasons(check)) if check.state != "passed" else "",
         "tags": [f"todo-{todo.id}", check.kind, check.state.replace(" ", "-")],
         **SHOWN,
     }
@@ -54,7 +54,7 @@ def make_test(todo: TodoResult, check: CheckResult, number: int) -> dict[str, ob
 
 def make_points(todo: TodoResult, check: CheckResult) -> dict[str, object]:
     """Return the name and the points; a bonus has points in its name, so that sums are right."""
-    name = named(todo, check.title)
+    name = add_task(todo, check.title)
     if todo.bonus:
         return {"name": f"{name} (bonus: {check.points} of {check.max_points})"}
     return {"name": name, "score": check.points, "max_score": check.max_points}

@@ -3,7 +3,7 @@
 from xml.etree import ElementTree as ET
 
 from grader.judge.result import CheckResult, Result, State, TodoResult
-from grader.judge.wording import named, reasons
+from grader.judge.wording import add_task, format_reasons
 from grader.text import clean, plural
 
 TAGS: dict[State, str] = {
@@ -19,7 +19,7 @@ def write_junit(result: Result) -> bytes:
     root = ET.Element("testsuites", name=clean(result.submission))
     add_counts(root, result.shown)
     for todo in result.shown:
-        suite = ET.SubElement(root, "testsuite", name=named(todo, todo.title))
+        suite = ET.SubElement(root, "testsuite", name=add_task(todo, todo.title))
         add_counts(suite, [todo])
         suite.set("skipped", str(count([todo], "skipped")))
         for check in todo.checks:
@@ -46,4 +46,4 @@ def add_case(suite: ET.Element, check: CheckResult) -> None:
     if tag := TAGS.get(check.state):
         element = ET.SubElement(case, tag, message=clean(check.got) or check.state)
         if tag != "skipped":
-            element.text = "\n".join(reasons(check))
+            element.text = "\n".join(format_reasons(check))

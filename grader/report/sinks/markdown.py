@@ -3,9 +3,15 @@
 import re
 from itertools import accumulate
 
-from grader.judge.isolation import unconfined
+from grader.judge.isolation import list_unconfined
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.judge.wording import hidden_points_note, named, points_in_words, reasons, task_of
+from grader.judge.wording import (
+    add_task,
+    format_reasons,
+    hidden_points_note,
+    points_in_words,
+    task_of,
+)
 from grader.text import clean
 
 ROOM = 100_000  # characters: a release may have 125,000, a job's summary 1024 KiB
@@ -30,7 +36,7 @@ def write_markdown(result: Result) -> str:
         "",
         f"Isolation: {', '.join(result.isolation)}.",
     ]
-    if lacking := unconfined(result.isolation):
+    if lacking := list_unconfined(result.isolation):
         lines += ["", f"**Not confined here: {', '.join(lacking)}.**"]
     return "\n".join(lines) + "\n"
 
@@ -42,8 +48,8 @@ def write_row(todo: TodoResult) -> str:
 
 def explain(todo: TodoResult, check: CheckResult) -> str:
     """Return a heading and a fenced text, with empty lines around."""
-    heading = f"#### {named(todo, escape_markdown(check.title))}"
-    text = "\n".join(reasons(check, task_of(todo)))
+    heading = f"#### {add_task(todo, escape_markdown(check.title))}"
+    text = "\n".join(format_reasons(check, task_of(todo)))
     return f"\n{heading}\n\n```text\n{text}\n```"
 
 

@@ -3,7 +3,7 @@
 import msgspec
 
 from grader.judge.result import CheckResult, Result, State, TodoResult
-from grader.judge.wording import named
+from grader.judge.wording import add_task
 from grader.text import clean
 
 STATUS: dict[State, str] = {"passed": "pass", "error": "error"}  # everything else: fail
@@ -21,7 +21,7 @@ def write_reporter(result: Result) -> bytes:
 
 def make_test(todo: TodoResult, check: CheckResult) -> dict[str, object]:
     """Return a test whose name and message are no commands in a job's log."""
-    name = named(todo, check.title)
+    name = add_task(todo, check.title)
     why = escape_commands(f"{name}: {check.got or check.state}")
     return {
         "name": name,

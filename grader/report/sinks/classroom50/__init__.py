@@ -9,7 +9,7 @@ import msgspec
 
 from grader.errors import Stop
 from grader.judge.result import Result, TodoResult
-from grader.judge.wording import named
+from grader.judge.wording import add_task
 from grader.text import clean
 
 BUNDLE = Path(__file__).parent
@@ -46,7 +46,7 @@ def write_classroom50(result: Result, environment: Mapping[str, str]) -> bytes:
 
 def make_test(todo: TodoResult) -> dict[str, str | bool | int]:
     """Return the test of a TODO; a bonus has points in its name, so that sums are right."""
-    name = named(todo, clean(todo.title))
+    name = add_task(todo, clean(todo.title))
     if todo.bonus:
         name += f" (bonus: {todo.points} of {todo.max_points})"
     return {
