@@ -12,11 +12,11 @@ from grader.judge.submission import load_given
 from grader.judge.wording import command
 from grader.report.files import write_whole
 from grader.source.flaws import find_flaw
-from grader.source.given import Changed, compare_files, keep_regions, undo_changes
+from grader.source.given import GivenChange, compare_files, keep_regions, undo_changes
 from grader.source.regions import RegionError, encode, read_source
 
 
-def find_changes(tree: Path) -> list[Changed]:
+def find_changes(tree: Path) -> list[GivenChange]:
     own = {name: tree / name for name in load_given() if (tree / name).is_file()}
     return compare_files({name: read_source(path) for name, path in own.items()}, load_given())
 

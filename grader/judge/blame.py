@@ -14,7 +14,7 @@ from grader.judge.lab import Lab, Observation
 from grader.judge.numbers import shorten_both, shorten_numbers
 from grader.judge.result import CheckResult, Where
 from grader.judge.submission import Submission, load_given
-from grader.source.given import Changed, compare_files, compare_whole_file, undo_changes
+from grader.source.given import GivenChange, compare_files, compare_whole_file, undo_changes
 from grader.source.regions import read_source
 
 MOST_ALONE = 8  # changes that are each put back alone, to find the one that matters
@@ -25,10 +25,10 @@ OpenChild = Callable[[int], Child]
 
 
 @dataclass(frozen=True)
-class Blamed:
+class GivenCause:
     """The changes of given code that a failed check depends on."""
 
-    changes: tuple[Changed, ...]
+    changes: tuple[GivenChange, ...]
     mended: bool  # the check passes once they are undone
 
     @property
@@ -62,7 +62,9 @@ class Blamed:
         return f"Given code was changed: {how}. check {undo} puts it back{then}."
 
 
-def find_changes(submission: Submission, unusable: Iterable[Broke | NotYet] = ()) -> list[Changed]:
+def find_changes(
+    submission: Submission, unusable: Iterable[Broke | NotYet] = ()
+) -> list[GivenChange]:
     """Return how the given code of a submission differs from what was handed out.
 
     `unusable`: how imports failed. A file in which one fails counts as a whole: code that was added
@@ -77,7 +79,7 @@ def find_changes(submission: Submission, unusable: Iterable[Broke | NotYet] = ()
     return [*whole, *compare_files(others, given)]
 
 
-def undo(submission: Submission, undone: Sequence[Changed]) -> dict[str, str]:
+def undo(submission: Submission, undone: Sequence[GivenChange]) -> dict[str, str]:
     """Return the changed files with these changes undone, as texts by name."""
     texts = {each.file: read_source(submission.folder / each.file) for each in undone}
     return {
@@ -87,15 +89,17 @@ def undo(submission: Submission, undone: Sequence[Changed]) -> dict[str, str]:
 
 
 @dataclass
-class Blame:
+class CauseSearch:
     """Runs the failed checks of a submission again, with changes of given code undone."""
 
-    changes: Sequence[Changed]
-    open_with: Callable[[Sequence[Changed]], OpenChild]  # children of the tree with these undone
+    changes: Sequence[GivenChange]
+    open_with: Callable[
+        [Sequence[GivenChange]], OpenChild
+    ]  # children of the tree with these undone
     again: Callable[[Key, OpenChild], Lab]
     spent: Callable[[], bool] = lambda: False  # whether the submission has used up its time
     asked: int = 0  # runs with one change undone
-    found: dict[Key, Blamed] = field(default_factory=dict)
+    found: dict[Key, GivenCause] = field(default_factory=dict)
     answers: dict[Key, list[Observation]] = field(default_factory=dict)  # with all changes undone
 
     def look_into(self, failed: Mapping[Key, CheckResult]) -> None:
@@ -112,18 +116,18 @@ class Blame:
                 differ[key] = lab.failure is None
         alone = self._find_one(failed, differ) if differ else {}
         for key, mended in differ.items():
-            self.found[key] = Blamed(tuple(alone.get(key, self.changes)), mended)
+            self.found[key] = GivenCause(tuple(alone.get(key, self.changes)), mended)
 
     def _find_one(
         self, failed: Mapping[Key, CheckResult], differ: Mapping[Key, bool]
-    ) -> dict[Key, Sequence[Changed]]:
+    ) -> dict[Key, Sequence[GivenChange]]:
         """Return the one change that makes the difference to a check, if there is one.
 
         Of several checks with the same error only the first runs.
         """
         if not 1 < len(self.changes) <= MOST_ALONE:
             return {}
-        found: dict[Key, Sequence[Changed]] = {}
+        found: dict[Key, Sequence[GivenChange]] = {}
         first = {key: find_first_like(failed, key) for key in differ}
         for change in self.changes:
             left = [key for key in differ if key not in found and first[key] == key]

@@ -24,7 +24,7 @@ from grader.judge.misconceptions import (
 )
 from grader.judge.narrowing import (
     FEWEST,
-    Narrowed,
+    Narrowing,
     Question,
     join,
     narrow,
@@ -99,7 +99,7 @@ class Diagnosis:
         explained = [each.changed for each in here if numbers[0] in each.explains]
         words = [each.meaning for each in merge_findings(here)] if explained else []
         unexplained = first.wrong.difference(*explained)
-        narrowed = narrow(self.questions, first, unexplained) if unexplained else Narrowed()
+        narrowed = narrow(self.questions, first, unexplained) if unexplained else Narrowing()
         if not words and not narrowed.is_local:
             same = [each for each in self.findings if each.mistake.about == first.about]
             words = [each.meaning for each in merge_findings(same)]

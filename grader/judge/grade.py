@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from msgspec import structs
 
-from grader.judge.blame import Blame, Blamed, find_changes, undo
+from grader.judge.blame import CauseSearch, GivenCause, find_changes, undo
 from grader.judge.children import Child, Worker, start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.failures import Failing
@@ -28,7 +28,7 @@ from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission, attempt, handed_out, take_in
 from grader.judge.workplace import work_folder
 from grader.protocol import cut
-from grader.source.given import Changed
+from grader.source.given import GivenChange
 from grader.source.regions import python_files, shape_of
 from grader.text import harmless
 
@@ -198,8 +198,8 @@ class Grading:
 
         self.loop = CheckLoop(self)
         self.loop.run()
-        blamed = self.put_given_code_back()
-        return self.make_result(Reasons(self, self.loop, blamed))
+        causes = self.put_given_code_back()
+        return self.make_result(Reasons(self, self.loop, causes))
 
     @property
     def failing(self) -> dict[Key, Failing]:
@@ -228,7 +228,7 @@ class Grading:
         results = [make_todo_result(todo, checks[todo.id], reasons, unfinished) for todo in todos]
         return nothing.with_todos(results).in_bounds()
 
-    def put_given_code_back(self) -> Mapping[Key, Blamed]:
+    def put_given_code_back(self) -> Mapping[Key, GivenCause]:
         """Run failed checks with changed given code undone; return the changes that matter.
 
         If a TODO's own check passes then, it counts as passed.
@@ -237,32 +237,32 @@ class Grading:
         if not failed:
             return {}
         unusable = loop.unusable.values()
-        given = attempt(lambda: find_changes(self.submission, unusable), list[Changed]())
+        given = attempt(lambda: find_changes(self.submission, unusable), list[GivenChange]())
         if not given:
             return {}
-        blame = Blame(
+        search = CauseSearch(
             given,
             lambda undone: self.sandbox.changed(undo(self.submission, undone)).open_child,
             lambda key, open_child: loop.runner.run_again(failed[key].job, open_child),
             lambda: bool(loop.budget.cut),
         )
-        blame.look_into({key: each.result for key, each in failed.items()})
-        loop.replace_answers(blame.answers)
+        search.look_into({key: each.result for key, each in failed.items()})
+        loop.replace_answers(search.answers)
         costly = []
-        for key, blamed in blame.found.items():
+        for key, cause in search.found.items():
             outcome = failed[key]
-            if not blamed.mended or not keeps_points(outcome.job.todo, self.names):
+            if not cause.mended or not keeps_points(outcome.job.todo, self.names):
                 continue
             check, job = outcome.result, outcome.job
-            hint = "" if blamed.is_all else self.names.hint(job.todo, job.module, check)
-            passed = as_passed(check, f"{blamed.in_words} {hint}".rstrip())
-            outcome.result = structs.replace(passed, where=blamed.place(check))
+            hint = "" if cause.is_all else self.names.hint(job.todo, job.module, check)
+            passed = as_passed(check, f"{cause.in_words} {hint}".rstrip())
+            outcome.result = structs.replace(passed, where=cause.place(check))
             outcome.failing = None
-            if not blamed.is_experiment:
-                costly.append(blamed)
+            if not cause.is_experiment:
+                costly.append(cause)
         if costly:
             charge_whole(loop, costly[0])
-        return blame.found
+        return search.found
 
     def pass_spoilt_scenes(self, todo: Todo) -> list[CheckResult]:
         """Return the results of a TODO; a scene that another TODO spoils counts as the rest does.
@@ -331,7 +331,7 @@ def keeps_points(todo: Todo, names: Names) -> bool:
     return bool(todo.path) and todo.path not in names.changed(todo.module)
 
 
-def charge_whole(loop: "CheckLoop", blamed: Blamed) -> None:
+def charge_whole(loop: "CheckLoop", cause: GivenCause) -> None:
     """Take a point of the whole for given code that a TODO needs, unless it lost one."""
     whole = loop.list_outcomes("whole")
     passed = [each for each in whole if each.result.state == "passed"]
@@ -344,9 +344,9 @@ def charge_whole(loop: "CheckLoop", blamed: Blamed) -> None:
         points=0,
         ran="the checks of the TODOs with your own code around them",
         expected="the code around the TODOs as it was handed out",
-        got="; ".join(each.how for each in blamed.changes),
-        meaning=blamed.in_words,
-        where=blamed.place(check),
+        got="; ".join(each.how for each in cause.changes),
+        meaning=cause.in_words,
+        where=cause.place(check),
     )
 
 

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import msgspec
 
-from grader.judge.blame import Blamed
+from grader.judge.blame import GivenCause
 from grader.judge.diagnosis import Diagnosis
 from grader.judge.failures import ENDLESS, KEPT, MOST_NAMES, TRESPASS
 from grader.judge.lab import Observation
@@ -43,7 +43,7 @@ FINISH = "TODO {ids} must be right before this can be checked: finish {it} first
 
 
 @dataclass(frozen=True)
-class Left:
+class BadLine:
     """A line that should be gone from a TODO's region, and a sentence about it."""
 
     words: str
@@ -59,7 +59,7 @@ class Evidence:
     todo: Todo
     mistake: Mistake | None = None
     answers: Sequence[Observation] = ()  # to all its checks
-    left: Left | None = None
+    bad_line: BadLine | None = None
     suspects: Mapping[str, Suspect] = field(default_factory=dict)  # by kind; see find_suspects
     remark: str = ""  # why no code of the TODO counts
 
@@ -81,7 +81,7 @@ class Failure:
     answers: Sequence[Observation] = ()
     kept: Sequence[str] = ()  # names that held a value from call to call
     trespass: str = ""  # what it changed that must stay, in words
-    blamed: Blamed | None = None
+    given_cause: GivenCause | None = None
     earlier: Sequence[str] = ()  # TODOs in which the program fails first
     start: Where | None = None  # where the program begins
     hint: Callable[[], str] = lambda: ""  # about names, arguments and errors
@@ -97,10 +97,10 @@ def explain(failure: Failure) -> CheckResult:
     check, evidence = failure.check, failure.evidence
     meaning = next(filter(None, (each(failure) for each in EXPLAINERS)), check.meaning)
     where = check.where or failure.start
-    if failure.blamed is not None:
-        where = failure.blamed.place(check)
-    elif evidence.left is not None and evidence.left.is_all:
-        where = evidence.left.where
+    if failure.given_cause is not None:
+        where = failure.given_cause.place(check)
+    elif evidence.bad_line is not None and evidence.bad_line.is_all:
+        where = evidence.bad_line.where
     elif where is not None and (line := find_line(failure, meaning)):
         where = Where(where.file, line)
     return msgspec.structs.replace(check, meaning=meaning, where=where)
@@ -134,13 +134,13 @@ def find_line(failure: Failure, meaning: str) -> int:
 
 def blame_given_code(failure: Failure) -> str:
     """Name the changed given code, and the next reason where it is not the only one."""
-    blamed = failure.blamed
-    if blamed is None:
+    cause = failure.given_cause
+    if cause is None:
         return ""
-    if blamed.is_gone:
-        return f"{blamed.in_words} {explain_names(failure)}".rstrip()
-    more = "" if blamed.is_all else explain_after(blame_given_code, failure)
-    return f"{blamed.in_words} {more}".rstrip()
+    if cause.is_gone:
+        return f"{cause.in_words} {explain_names(failure)}".rstrip()
+    more = "" if cause.is_all else explain_after(blame_given_code, failure)
+    return f"{cause.in_words} {more}".rstrip()
 
 
 def explain_after(explainer: "Explainer", failure: Failure) -> str:
@@ -154,12 +154,12 @@ def name_leftover(failure: Failure) -> str:
 
     Where some of the student's code runs, explain that first.
     """
-    left = failure.evidence.left
-    if left is None or (left.answers and failure.trespass):  # it returns what this code changed
+    line = failure.evidence.bad_line
+    if line is None or (line.answers and failure.trespass):  # it returns what this code changed
         return ""
-    if left.is_all or (left.answers and not failure.is_error):
-        return left.words
-    return f"{explain_after(name_leftover, failure)} {left.words}".strip()
+    if line.is_all or (line.answers and not failure.is_error):
+        return line.words
+    return f"{explain_after(name_leftover, failure)} {line.words}".strip()
 
 
 def name_loop(failure: Failure) -> str:

@@ -13,7 +13,7 @@ from functools import cache
 from typing import Any
 
 from grader.judge.lab import Observation
-from grader.judge.recorded import Answers, Recorded, key, load_recorded
+from grader.judge.recorded import Answers, RecordedAnswers, key, load_recorded
 from grader.judge.rubric import CHECKS, load_rubric
 
 Model = Callable[..., Any]
@@ -99,7 +99,7 @@ def load_known(todo: str) -> None:
             importlib.import_module(f"grader.checks.{each.folder}.mistakes")
 
 
-def register_recorded(table: Recorded, todo: str) -> None:
+def register_recorded(table: RecordedAnswers, todo: str) -> None:
     for each in table.mistakes:
         if each.todo == todo:
             model = answer_from(each.answers)

@@ -1,6 +1,6 @@
 """Narrow down wrong answers by their numbers: in which questions, which part, and how much.
 
-This states facts and no guesses. They are found first, as a `Narrowed`, and then worded.
+This states facts and no guesses. They are found first, as a `Narrowing`, and then worded.
 """
 
 import math
@@ -119,7 +119,7 @@ class WrongPart:
 
 
 @dataclass(frozen=True)
-class Narrowed:
+class Narrowing:
     """The wrong parts of the answers."""
 
     wrong: tuple[WrongPart, ...] = ()
@@ -172,7 +172,7 @@ def word(numbers: list[float]) -> str:
 # ---------------------------------------------------------------- where
 
 
-def narrow(questions: Sequence[Question], first: Question, parts: frozenset[str]) -> Narrowed:
+def narrow(questions: Sequence[Question], first: Question, parts: frozenset[str]) -> Narrowing:
     """Find the questions in which these parts are wrong as in the first one, and how."""
     same = [each for each in questions if each.about == first.about]
     if first.misfit:
@@ -181,15 +181,15 @@ def narrow(questions: Sequence[Question], first: Question, parts: frozenset[str]
     names = list(part_names.get(first.about, {}))
     wrong = [found for name in names if name in parts and (found := narrow_part(answered, name))]
     fine = [name for name in names if not any(name in each.wrong for each in answered)]
-    return Narrowed(tuple(wrong), tuple(fine), first)
+    return Narrowing(tuple(wrong), tuple(fine), first)
 
 
-def narrow_misfit(same: list[Question], first: Question) -> Narrowed:
+def narrow_misfit(same: list[Question], first: Question) -> Narrowing:
     wrong = [each for each in same if each.misfit == first.misfit]
     others = [each for each in same if each.misfit != first.misfit]
     where = find_condition(wrong, others, are_right=not any(each.wrong for each in others))
     raised = isinstance(first.answer, str) and not others
-    return Narrowed((WrongPart(first.misfit, "", where),)) if where and not raised else Narrowed()
+    return Narrowing((WrongPart(first.misfit, "", where),)) if where and not raised else Narrowing()
 
 
 def narrow_part(answered: list[Question], name: str) -> WrongPart | None:

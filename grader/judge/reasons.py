@@ -12,19 +12,19 @@ from typing import TYPE_CHECKING
 from msgspec import structs
 
 from grader.judge import misconceptions
-from grader.judge.blame import Blamed, find_changes
+from grader.judge.blame import GivenCause, find_changes
 from grader.judge.failures import REMEMBERS, TRESPASS
 from grader.judge.jobs import Key
 from grader.judge.lab import Observation
 from grader.judge.loop import CheckLoop
-from grader.judge.meaning import Evidence, Failure, Left, explain, is_unexplained
+from grader.judge.meaning import BadLine, Evidence, Failure, explain, is_unexplained
 from grader.judge.misconceptions import Mistake
 from grader.judge.one_change import Mend, find_mend
 from grader.judge.result import CheckResult, Where
 from grader.judge.rubric import Todo
 from grader.judge.running import Outcome
 from grader.judge.submission import attempt, handed_out
-from grader.source.given import Changed
+from grader.source.given import GivenChange
 from grader.source.regions import read_source
 from grader.source.suspects import (
     RegionCode,
@@ -45,10 +45,12 @@ MEND_SECONDS = 2.5  # of processor time, for one TODO
 class Reasons:
     """The reasons of all failed checks of one grade."""
 
-    def __init__(self, grading: "Grading", loop: CheckLoop, blamed: Mapping[Key, Blamed]) -> None:
-        self.grading, self.loop, self.blamed = grading, loop, blamed
+    def __init__(
+        self, grading: "Grading", loop: CheckLoop, causes: Mapping[Key, GivenCause]
+    ) -> None:
+        self.grading, self.loop, self.causes = grading, loop, causes
         self.submission = grading.submission
-        self.left = self._find_left()
+        self.bad_lines = self._find_bad_lines()
 
     # ------------------------------------------------------------ the code of a TODO
 
@@ -58,16 +60,16 @@ class Reasons:
             return None
         return RegionCode(read_source(self.submission.folder / where.file), todo.id, todo.path)
 
-    def _find_left(self) -> dict[str, Left]:
+    def _find_bad_lines(self) -> dict[str, BadLine]:
         """Return by TODO a line of the stub, or one above code that never runs."""
         first: dict[str, Outcome] = {}
         for key, outcome in self.loop.failed.items():
-            if outcome.job.todo.function and key not in self.blamed:
+            if outcome.job.todo.function and key not in self.causes:
                 first.setdefault(outcome.job.todo.id, outcome)
         found = ((id, attempt(partial(self._look_at, each), None)) for id, each in first.items())
-        return {id: left for id, left in found if left}
+        return {id: line for id, line in found if line}
 
-    def _look_at(self, outcome: Outcome) -> Left | None:
+    def _look_at(self, outcome: Outcome) -> BadLine | None:
         """Return the line that should be gone; a run without a leftover shows whether it helps."""
         todo = outcome.job.todo
         code = None if self.loop.budget.cut else self._read_region(todo)
@@ -78,20 +80,20 @@ class Reasons:
         if leftover is not None:
             changed = self.grading.sandbox.changed({file: leftover.without})
             if self.loop.runner.run_again(outcome.job, changed.open_child).failure is None:
-                return Left(leftover.words, Where(file, leftover.line), True)
+                return BadLine(leftover.words, Where(file, leftover.line), True)
             if leftover.is_only_return:
-                return Left(leftover.last.words, Where(file, leftover.last.line), False, True)
+                return BadLine(leftover.last.words, Where(file, leftover.last.line), False, True)
         if idle := find_idle(code):
-            return Left(idle.words, Where(file, idle.line), True)
+            return BadLine(idle.words, Where(file, idle.line), True)
         if dead_end := find_dead_end(code):
             is_first = dead_end.line == code.first_line
-            return Left(dead_end.words, Where(file, dead_end.line), is_first)
+            return BadLine(dead_end.words, Where(file, dead_end.line), is_first)
         return None
 
     @cached_property
     def outside(self) -> dict[str, Suspect]:
         """Return by TODO the changed line of its function outside its region."""
-        found = attempt(lambda: find_changes(self.submission), list[Changed]())
+        found = attempt(lambda: find_changes(self.submission), list[GivenChange]())
         return {each.todo: Suspect(each.line, each.outside) for each in found if each.outside}
 
     def _find_suspects(self, todo: Todo) -> Mapping[str, Suspect]:
@@ -122,7 +124,7 @@ class Reasons:
             todo,
             mistake,
             [each for id, some in answers.items() if id not in earlier for each in some],
-            self.left.get(todo.id),
+            self.bad_lines.get(todo.id),
             self._find_suspects(todo) if outcomes else {},
             self.submission.remarks.get(todo.id, ""),
         )
@@ -154,7 +156,7 @@ class Reasons:
             [] if earlier else answers.get(check.id, []),
             self._own_names(job.todo, lab.remembers) if lab else [],
             lab.trespass if lab else "",
-            self.blamed.get(job.key),
+            self.causes.get(job.key),
             earlier,
             self.submission.starts.get(job.module),
             lambda: self.grading.names.hint(job.todo, job.module, check),

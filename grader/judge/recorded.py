@@ -32,7 +32,7 @@ class RecordedMistake(Struct, frozen=True):
     apart: bool = True
 
 
-class Recorded(Struct, frozen=True):
+class RecordedAnswers(Struct, frozen=True):
     oracles: dict[str, Answers] = {}
     right: dict[str, Answers] = {}  # the right answers, by kind of question
     traits: dict[str, Answers] = {}  # of the questions
@@ -72,10 +72,12 @@ def plain(value: Any) -> Any:
 
 
 @cache
-def load_recorded() -> Recorded | None:
+def load_recorded() -> RecordedAnswers | None:
     """Return the recorded answers of this copy of the checks; None in the kit."""
     path = CHECKS / "recorded.json"
-    return msgspec.convert(json.loads(path.read_bytes()), Recorded) if path.exists() else None
+    return (
+        msgspec.convert(json.loads(path.read_bytes()), RecordedAnswers) if path.exists() else None
+    )
 
 
 def answer(name: str, *inputs: Any) -> Any:

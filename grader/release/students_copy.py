@@ -25,7 +25,7 @@ from grader.judge.children import Worker, start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grading
 from grader.judge.lab import Observation
-from grader.judge.recorded import Answers, Recorded, RecordedMistake, key, oracles
+from grader.judge.recorded import Answers, RecordedAnswers, RecordedMistake, key, oracles
 from grader.judge.rubric import CHECKS, Check, Rubric, drop_hidden, load_rubric
 from grader.questions.practice import FILE as PRACTICE
 from grader.release.handed_out import make_students_tree
@@ -198,7 +198,7 @@ def replace_oracles(sources: dict[str, str]) -> dict[str, str]:
     return sources | {exact.__name__: replace_bodies(sources[exact.__name__], bodies)}
 
 
-def record_answers(wrong: Iterable[Tree], rubric: Rubric) -> Recorded:
+def record_answers(wrong: Iterable[Tree], rubric: Rubric) -> RecordedAnswers:
     """Record the questions of the visible checks, and the answers of the oracles and all models."""
     with closing(start_worker()) as worker, note_oracles() as notes:
         seen = observe((KIT / "solution", frozenset()), rubric, worker)
@@ -224,7 +224,7 @@ def record_answers(wrong: Iterable[Tree], rubric: Rubric) -> Recorded:
         {about: ask_model(model, about, seen) for about, model in models.items()}
         for models in (misconceptions.right_models, misconceptions.trait_models)
     )
-    return Recorded(
+    return RecordedAnswers(
         notes,
         right,
         traits,

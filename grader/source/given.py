@@ -46,7 +46,7 @@ class Piece:
 
 
 @dataclass(frozen=True)
-class Changed:
+class GivenChange:
     """A changed piece of given code: the first line that differs, and the lines that undo it."""
 
     name: str  # such as solve_normal, World.step or ITERATIONS
@@ -92,9 +92,9 @@ class Changed:
         return f"line {self.line} of {self.file}, `{self.theirs}`, {before}"
 
 
-def compare_files(theirs: Mapping[str, str], given: Mapping[str, str]) -> list[Changed]:
+def compare_files(theirs: Mapping[str, str], given: Mapping[str, str]) -> list[GivenChange]:
     """Return the changes in the given files that a submission has, both by their names."""
-    found: list[Changed] = []
+    found: list[GivenChange] = []
     for name, text in given.items():
         own = theirs.get(name)
         if own is None or own == text or len(own) > MAX_SHAPE or outside(own) == outside(text):
@@ -104,7 +104,7 @@ def compare_files(theirs: Mapping[str, str], given: Mapping[str, str]) -> list[C
     return found
 
 
-def undo_changes(text: str, undone: Iterable[Changed]) -> str:
+def undo_changes(text: str, undone: Iterable[GivenChange]) -> str:
     """Return a file's text with these changes of it undone."""
     lines = text.splitlines()
     for each in sorted(undone, key=lambda change: (-change.start, -change.stop)):
@@ -128,7 +128,7 @@ def outside(text: str) -> list[str]:
 # ---------------------------------------------------------------- one file
 
 
-def compare_file(file: str, text: str, given: str) -> Iterator[Changed]:
+def compare_file(file: str, text: str, given: str) -> Iterator[GivenChange]:
     """Yield the changes in a file; if it is no Python, the file as a whole."""
     body = statements(text)
     lines, right = text.splitlines(), given.splitlines()
@@ -149,15 +149,15 @@ def compare_file(file: str, text: str, given: str) -> Iterator[Changed]:
                 yield from compare_piece(name, file, lines, found, original)
     for missing in missing_imports(body, given, file.endswith("__init__.py")):
         place = end_of_imports(body)
-        yield Changed(missing, file, place + 1, "", missing, place, place, (missing,))
+        yield GivenChange(missing, file, place + 1, "", missing, place, place, (missing,))
     for name in sorted(own.keys() & imported_names(statements(given)) - originals.keys()):
         hides = own[name]
-        yield Changed(
+        yield GivenChange(
             name, file, hides.start + 1, cut(lines[hides.start]), "", hides.start, hides.stop
         )
 
 
-def compare_whole_file(file: str, text: str, given: str) -> Iterator[Changed]:
+def compare_whole_file(file: str, text: str, given: str) -> Iterator[GivenChange]:
     """Yield all differences outside the regions as one change."""
     lines = text.splitlines()
     with suppress(RegionError):
@@ -167,16 +167,16 @@ def compare_whole_file(file: str, text: str, given: str) -> Iterator[Changed]:
 
 def restore_piece(
     name: str, file: str, body: list[ast.stmt], piece: Piece, wanted: tuple[str, ...], count: int
-) -> Changed:
+) -> GivenChange:
     """Return a missing piece, to be put back after the imports, its class, or the whole file."""
     place = end_of_imports(body) if piece.constant else end_of(body, piece.owner, count)
     gap = () if piece.constant else ("",) if piece.owner else ("", "")
-    return Changed(name, file, place + 1, "", first_code(wanted), place, place, (*gap, *wanted))
+    return GivenChange(name, file, place + 1, "", first_code(wanted), place, place, (*gap, *wanted))
 
 
 def compare_piece(
     name: str, file: str, lines: list[str], piece: Piece, original: tuple[str, ...]
-) -> Iterator[Changed]:
+) -> Iterator[GivenChange]:
     """Yield the change of a piece, if any; `original` has the student's regions."""
     own = tuple(lines[piece.start : piece.stop])
     if meaning_of(own) == meaning_of(original):
@@ -184,7 +184,7 @@ def compare_piece(
     line, theirs, given = first_difference(own, original)
     place = piece.start + line + 1
     marker = next((n for n, each in enumerate(own, piece.start + 1) if START.match(each)), 0)
-    yield Changed(name, file, place, theirs, given, piece.start, piece.stop, original, marker)
+    yield GivenChange(name, file, place, theirs, given, piece.start, piece.stop, original, marker)
 
 
 def with_regions(given: tuple[str, ...], theirs: Sequence[str]) -> tuple[str, ...] | None:

@@ -151,7 +151,7 @@ def released(once, expected_runs: bytes, practice_file: bytes, secrets: list[Sec
     return released_in(once("release", fill), SAMPLE)
 
 
-def recorded_for_some(wrong: Iterable[Tree], rubric: Rubric) -> recorded.Recorded:
+def recorded_for_some(wrong: Iterable[Tree], rubric: Rubric) -> recorded.RecordedAnswers:
     """The right answers of those TODOs alone that `make test` asks of the copy."""
     return record_answers(wrong, Rubric([todo for todo in rubric.todos if todo.id in ASKED]))
 

@@ -9,7 +9,7 @@ from counting import count_calls
 
 from grader.bank.verify import shared_worker
 from grader.cli.restore import find_changes
-from grader.judge.blame import MOST_ASKED, Blame
+from grader.judge.blame import MOST_ASKED, CauseSearch
 from grader.judge.failures import NotYet
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import CheckResult
@@ -17,7 +17,7 @@ from grader.judge.submission import load_given
 from grader.judge.wording import list_reasons
 from grader.source.definitions import statements
 from grader.source.given import (
-    Changed,
+    GivenChange,
     compare_files,
     first_difference,
     pieces,
@@ -41,7 +41,7 @@ def restore(tree: Path, *names: str) -> str:
     return " ".join(run_grader("check", tree, *words).output.split())
 
 
-def only(file: str, old: str, new: str) -> Changed:
+def only(file: str, old: str, new: str) -> GivenChange:
     """Return the one change that is found after a replacement in a file as it was handed out."""
     text = load_given()[file]
     assert text.count(old) == 1
@@ -260,12 +260,12 @@ def test_many_changes_and_many_failures_are_asked_again_so_often_and_no_more():
         lab.failure = None if len(undone) == 5 else Failing.failure
         return lab
 
-    five = [Changed(f"f{n}", "a.py", n, "x", "y", n, n) for n in range(5)]
+    five = [GivenChange(f"f{n}", "a.py", n, "x", "y", n, n) for n in range(5)]
     failed = {
         ("1", f"c{n}"): CheckResult(f"c{n}", "C", "unit", "not yet", 0, 1, "ran", "1", "2")
         for n in range(40)
     }
-    blame = Blame(five, lambda undone: undone, again)
+    blame = CauseSearch(five, lambda undone: undone, again)
     blame.look_into(failed)
     assert blame.asked == MOST_ASKED and blame.found.keys() == failed.keys()
     assert blame.answers.keys() == failed.keys()
