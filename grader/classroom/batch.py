@@ -1,6 +1,6 @@
 """Grade a class, several submissions at a time.
 
-Results are written as they come, and what an earlier run left is not graded again.
+Each result is written at once. A later run grades only what has changed.
 """
 
 import hashlib
@@ -39,7 +39,7 @@ class Task:
 
 @dataclass
 class Run:
-    """A class, and what has become of it so far."""
+    """A class and its results so far."""
 
     intake: Intake
     book: Book
@@ -51,12 +51,12 @@ class Run:
     notes: list[str] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=lambda: {"graded": 0, "kept": 0, "trouble": 0})
     same: dict[str, dict[tuple[str, ...], str]] = field(default_factory=dict)  # names, by files
-    prints: list[Prints] = field(default_factory=list)  # of whom there is something to compare
+    prints: list[Prints] = field(default_factory=list)  # to compare
     package_notes: dict[str, list[str]] = field(default_factory=dict)  # by name
     remarks: dict[str, list[Remark]] = field(default_factory=dict)  # by name
 
     def list_tasks(self) -> Iterator[Task]:
-        """Return the work that must be graded, each once; record all else on the way."""
+        """Yield each work to grade once; record the others."""
         works: dict[tuple[object, ...], list[Found]] = {}
         for found in self.intake.found:
             works.setdefault((found.sources, found.taken), []).append(found)
@@ -80,7 +80,7 @@ class Run:
                 yield Task(new, msgspec.structs.replace(package, name=new[0].name), key)
 
     def skip_kept(self, members: list[Found], package: Package, key: str) -> Iterator[Found]:
-        """Return those of whom no result is kept; record the others."""
+        """Yield students without a valid earlier result; record the others."""
         for found in members:
             self.package_notes[found.name] = package.notes
             kept = self.book.find_kept(found.name, key)
@@ -90,7 +90,7 @@ class Run:
                 self.record("kept", found, kept)
 
     def record_result(self, task: Task, graded: Graded) -> None:
-        """Write a result for each of a group, with their own name in it."""
+        """Write a result for each student of a group, with their own name."""
         result = msgspec.json.decode(graded[0], type=Result)
         for found in task.members:
             own = as_json(msgspec.structs.replace(result, submission=found.name))
@@ -104,7 +104,7 @@ class Run:
         self.record("trouble", found, Outcome(found.name, words))
 
     def record(self, how: str, found: Found, outcome: Outcome) -> None:
-        """Apply the course's and a person's rules to an outcome, and keep it."""
+        """Apply the rules and decisions to an outcome, and count it."""
         self.count(how, self.decide(found, outcome))
 
     def count(self, how: str, outcome: Outcome) -> None:
@@ -112,7 +112,7 @@ class Run:
         self.outcomes.append(outcome)
 
     def decide(self, found: Found, outcome: Outcome) -> Outcome:
-        """Return an outcome with all that counts beside the checks, and what was before."""
+        """Return an outcome with bonus, lateness, decisions, and its mark of an earlier run."""
         decisions = self.adjustments
         outcome = msgspec.structs.replace(outcome, bonus_by_hand=decisions.sum_bonus(found))
         added = 0 if outcome.trouble else self.course.added(outcome.bonus, outcome.points)
@@ -135,14 +135,14 @@ class Run:
         return self.book.compare_marks(outcome)
 
     def record_absent(self, names: Iterable[str]) -> None:
-        """Record those whose points are set by hand though they handed in nothing."""
+        """Record students who handed in nothing, if a person set their points."""
         for name in names:
             found = Found(name, ())
             if self.adjustments.decide(found, None).by_hand:
                 self.record("by hand", found, Outcome(name, NOTHING))
 
     def scale_by_hand(self, outcomes: list[Outcome]) -> list[Outcome]:
-        """Make marks that a person gave out of as many points as the others'."""
+        """Give marks that a person set the same maximum as the others."""
         most = max((each.max_points for each in outcomes), default=0)
         most = most or self.course.rubric.max_points
         return [
@@ -152,7 +152,7 @@ class Run:
 
     @property
     def changed(self) -> list[Outcome]:
-        """Return those whose mark this run has changed."""
+        """Return the outcomes with another mark than in the run before."""
         old = self.book.outcomes
         return [
             each
@@ -161,7 +161,7 @@ class Run:
         ]
 
     def find_copies(self) -> Iterator[str]:
-        """Return notes on those who handed in the same files apart, unless worth nothing."""
+        """Yield notes on students who handed in the same files, unless these earn nothing."""
         worth = {each.name: each.points for each in self.outcomes}
         for names in [list(each.values()) for each in self.same.values()]:
             if len(names) > 1 and worth[names[0]]:
@@ -169,9 +169,9 @@ class Run:
 
 
 def grade_class(run: Run, executor: Executor, console: Console, absent: Iterable[str] = ()) -> Run:
-    """Grade what is new in a class; results, book and table are in and beside the book's folder.
+    """Grade what has changed in a class; write results, book and table at the book's folder.
 
-    `absent` are those who might have handed in and did not; points set by hand are theirs too.
+    `absent` are students who handed in nothing; a person may have set points for them too.
     """
     total = len(run.intake.names)
     with run.book as book, Counter("grading", total, console) as counter:
@@ -203,7 +203,7 @@ def grade_class(run: Run, executor: Executor, console: Console, absent: Iterable
 
 
 def grade_tasks(tasks: Iterator[Task], executor: Executor) -> Iterator[tuple[Task, Graded | str]]:
-    """Return each task with its result or its trouble, in the order in which they end."""
+    """Yield each task with its result or its trouble, in the order in which they end."""
     under_way: dict[Future[Graded], Task] = {}
     for task in tasks:
         under_way[executor.submit(task.package)] = task
@@ -216,7 +216,7 @@ def grade_tasks(tasks: Iterator[Task], executor: Executor) -> Iterator[tuple[Tas
 def collect_results(
     under_way: "dict[Future[Graded], Task]",
 ) -> Iterator[tuple[Task, Graded | str]]:
-    """Return the tasks that have ended by now, at least one."""
+    """Wait for a task to end, and yield all that have ended."""
     done, _ = wait(under_way, return_when=FIRST_COMPLETED)
     if any(future.cancelled() for future in done):
         raise Stop(LOST)
@@ -225,7 +225,7 @@ def collect_results(
 
 
 def read_future(future: Future[Graded]) -> Graded | str:
-    """Return a result or its trouble."""
+    """Return a result, or why there is none."""
     try:
         return future.result()
     except ExecutorFailed:
@@ -235,7 +235,7 @@ def read_future(future: Future[Graded]) -> Graded | str:
 
 
 def describe_error(error: Exception) -> str:
-    """Return an exception in words; some have all of them in their message."""
+    """Describe an exception; some need no more than their message."""
     if isinstance(error, CannotTake | Exceeded | Failed):
         return str(error)
     return f"{type(error).__name__}: {say_error(error)}"

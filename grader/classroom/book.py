@@ -1,8 +1,8 @@
-"""Keep a graded class in files.
+"""Store a graded class in files.
 
 - `DIR/NAME.json`: the result of each submission, byte for byte what `--json` writes.
-- `DIR.class.jsonl`: the class book, a line for each submission. A line is added as soon as a result
-  is written, so a run that was killed goes on where it stopped.
+- `DIR.class.jsonl`: the class book, a line for each submission. Each result adds its line at
+  once, so a run that was killed goes on where it stopped.
 - `DIR.class.csv`: the table, for people.
 - `DIR.earlier/NAME/`: the results that a later grade replaced.
 """
@@ -59,7 +59,7 @@ class Outcome(Struct, frozen=True):
 
     @property
     def label(self) -> str:
-        """Return what people know a student by."""
+        """Return a student's full name and name, for people."""
         return f"{self.full_name} ({self.name})" if self.full_name else self.name
 
     @property
@@ -74,7 +74,7 @@ class Outcome(Struct, frozen=True):
         return f"group with {' and '.join(self.group)}{by}" if self.group else ""
 
     def explain(self) -> str:
-        """Return why these are its points, if the checks gave others; and with whom."""
+        """Return the group, and why the points are not those of the checks."""
         return "; ".join(filter(None, [self.group_in_words, self.trouble, *self.reasons]))
 
     @property
@@ -82,8 +82,8 @@ class Outcome(Struct, frozen=True):
         return "none" if self.mark is None else f"{self.mark} / {self.max_points}"
 
     def has_mark_of(self, old: "Outcome") -> bool:
-        """Tell whether the mark is that of another outcome, out of as many points."""
-        alone = self.by_hand or self.mark is None  # what it is out of is known later
+        """Tell whether the mark and its maximum are those of another outcome."""
+        alone = self.by_hand or self.mark is None  # its maximum is set later
         return self.mark == old.mark and (alone or self.max_points == old.max_points)
 
     @property
@@ -93,12 +93,12 @@ class Outcome(Struct, frozen=True):
 
     @property
     def mark(self) -> int | None:
-        """The points that count; None where it needs manual review."""
+        """Return the points that count; None where it needs manual review."""
         return self.final if self.by_hand or not self.trouble else None
 
     @property
     def bonus(self) -> int:
-        """The points of bonus tasks, and those that a person gave as such."""
+        """Return the points of bonus tasks, and bonus points that a person gave."""
         graded = sum(points for todo, points in self.todos.items() if is_bonus(todo))
         return graded + self.bonus_by_hand
 
@@ -117,7 +117,7 @@ class Book:
         self.folder.mkdir(parents=True, exist_ok=True)
         for part in self.folder.glob(f".*.json.{'[0-9a-f]' * 16}"):
             part.unlink()  # of a run that was killed
-        write_whole(encode_lines(self.outcomes.values()), self.path)  # a line may be half there
+        write_whole(encode_lines(self.outcomes.values()), self.path)  # the last line may be cut off
         self.file = open(self.path, "ab", buffering=0)
         return self
 
@@ -128,7 +128,7 @@ class Book:
         return self.folder / f"{name}.json"
 
     def find_kept(self, name: str, key: str) -> Outcome | None:
-        """Return the outcome of an earlier run, if nothing has changed since."""
+        """Return the outcome of an earlier run, if nothing has changed since then."""
         outcome = self.outcomes.get(name)
         if outcome is None or outcome.key != key:
             return None
@@ -147,7 +147,7 @@ class Book:
         return outcome
 
     def compare_marks(self, outcome: Outcome) -> Outcome:
-        """Return the outcome with the mark of an earlier run, if that was another one."""
+        """Return the outcome with the mark of an earlier run, if it differs."""
         old = self.outcomes.get(outcome.name)
         if old is None or outcome.has_mark_of(old):
             return outcome
@@ -156,7 +156,7 @@ class Book:
         return msgspec.structs.replace(outcome, before=old.mark_in_words, changed=changed)
 
     def keep_earlier(self, name: str) -> None:
-        """Move a result out of the way of a new one; the same content is kept once."""
+        """Move a result to the earlier ones; the same content is stored once."""
         path = self.locate_result(name)
         if not path.exists():
             return
@@ -169,7 +169,7 @@ class Book:
         path.replace(target)
 
     def write(self, outcome: Outcome, result: bytes) -> None:
-        """Write the result first: a line in the book promises that it is there."""
+        """Write the result, then its line: a line means that the result exists."""
         self.keep_earlier(outcome.name)
         write_whole(result, self.locate_result(outcome.name))
         self.file.write(encode_lines([outcome]))
@@ -180,7 +180,7 @@ class Book:
 
 
 def make_outcome(name: str, result: bytes, seconds: float, key: str) -> Outcome:
-    """Return the line of the book about a result."""
+    """Return the line of the book for a result."""
     decoded = msgspec.json.decode(result, type=Result)
     return Outcome(
         name,
@@ -198,7 +198,7 @@ def make_outcome(name: str, result: bytes, seconds: float, key: str) -> Outcome:
 
 
 def compare_results(old: Result, new: Result) -> Iterator[str]:
-    """Yield the TODOs that are worth other points than before, and the checks that give others."""
+    """Yield the TODOs whose maximum changed, and the checks whose points changed."""
     before = {todo.id: todo for todo in old.todos}
     for todo in new.todos:
         was = before.pop(todo.id, None)
@@ -211,7 +211,7 @@ def compare_results(old: Result, new: Result) -> Iterator[str]:
 
 
 def compare_todos(old: TodoResult, new: TodoResult) -> Iterator[str]:
-    """Yield what changed; of checks that are only worth other points, their TODO says so once."""
+    """Yield the changes; where only maximums of checks changed, name the TODO alone."""
     if old.max_points != new.max_points:
         points = f"{old.points} of {old.max_points} → {new.points} of {new.max_points}"
         yield f"TODO {new.id} has other points in the course: {points}"
@@ -239,7 +239,7 @@ def encode_lines(outcomes: Iterable[Outcome]) -> bytes:
 
 
 def read_book(path: Path) -> Iterator[Outcome]:
-    """Return the lines of a book; of one that was cut off, those that are whole."""
+    """Yield the complete lines of a book."""
     if path.exists():
         with open(path, "rb") as file:
             for line in file:
@@ -248,7 +248,7 @@ def read_book(path: Path) -> Iterator[Outcome]:
 
 
 def make_table(outcomes: Iterable[Outcome], course: Course) -> str:
-    """Return the class for a spreadsheet, the same whenever and however fast it was graded."""
+    """Return the class for a spreadsheet, without times of grading."""
     todos = [todo.id for todo in course.rubric.todos]
     titles = ["name", "student", "points", "before", "found", "of", "bonus", "handed in", "due"]
     titles += ["late", "adjusted", "trouble", "notes", "group"]

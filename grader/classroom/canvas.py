@@ -1,7 +1,7 @@
 """Send the marks of a class to Canvas, each with a comment and the student's page.
 
-What Canvas has decides what is sent, so a run that stopped goes on where it was. `canvas.json` in
-the folder of the class holds what was sent: any other mark in Canvas was entered by a person.
+Only what Canvas lacks is sent, so a run that stopped goes on where it was. `canvas.json` in the
+folder of the class records what was sent: a person entered any other mark in Canvas.
 """
 
 import hashlib
@@ -45,9 +45,9 @@ ADDRESS = re.compile(
     r"(?P<base>https://[^/\s@]+|http://(?:127\.0\.0\.1|localhost)(?::\d+)?)"
     r"/courses/(?P<course>\d+)/assignments/(?P<assignment>\d+)(?:[/?#]\S*)?"
 )
-WAITS = (2, 5, 15, 60)  # s until a request that Canvas had no room for is made again
+WAITS = (2, 5, 15, 60)  # s until a limited request is repeated
 COMMENTS = ["submission_comments"]  # which Canvas leaves out unless told
-PATIENCE = 60  # s until an answer must come
+PATIENCE = 60  # s to wait for an answer
 REASONS = {  # why a request fails, the narrowest kind first
     refused.InvalidAccessToken: f"it does not accept the token in {TOKEN} (401): make a new one",
     refused.Unauthorized: "the owner of the token may not do that (401)",
@@ -64,7 +64,7 @@ OF_ONE_STUDENT = (  # refusals after which the others' marks may go through
 
 
 class Sent(Struct):
-    """Hold what was sent of one student; two marks where the last may not have arrived."""
+    """The marks sent for one student; two where the last one may not have arrived."""
 
     marks: list[str] = []
     digest: str = ""
@@ -79,7 +79,7 @@ class Record(Struct):
 
 @dataclass(frozen=True)
 class Work:
-    """Hold what one student is to get."""
+    """The mark, comment and page for one student."""
 
     name: str
     user: str  # the student's id in Canvas
@@ -90,7 +90,7 @@ class Work:
 
     @property
     def sign(self) -> str:
-        """Return what tells a comment from all others: the page's name, or its words."""
+        """Return the page's name or the comment's words, to find the comment again."""
         return f"feedback-{self.digest}" if self.page else self.comment
 
     def was_said(self, there: Any, sent: Sent) -> bool:
@@ -114,7 +114,7 @@ class Change:
 
 @dataclass
 class Plan:
-    """Hold what is to be sent, and notes on what is not as usual."""
+    """The changes to send, and notes for the instructor."""
 
     changes: list[Change] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
@@ -126,7 +126,7 @@ class Plan:
         self.notes.append(f"{name}: left out, {why}")
 
     def add(self, work: Work, there: Any, sent: Sent, over: bool) -> None:
-        """Compare a mark with what Canvas has; only `over` replaces one that a person entered."""
+        """Compare a mark with that in Canvas; only `over` replaces one that a person entered."""
         if there is None:
             return self.leave_out(work.name, f"Canvas has no student {work.user} for it")
         if getattr(there, "excused", False):
@@ -150,7 +150,7 @@ def is_score(mark: str, score: float | None) -> bool:
 def upload_class(
     known: ClassFolder, to: str, send: bool, over: bool, others_known: bool, console: Console
 ) -> bool:
-    """Show what Canvas lacks of a class, or send it; return whether somebody was left out.
+    """Show what Canvas lacks of a class, or send it; return whether a student was left out.
 
     Raises Stop where Canvas cannot be asked, or stops answering.
     """
@@ -191,7 +191,7 @@ def tabulate(changes: list[Change]) -> Table:
 
 
 def list_works(known: ClassFolder, others_known: bool, plan: Plan) -> list[Work]:
-    """Return what students are to get, with the gradebook's own marks; note who gets nothing."""
+    """Return the work for each student, with the gradebook's own marks; note who is left out."""
     results, course = known.find_results(), known.course
     roster = read_roster(known.find_roster("an upload"))
     if "ID" not in roster.columns:
@@ -242,7 +242,7 @@ def hash_text(text: str) -> str:
 
 
 def read_record(path: Path, address: str) -> Record:
-    """Read what was sent to this assignment; nothing was, if the file is of another one."""
+    """Read the record of this assignment; return an empty one for any other."""
     try:
         record = msgspec.json.decode(path.read_bytes(), type=Record)
     except FileNotFoundError:
@@ -269,7 +269,7 @@ def open_assignment(address: str, known: ClassFolder) -> Any:
             "Settings, New access token"
         )
     requester = Requester(match["base"], token)
-    session = requester._session  # which would wait for ever
+    session = requester._session  # without a timeout of its own
     session.request = partial(session.request, timeout=PATIENCE)
     course = Course(requester, {"id": int(match["course"])})
     assignment = ask(lambda: course.get_assignment(int(match["assignment"])))
@@ -283,7 +283,7 @@ def open_assignment(address: str, known: ClassFolder) -> Any:
 
 
 def ask(request: Callable[[], Any]) -> Any:
-    """Make a request, and make it again after a while where Canvas has no room for it."""
+    """Make a request, and repeat it later while Canvas limits requests."""
     for wait in WAITS:
         try:
             return request()
@@ -295,12 +295,12 @@ def ask(request: Callable[[], Any]) -> Any:
 
 
 def is_throttled(error: BaseException) -> bool:
-    """Tell whether Canvas had no room, which it says with status 403 or 429."""
+    """Tell whether Canvas limits requests, which it says with status 403 or 429."""
     return "rate limit exceeded" in str(error).lower()
 
 
 def send_changes(plan: Plan, record: Record, path: Path) -> list[str]:
-    """Send all changes, and return who has theirs; raises Stop where Canvas stops answering."""
+    """Send all changes, and return the names sent; raises Stop where Canvas stops answering."""
     sent: list[str] = []
     for each in plan.changes:
         work, digest = each.work, record.students.get(each.work.user, Sent()).digest
@@ -322,7 +322,7 @@ def send_changes(plan: Plan, record: Record, path: Path) -> list[str]:
 
 
 def send_change(change: Change) -> str:
-    """Send a mark, its comment and its page at once; return why Canvas refuses them, if it does."""
+    """Send a mark, its comment and its page; return why Canvas refuses them, or nothing."""
     work, there = change.work, change.there
     grade, comment = {"posted_grade": work.mark}, {"text_comment": work.comment}
     words = {"submission": grade, "comment": comment, "prefer_points_over_scheme": True}
@@ -348,7 +348,7 @@ def upload_page(work: Work, page: Path, there: Any) -> int:
 
 @contextmanager
 def explain(done: str) -> Iterator[None]:
-    """Raise Stop for what ends the talk with Canvas: why, and what is done."""
+    """Raise Stop where Canvas cannot be asked: why, and what is done so far."""
     try:
         yield
     except (refused.CanvasException, OSError, ValueError, KeyError, KeyboardInterrupt) as error:
@@ -356,7 +356,7 @@ def explain(done: str) -> Iterator[None]:
 
 
 def find_reason(error: BaseException) -> str:
-    """Return why a request failed; never words of its own that could hold the token."""
+    """Return why a request failed; its own words could hold the token."""
     if is_throttled(error):
         return "it takes no more requests for now (rate limit): wait some minutes"
     known = (words for kind, words in REASONS.items() if isinstance(error, kind))

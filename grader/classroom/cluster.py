@@ -1,8 +1,7 @@
 """Grade a class on a Dask cluster, where one machine is not enough.
 
 A submission travels to a worker with all that grading it needs, so no disk is shared. All machines
-need this very grader. Nothing is lost with a worker: Dask gives what it had under way to
-another one.
+need the same version of the grader. If a worker is lost, Dask gives its work to another one.
 """
 
 import asyncio
@@ -34,7 +33,7 @@ ONE_AT_A_TIME = threading.Lock()  # a process has one worker, however many threa
 
 
 def grade_here(package: Package, options: Options, reference: Package | None, made: str) -> Graded:
-    """Grade one submission with a grader that must be the one whose fingerprint is `made`."""
+    """Grade one submission, if the fingerprint of this grader is `made`."""
     if fingerprint() != made:
         raise ExecutorFailed(describe_versions([socket.gethostname()]))
     if reference is not None:
@@ -47,7 +46,7 @@ UNPACKED: dict[str, Path] = {}
 
 
 def unpack_reference(reference: Package) -> Path:
-    """Unpack the reference into a folder that stays for as long as this process does."""
+    """Unpack the reference into a folder that lasts as long as this process."""
     digest = reference.digest
     with ONE_AT_A_TIME:
         if digest not in UNPACKED:
@@ -106,7 +105,7 @@ def connect(address: str, options: Options) -> Iterator[Cluster]:
 
 
 def find_scheduler(address: str) -> None:
-    """Stop unless a scheduler answers: a client that finds none takes a minute to give up."""
+    """Stop unless a scheduler answers; a client without one waits for a minute."""
     from distributed import Security, rpc
 
     async def ask() -> None:
@@ -127,7 +126,7 @@ def describe_silence(address: str, error: Exception) -> str:
 
 
 def check_workers(client: Any, address: str) -> None:
-    """Stop unless all workers have this very grader."""
+    """Stop unless all workers have the same version of the grader."""
     if not client.nthreads():
         raise Stop(f"the scheduler at {address} has no workers yet: start some")
     found = client.run(fingerprint, on_error="return")

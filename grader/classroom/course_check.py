@@ -1,7 +1,7 @@
 """Find problems before grading: of a class list, decisions and submissions.
 
-Everything is read as grading reads it, and nothing is written. Each problem is for a person to
-solve, in the file or with the students; what grading handles without help is not mentioned.
+It reads all files as grading does, and writes none. A person must solve each problem, in a file or
+with the students; what grading handles by itself is not mentioned.
 """
 
 from collections import Counter
@@ -24,7 +24,7 @@ from grader.text import plural
 
 @dataclass(frozen=True)
 class Files:
-    """The files to check; None where there is none yet."""
+    """The files to check; None for a missing one."""
 
     roster: Path | None = None
     key: str = ""
@@ -72,7 +72,7 @@ def find_problems(files: Files, path: Path | None = None) -> Iterator[str]:
 
 
 def check_roster(roster: Roster, key: str) -> Iterator[str]:
-    """Return whom a class list does not tell from others, or at all."""
+    """Yield students whom a class list does not identify."""
     if roster.doubt:
         yield roster.doubt
     nameless = sum(not row[key].strip() for row in roster.rows)
@@ -99,7 +99,7 @@ def check_roster(roster: Roster, key: str) -> Iterator[str]:
 
 
 def check_gradebook(roster: Roster, marking: Marking, path: Path) -> Iterator[str]:
-    """Return what a gradebook and the settings of marks say differently."""
+    """Yield differences between a gradebook and the settings of marks."""
     sign, title = find_system(roster).title_sign, marking.title
     if sign and not any(name.startswith(f"{title} {sign}") for name in roster.columns):
         yield (
@@ -114,7 +114,7 @@ def check_gradebook(roster: Roster, marking: Marking, path: Path) -> Iterator[st
 def check_submissions(
     intake: Intake, people: ClassList, adjustments: Adjustments, course: Course = FULL
 ) -> Iterator[str]:
-    """Return what cannot be graded, and whose time or name is unknown."""
+    """Yield work that cannot be graded, and students whose time or name is unknown."""
     yield from (f"{name}: {words}" for name, words in sorted(intake.troubles.items()))
     for found in intake.found:
         try:
@@ -135,7 +135,7 @@ def check_submissions(
 def check_names(
     adjustments: Adjustments, names: list[str], people: ClassList, path: Path | None
 ) -> Iterator[str]:
-    """Return decisions about nobody, or about two."""
+    """Yield decisions whose student is unknown or ambiguous."""
     try:
         adjustments = adjustments.resolve(names, people)
     except Stop as error:

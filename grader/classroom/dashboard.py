@@ -114,7 +114,7 @@ class Mistake:
 
 
 def read_class(results: Path) -> list[Entry]:
-    """Return the class, with results."""
+    """Return the class with its results."""
     book = Book(results)
     return [read_entry(book, outcome) for outcome in read_outcomes(results)]
 

@@ -1,6 +1,6 @@
-"""Run the grading of a class in processes of this machine; `cluster` has a cluster's.
+"""Run the grading of a class in processes of this machine; `cluster` runs it on a cluster.
 
-Both run the same function on the same packages. A package that ends its process ends no other.
+Both run the same function on the same packages. A package that ends its process harms no other.
 """
 
 import time
@@ -39,17 +39,17 @@ def shared_worker() -> Worker:
 
 
 class Executor(Protocol):
-    """Processes that grade, here or elsewhere."""
+    """Processes that grade, on this machine or on others."""
 
     def capacity(self) -> int:
-        """Return how many submissions to have under way."""
+        """Return how many submissions to submit at a time."""
         ...
 
     def submit(self, package: Package) -> "Future[Graded]": ...
 
 
 class ExecutorFailed(Stop):
-    """The executor cannot go on; the message says why and what to do."""
+    """Raised if the executor cannot go on; says why and what to do."""
 
 
 class Pool:
@@ -82,7 +82,7 @@ class Pool:
         return self.threads.submit(self.grade, package)
 
     def grade(self, package: Package) -> Graded:
-        """Grade one in a process that is free; once more where it ended that process."""
+        """Grade one submission in a free process; repeat it once if the process ended."""
         process = self.free.get()
         try:
             for _ in range(2):

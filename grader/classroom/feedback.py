@@ -1,7 +1,7 @@
 """Send pages of a whole class back: as each learning system takes them, or by mail.
 
-Nobody gets another's page: a student whom the export or the class list does not name for sure is
-left out, with a note.
+Nobody gets another's page: a student whom neither the export nor the class list identifies is left
+out, with a note.
 """
 
 import io

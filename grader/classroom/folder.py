@@ -1,6 +1,6 @@
-"""Remember what a class is, in `class.toml` of its folder: no command asks twice.
+"""Remember the files and settings of a class, in `class.toml` of its folder.
 
-People may edit the file. A command changes only the lines whose values it was given.
+People may edit the file. A command changes only the lines whose values it is given.
 """
 
 import re
@@ -20,7 +20,7 @@ from grader.judge.course import Course, read_course
 from grader.report.files import write_whole
 
 FILE = "class.toml"
-SEED_BITS = 128  # more than anybody can try
+SEED_BITS = 128  # too many to try
 MARKS = "marks.toml"
 HEAD = """\
 # What this class is. `grader class` reads it, and you may edit it. Paths count from this folder.
@@ -60,7 +60,7 @@ class Settings(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=Tr
 
 @dataclass(frozen=True)
 class ClassFolder:
-    """A class: its folder, and what class.toml says of it."""
+    """A class: its folder, and the settings of its class.toml."""
 
     folder: Path
     settings: Settings
@@ -70,13 +70,13 @@ class ClassFolder:
 
     @property
     def submissions(self) -> Path:
-        """Return the export; `submissions.zip` may also lie there unpacked."""
+        """Return the export, or a folder beside it with the unpacked export."""
         path = self.locate(self.settings.submissions)
         unpacked = path.with_suffix("")
         return unpacked if unpacked.is_dir() and not path.exists() else path
 
     def find_submissions(self) -> Path:
-        """Return the export; raises Stop while there is none."""
+        """Return the export; raises Stop where it is missing."""
         if not self.submissions.exists():
             raise Stop(
                 f"there is nothing at {self.submissions}: put the export of the learning system "
@@ -99,7 +99,7 @@ class ClassFolder:
 
     @property
     def decisions(self) -> Path | None:
-        """Return the file of decisions; None while there is none."""
+        """Return the file of decisions; None where it does not exist."""
         path = self.locate(self.settings.decisions)
         return path if path.is_file() else None
 
@@ -164,20 +164,20 @@ class ClassFolder:
 
 
 class Asked(Struct, frozen=True):
-    """A TODO of a result, as far as two courses may differ in it."""
+    """A TODO of a result, without its points."""
 
     id: str
     max_points: int
 
 
 class AskedOf(Struct, frozen=True):
-    """A result without what it found."""
+    """A result without its points and checks."""
 
     todos: list[Asked]
 
 
 def find_difference(results: Path, course: Course) -> str:
-    """Return where the results and a course differ; empty where they do not."""
+    """Return how the results and a course differ; empty where they do not."""
     asked = {todo.id: todo.max_points for todo in course.rubric.todos}
     for path in sorted(results.glob("[!.]*.json")):
         try:
@@ -193,7 +193,7 @@ def find_difference(results: Path, course: Course) -> str:
 
 
 def read_class_folder(folder: Path) -> ClassFolder:
-    """Read class.toml; raises Stop where there is none, or it says what nobody can mean."""
+    """Read class.toml; raises Stop where it is missing or invalid."""
     path = folder / FILE
     try:
         text = path.read_text(encoding="utf-8-sig")
@@ -217,9 +217,9 @@ def parse_settings(text: str, path: Path) -> Settings:
 
 
 def remember_class(folder: Path, named: dict[str, object], other_course: bool) -> ClassFolder:
-    """Write what is named into class.toml, and keep all its other lines.
+    """Write the named values into class.toml, without a change to its other lines.
 
-    Raises Stop, and writes nothing, where results are of another course, unless it is wanted.
+    Raises Stop, and writes nothing, where results are of another course, unless `other_course`.
     """
     path = folder / FILE
     made = not path.exists()
@@ -239,7 +239,7 @@ def remember_class(folder: Path, named: dict[str, object], other_course: bool) -
 
 
 def find_usual_files(folder: Path) -> dict[str, object]:
-    """Return the lines of a new class: files of the usual names, if they are there, and a seed."""
+    """Return the lines of a new class: existing files of the usual names, and a seed."""
     usual = {"course": "course.toml", "roster": "roster.csv"}
     there = {name: file for name, file in usual.items() if (folder / file).is_file()}
     if (folder / "gradebook.db").is_file():
@@ -251,7 +251,7 @@ def find_usual_files(folder: Path) -> dict[str, object]:
 
 
 def set_line(text: str, name: str, value: object) -> str:
-    """Return the file with this line; in the place of an older one."""
+    """Return the text with this line, in the position of an older one."""
     line = f"{name} = {msgspec.json.encode(value).decode()}  # {SIGNS[name]}"
     pattern = re.compile(rf"^{name}\s*=.*$", re.MULTILINE)
     if pattern.search(text):
@@ -260,7 +260,7 @@ def set_line(text: str, name: str, value: object) -> str:
 
 
 def shorten_path(path: Path, folder: Path) -> str:
-    """Return a path as class.toml holds it: from its folder where it lies inside."""
+    """Return a path as class.toml holds it, relative if it lies in the folder."""
     whole, inside = path.resolve(), folder.resolve()
     if whole.is_relative_to(inside):
         return whole.relative_to(inside).as_posix()

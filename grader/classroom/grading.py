@@ -1,4 +1,4 @@
-"""Grade a class from start to end: take it in, grade it, write its pages and show it."""
+"""Grade a class from start to end: read it, grade it, write its pages and show it."""
 
 from collections.abc import Sequence
 from contextlib import AbstractContextManager, ExitStack
@@ -26,8 +26,8 @@ from grader.judge.outer import Exceeded, Failed, Lost
 from grader.judge.result import is_bonus
 from grader.text import printable
 
-LONGEST = 300  # rows that a terminal is given; the table as a file has them all
-LONGEST_PAGE = 2000  # rows of the page: making it reads every result once more
+LONGEST = 300  # rows in a terminal; the file of the table has all
+LONGEST_PAGE = 2000  # rows of the page, which needs every result again
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ def open_executor(wanted: ClassOptions) -> AbstractContextManager[Executor]:
 
 
 def show_class(run: Run, console: Console) -> None:
-    """Print the table, the share that passed each TODO, and all that a person should know."""
+    """Print the table, the share that passed each TODO, and all notes."""
     if len(run.outcomes) <= LONGEST:
         console.print(tabulate_class(run.outcomes))
     results = [each for each in run.outcomes if not each.trouble]

@@ -1,6 +1,6 @@
-"""Write mails to those who must send something again: drafts, and a list for mail merge.
+"""Write mails to students who must send work again: drafts, and a list for mail merge.
 
-Nothing is sent: an EML file with `X-Unsent: 1` opens as a draft in the instructor's own program.
+Nothing is sent: an EML file with `X-Unsent: 1` opens as a draft in the instructor's mail program.
 A draft that a person edited is never replaced or removed.
 """
 
@@ -22,8 +22,8 @@ from grader.intake.roster import Roster, Row, list_full_names
 from grader.text import clean, format_csv
 
 DRAFTS = "mail"  # the folder of drafts
-DIGEST = "X-Written"  # of a draft as it was written: an edited one has another
-ASKS = {  # by what the reason says, the first that fits
+DIGEST = "X-Written"  # the digest of a draft as it was written
+ASKS = {  # the request, by a part of the reason; the first that fits
     "encrypted": "Your archive has a password. Please send it again without one.",
     "more than one program": "Your submission holds two versions of one file: {reason}. "
     "Please send it again with the one that counts.",
@@ -49,13 +49,13 @@ class Letter:
     """A mail to one student."""
 
     student: str  # the name of the result
-    name: str  # as people say it; empty where nobody knows
+    name: str  # the full name; empty if unknown
     address: str
     body: str
 
 
 def ask_again(reason: str) -> str:
-    """Return what to ask of a student whose work could not be graded."""
+    """Return the request to a student whose work could not be graded."""
     words = next((words for sign, words in ASKS.items() if sign in reason), OTHERWISE)
     return words.format(reason=clean(reason).rstrip("."))
 
@@ -67,7 +67,7 @@ def write_body(name: str, reason: str, title: str) -> str:
 
 
 def find_decided(outcomes: list[Outcome], adjustments: Adjustments) -> Iterator[Outcome]:
-    """Yield who has no mark, but points or work that a person chose since the class was graded."""
+    """Yield students without a mark about whom a person decided since the class was graded."""
     for each in outcomes:
         chosen = [one for one in adjustments.adjust if one.points is not None or one.take]
         reasons = [one.reason for one in chosen if one.concerns(each.name)]
@@ -79,7 +79,7 @@ def find_decided(outcomes: list[Outcome], adjustments: Adjustments) -> Iterator[
 def list_letters(
     roster: Roster, key: str, outcomes: list[Outcome], title: str, notes: list[str]
 ) -> Iterator[Letter]:
-    """Yield a mail for each student who needs one; say in `notes` who has no address."""
+    """Yield a mail for each student who needs one; note students without an address."""
     column = find_address_column(roster)
     absent = [each.name for each in outcomes if each.trouble == NOTHING]
     owners = find_owners(roster, key, [each.name for each in outcomes], absent)
@@ -101,7 +101,7 @@ def read_name(row: Row) -> str:
 
 
 def write_mail(roster: Roster, key: str, outcomes: list[Outcome], title: str) -> Feedback:
-    """Return a draft for each who needs one and `mail.csv`, by their names."""
+    """Return the drafts and `mail.csv`, by the names of their files."""
     made = Feedback()
     subject = clean(f"{title}: please send your work again")
     table = [["address", "name", "subject", "text"]]
@@ -128,7 +128,7 @@ def make_draft(letter: Letter, subject: str) -> bytes:
 
 
 def digest(draft: bytes) -> str:
-    """Return a digest of what a person reads of a draft."""
+    """Return a digest of the words of a draft."""
     mail = message_from_bytes(draft, policy=SMTP)
     read = f"{mail['To']}\n{mail['Subject']}\n{mail.get_content()}"
     return hashlib.sha256(read.encode()).hexdigest()[:16]
@@ -142,7 +142,7 @@ def is_unedited(draft: bytes) -> bool:
 
 
 def keep_edited(folder: Path, made: Feedback) -> None:
-    """Remove earlier drafts, but none that was edited: it stays in the place of a new one."""
+    """Remove earlier drafts, except edited ones, which stay instead of new ones."""
     for path in sorted((folder / DRAFTS).glob("*.eml")):
         if is_unedited(path.read_bytes()):
             path.unlink()

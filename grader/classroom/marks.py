@@ -1,7 +1,6 @@
-"""Make marks for the LMS: one per student, from the parts of the assignment, into its class list.
+"""Write marks into the class list of a learning system, one per student, from all parts.
 
-The shares of the parts are in marks.toml. Names and identifiers are written as they came, but never
-so that a spreadsheet would run them.
+marks.toml has the shares of the parts. No name or identifier becomes a formula in a spreadsheet.
 """
 
 import re
@@ -54,9 +53,9 @@ Parts = dict[str, Part]
 
 
 def load_marking(path: Path | None, course: Course = FULL) -> Marking:
-    """Read the settings; a title and a total that they do not name are the course's.
+    """Read the settings; title and total default to the course's.
 
-    Without a file the engine is all there is. Raises Stop where the file is missing or invalid.
+    Without a file the engine is the only part. Raises Stop where the file is missing or invalid.
     """
     usual = {"title": course.title, "total": course.out_of or USUAL_TOTAL}
     if path is None:
@@ -74,12 +73,12 @@ def load_marking(path: Path | None, course: Course = FULL) -> Marking:
 
 
 def mark_engine(path: Path | None, course: Course) -> Marking:
-    """Return how marks are made of results, which hold the engine alone."""
+    """Return the settings for results, which hold the engine alone."""
     return msgspec.structs.replace(load_marking(path, course), shares={ENGINE: 1})
 
 
 def compare_totals(marking: Marking, course: Course) -> Iterator[str]:
-    """Yield a note where students' pages, made by the course, give other marks than these."""
+    """Yield a note where students' pages, which follow the course, show other marks."""
     total = course.out_of or USUAL_TOTAL
     if marking.total != total:
         pages = f"the students' pages count to {total:g}"
@@ -87,22 +86,22 @@ def compare_totals(marking: Marking, course: Course) -> Iterator[str]:
 
 
 def compute_mark(parts: Parts, marking: Marking) -> str:
-    """Return one mark from all parts; a part that is missing counts as 0."""
+    """Return one mark from all parts; a missing part counts as 0."""
     share = sum(
         weight * parts[name].points / parts[name].max_points
         for name, weight in marking.shares.items()
         if name in parts and parts[name].max_points > 0
     )
     mark = Decimal(marking.total * share / sum(marking.shares.values()))
-    # what binary fractions leave over must not decide which way to round
+    # binary fractions must not decide which way to round
     mark = mark.quantize(Decimal("1e-9"))
     return str(mark.quantize(Decimal(1).scaleb(-marking.decimals), ROUND_HALF_UP))
 
 
 def make_parts(outcomes: Iterable[Outcome]) -> dict[str, Parts]:
-    """Return the engine alone, where no notebooks are used; adjustments are its note.
+    """Return the engine as the only part, with the decisions as its note.
 
-    What could not be graded waits for a person, unless one has set its points.
+    Work that could not be graded waits for a person, unless one has set its points.
     """
     made = {}
     for each in outcomes:
@@ -119,13 +118,13 @@ def mark_by_course(course: Course) -> Marking:
 
 @dataclass
 class Marks:
-    """A file for the LMS, and what a person should know about it."""
+    """A file for the learning system, and notes on it."""
 
     text: str = ""
     encoding: str = "utf-8"
     rows: list[Marked] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
-    unowned: list[str] = field(default_factory=list)  # who may have handed in what nobody owns
+    unowned: list[str] = field(default_factory=list)  # students who may own work without an owner
 
     @property
     def given(self) -> int:
@@ -134,17 +133,17 @@ class Marks:
 
 @dataclass(frozen=True)
 class Scores:
-    """The parts of everybody, by the name of their result, and how to make marks of them."""
+    """The parts of all students, by the names of their results, and the settings of marks."""
 
     parts: dict[str, Parts]
     marking: Marking
-    so_far: bool = False  # what waits for a person counts as 0
-    others_known: bool = False  # who is not in the class list is nobody in it
-    of_sheets: bool = False  # an assignment beside the class list's own, for each student alone
+    so_far: bool = False  # parts that wait for a person count as 0
+    others_known: bool = False  # work without an owner belongs to nobody of the class list
+    of_sheets: bool = False  # another assignment, for each student alone
 
     @property
     def missing(self) -> str:
-        """Return what to say of a student who has no part."""
+        """Return the note on a student without any part."""
         return "no answers to a sheet" if self.of_sheets else "nothing handed in"
 
     @property
@@ -162,7 +161,7 @@ def score_sheets(
     """Return the points of the sheets of questions, in a column of their own.
 
     Each total is a student, points, the maximum, and the number of answers not marked yet. Sheets
-    differ in their maximum, so that a mark is the share of it, out of a whole sheet's points.
+    differ in their maximum, so a mark is the same share of the points of a whole sheet.
     """
     parts = {
         student: {SHEET: Part(points, most, bool(waiting))}
@@ -176,9 +175,9 @@ def score_sheets(
 def make_marks(roster: Roster, key: str, scores: Scores) -> Marks:
     """Return the class list with a mark for each student.
 
-    A mark that still waits for a person is left empty, unless `so_far`. So is a row that could be
-    more than one student's: nobody gets another's mark, nor a zero for bearing another's name. And
-    as long as work has no owner, nobody is known to have handed in nothing, unless `others_known`.
+    A mark that waits for a person stays empty, unless `so_far`. So does a row that several results
+    fit: nobody gets another's mark, or a zero for having another's name. While some work has no
+    owner, missing work may be that one, so its row stays empty too, unless `others_known`.
     """
     made, marking = Marks(), scores.marking
     owners = find_owners(roster, key, scores.parts, scores.absent)
@@ -210,7 +209,7 @@ def make_marks(roster: Roster, key: str, scores: Scores) -> Marks:
 def mark_row(
     row: Row, student: str, owners: Owners, scores: Scores, made: Marks
 ) -> tuple[str, str]:
-    """Return a student's mark and its summary, and note on `made` what is not as usual."""
+    """Return a student's mark and its summary, and add notes to `made`."""
     results = owners.find_results(row)
     if row in owners.doubtful or len(results) > 1:
         names = results or [name for name, rows in owners.doubts.items() if row in rows]
@@ -235,7 +234,7 @@ def mark_row(
 
 
 def summarize(parts: Parts, marking: Marking) -> str:
-    """Return what makes the mark, for the column of feedback."""
+    """Return the parts of the mark in words, for the column of feedback."""
     return "; ".join(
         (
             f"{name} not graded"
@@ -249,7 +248,7 @@ def summarize(parts: Parts, marking: Marking) -> str:
 
 
 def read_total(roster: Roster, title: str, lms: Lms | None = None) -> float | None:
-    """Return what full marks are in the gradebook; None where it does not say."""
+    """Return the maximum in the gradebook; None where it has none."""
     try:
         total = (lms or find_system(roster)).find_total(roster, title)
         return float(total.replace(",", ".")) if total else None  # as another country writes it

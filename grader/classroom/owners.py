@@ -1,7 +1,7 @@
-"""Find whose a result is: by identifiers before names, and never by a guess.
+"""Find the student of each result: by identifiers before names, and never by a guess.
 
-A result bears the name of its student as the class was taken in: an identifier, if there was a
-class list, or what the LMS wrote, a name with a number behind it.
+With a class list a result is named by the student's identifier; without one by the name and number
+that the learning system wrote.
 """
 
 import re
@@ -17,7 +17,7 @@ Labels = Callable[[Row], Iterable[str]]
 
 @dataclass
 class Owners:
-    """Results by the rows of a class list, and those that no row or several may own."""
+    """Results by rows of a class list, and results with no owner or several possible ones."""
 
     rows: dict[int, list[str]] = field(default_factory=dict)  # names of results, by the row
     doubts: dict[str, list[Row]] = field(default_factory=dict)  # of any of these rows
@@ -26,7 +26,7 @@ class Owners:
 
     @property
     def doubtful(self) -> list[Row]:
-        """The rows that some result may belong to, and none does for sure."""
+        """Return the rows that only uncertain results may belong to."""
         rows = [row for rows in self.doubts.values() for row in rows]
         return [row for row in rows if not self.find_results(row)]
 
@@ -34,14 +34,14 @@ class Owners:
         return self.rows.get(id(row), [])
 
     def find_mates(self, row: Row) -> list[str]:
-        """Return those of the group whose result counts for this student too."""
+        """Return the group members whose result counts for this student too."""
         return self.mates.get(id(row), [])
 
 
 def find_owners(
     roster: Roster, key: str, names: Iterable[str], absent: Iterable[str] = ()
 ) -> Owners:
-    """Find the row of each result, by the surest way that finds any; `absent` share nothing."""
+    """Find the row of each result, the surest way first; `absent` share no result."""
     owners = Owners()
     ways = [(index_rows(roster, row_labels), labels) for row_labels, labels in list_ways(key)]
     for name in names:
@@ -81,7 +81,7 @@ def share_results(roster: Roster, owners: Owners, absent: set[str]) -> None:
 
 
 def list_ways(key: str) -> list[tuple[Labels, Callable[[str], list[str]]]]:
-    """Return labels of a row, and those to look up for a result's name, the surest way first."""
+    """Return the ways to match the labels of a row with a result's name, the surest first."""
     return [
         (lambda row: [row[key]], lambda name: [name]),
         (lambda row: [row.get(column, "") for column in (*KEYS, "ID")], lambda name: [name]),
@@ -96,6 +96,6 @@ def list_ways(key: str) -> list[tuple[Labels, Callable[[str], list[str]]]]:
 
 
 def split_name(name: str) -> list[str]:
-    """Return a name and, where there is one, the number that a learning system put behind it."""
+    """Return a name, and the number that a learning system put behind it, if any."""
     match = NUMBERED.fullmatch(name)
     return [match["name"], match["number"]] if match else [name]

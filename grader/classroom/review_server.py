@@ -16,7 +16,7 @@ PATIENCE = 60  # s that a connection may say nothing
 
 
 class ReviewServer(ThreadingHTTPServer):
-    """A server on a free port of the loopback interface; requests are answered one at a time."""
+    """A server on a free port of this machine alone; it answers one request at a time."""
 
     daemon_threads = True
 
@@ -78,7 +78,7 @@ class Handler(BaseHTTPRequestHandler):
         self.wfile.write(body)
 
     def log_message(self, format: str, *args: object) -> None:
-        """Say nothing: an address holds the token."""
+        """Log nothing: an address holds the token."""
 
 
 def read_pairs(text: str) -> dict[str, str]:
@@ -87,7 +87,7 @@ def read_pairs(text: str) -> dict[str, str]:
 
 @contextmanager
 def open_review(known: ClassFolder) -> Iterator[ReviewServer]:
-    """Take in a class as it came, and listen; raises Stop where it is not graded yet."""
+    """Read a class as it came, and listen; raises Stop where it is not graded yet."""
     known.find_results()
     people = known.list_people()
     people.chosen = []

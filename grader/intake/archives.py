@@ -1,6 +1,6 @@
-"""Unpack archives of unknown people: bounded, nothing outside, every trouble a sentence.
+"""Unpack untrusted archives: within limits, nothing outside a folder, each error a sentence.
 
-What is no zip is first made one by `repack`, in a process of its own.
+`repack` first makes a zip of any other archive, in a process of its own.
 """
 
 import io
@@ -32,16 +32,14 @@ from grader.text import plural
 MAX_ARCHIVES = 100
 MAX_ZIP = 200 * 1024**2  # bytes: somebody's virtual environment fits
 MAX_DIRECTORY = 16 * 1024**2  # bytes of the lists of files in zips: about 200,000 of them
-MAX_SECONDS = repack.SECONDS  # of the processor, for what is no zip
+MAX_SECONDS = repack.SECONDS  # of processor time, for archives that are no zip
 MAX_CLASS = 20 * MAX_DIRECTORY  # the same, of the zip of a class
 LONGEST_PATH, SHORT = 2000, 30  # bytes of a path in the zip of a class, and of a folder that is cut
-WORK = {".py", ".ipynb", "", *ARCHIVES}  # how names of work end; without a suffix, it may be packed
+WORK = {".py", ".ipynb", "", *ARCHIVES}  # suffixes of work; a file without one may be an archive
 DRIVE = re.compile(r"[A-Za-z]:")  # with which a name on Windows begins
-SPARED = 100  # files of a submission's allowance that only the lab's own are given
+SPARED = 100  # files of the allowance for the lab's own alone
 OWN_WAY = "the zip is packed in an unusual way: ask for one as desktops make it"
-CLOCK_PER_CPU = (
-    4  # s on the clock for each of the processor: the last resort where nothing else ends it
-)
+CLOCK_PER_CPU = 4  # s on the clock for each of processor time: the last resort
 
 
 @dataclass
@@ -55,10 +53,10 @@ class Bounds:
     listed: int = field(default_factory=lambda: MAX_DIRECTORY)  # bytes, of lists of files in zips
     seconds: float = field(default_factory=lambda: MAX_SECONDS)
     left_out: list[str] = field(default_factory=list)
-    misnamed: list[str] = field(default_factory=list)  # left out for a name not for every system
+    misnamed: list[str] = field(default_factory=list)  # left out for names that some systems refuse
 
     def take(self, name: str, length: int, spared: int = 0) -> bool:
-        """Take a file if there is room for it, and for `spared` others after it."""
+        """Take a file if it fits, with room for `spared` others after it."""
         if self.files <= spared or length > self.bytes:
             self.left_out.append(name)
             return False
@@ -73,7 +71,7 @@ class Bounds:
         self.packed -= length
 
     def open_one(self) -> None:
-        """Count an archive that is opened; raises CannotTake where that is one too many."""
+        """Count an archive; raises CannotTake for one too many."""
         if self.archives < 1:
             raise CannotTake(f"more than {MAX_ARCHIVES} archives in one submission: ask for one")
         self.archives -= 1
@@ -94,7 +92,7 @@ def count_files(names: list[str]) -> str:
 
 
 def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
-    """Unpack what may be part of a submission, the lab's files first, within the bounds."""
+    """Unpack the possible parts of a submission within the bounds, the lab's files first."""
     bounds.open_one()
     with open_archive(path, bounds) as (archive, too_large):
         bounds.left_out += too_large
@@ -116,7 +114,7 @@ def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
 
 
 def unzip_class(path: Path, folder: Path) -> None:
-    """Unpack an LMS's download of a whole class; each submission in it is looked at later."""
+    """Unpack the download of a whole class; the submissions in it are read later."""
     with open_archive(path, Bounds(listed=MAX_CLASS)) as (archive, too_large):
         if too_large:
             raise CannotTake(f"{too_large[0]} is too large: unpack it, and name the folder instead")
@@ -127,15 +125,15 @@ def unzip_class(path: Path, folder: Path) -> None:
 
 
 def find_place(folder: Path, parts: list[str], number: int) -> Path:
-    """Return where a file of a class goes; what is in its way as a file or folder stays.
+    """Return a free path for a file of a class.
 
-    One student's names may become the same: `a*`, a file, and `a_`, a folder. Of a path that is too
-    long for a system, all names but the student's are cut.
+    Two names of a student may become the same: `a*`, a file, and `a_`, a folder. Of a path that is
+    too long for a system, all names but the student's are cut.
     """
     path, names = folder, [*map(make_portable, parts)]
     if len("/".join(names).encode()) > LONGEST_PATH:
         cut = (each.encode()[:SHORT].decode("utf-8", "ignore") for each in names[1:])
-        names[1:] = islice(cut, MAX_DEPTH + 2)  # one that is too deep stays so, and is refused
+        names[1:] = islice(cut, MAX_DEPTH + 2)  # a path that is too deep stays so, and is refused
     for left, part in enumerate(names, 1 - len(names)):
         path /= part
         if path.is_file() if left else path.is_dir():
@@ -145,7 +143,7 @@ def find_place(folder: Path, parts: list[str], number: int) -> Path:
 
 @contextmanager
 def open_archive(path: Path, bounds: Bounds) -> Iterator[tuple[zipfile.ZipFile, list[str]]]:
-    """Open an archive of any known kind, and list the files in it that are too large."""
+    """Open an archive of any known kind, and list its files that are too large."""
     with open(path, "rb") as file:
         sign = file.read(8)
     if not sign:
@@ -163,7 +161,7 @@ def open_archive(path: Path, bounds: Bounds) -> Iterator[tuple[zipfile.ZipFile, 
 
 
 def repack_as_zip(path: Path, target: Path, bounds: Bounds) -> list[str]:
-    """Have the files packed as a zip by a process with limits; return those that are too large."""
+    """Make a zip in a process with limits; return the names of files that are too large."""
     if bounds.seconds <= 0:
         raise CannotTake("the archives of the submission take too long to unpack")
     seconds, began = math.ceil(bounds.seconds), reaped_seconds()
@@ -189,7 +187,7 @@ def repack_as_zip(path: Path, target: Path, bounds: Bounds) -> list[str]:
 
 @contextmanager
 def open_zip(path: Path, bounds: Bounds) -> Iterator[zipfile.ZipFile]:
-    """Open a zip, and make a sentence of whatever goes wrong with it."""
+    """Open a zip; raises CannotTake with a sentence for any error."""
     try:
         with ZipReader(path, bounds.listed) as file, zipfile.ZipFile(file) as archive:
             bounds.listed -= file.taken
@@ -200,7 +198,7 @@ def open_zip(path: Path, bounds: Bounds) -> Iterator[zipfile.ZipFile]:
         raise CannotTake(f"{OWN_WAY} ({error})") from error
     except RuntimeError as error:
         raise CannotTake("the zip is encrypted: ask for one without a password") from error
-    except Exception as error:  # zipfile and zlib have many; the bytes are a stranger's
+    except Exception as error:  # zipfile and zlib raise many kinds
         cut = path.suffix.lower() == ".zip" and not zipfile.is_zipfile(path)
         why = ": it is cut off, or no zip" if cut else ""
         raise CannotTake(
@@ -209,10 +207,10 @@ def open_zip(path: Path, bounds: Bounds) -> Iterator[zipfile.ZipFile]:
 
 
 class ZipReader(io.BufferedReader):
-    """A file for `zipfile`, of which no more is read at once than a list of files may have.
+    """A file for `zipfile` that limits the size of one read, and so of the list of files.
 
-    `zipfile` finds that list in its own way and reads it at once. So it is stopped there: whoever
-    looks for the list before may find another one.
+    `zipfile` finds that list in its own way and reads it at once. A check before it could find
+    another list.
     """
 
     def __init__(self, path: Path, most: int) -> None:
@@ -238,9 +236,9 @@ def list_members(archive: zipfile.ZipFile) -> Iterator[zipfile.ZipInfo]:
 def name_members(
     archive: zipfile.ZipFile, misnamed: list[str]
 ) -> list[tuple[PurePosixPath, zipfile.ZipInfo]]:
-    """Return the files and their names; raises CannotTake where two differ that have one name.
+    """Return the files and their names; raises CannotTake where two files share a name and differ.
 
-    What is no work and has a name that not every system takes is added to `misnamed` instead.
+    Files that are no work, with a name that some systems refuse, are added to `misnamed` instead.
     """
     found: dict[str, tuple[PurePosixPath, zipfile.ZipInfo]] = {}
     for member in list_members(archive):
@@ -259,7 +257,7 @@ def name_members(
 
 
 def decode_name(member: zipfile.ZipInfo) -> str:
-    """Return a member's name: UTF-8 where it says so or looks it, or else old DOS letters."""
+    """Return a member's name, in UTF-8 if it says so or can be, or else in DOS letters."""
     name = member.filename
     if not member.flag_bits & 0x800:
         with suppress(UnicodeError):
@@ -268,13 +266,13 @@ def decode_name(member: zipfile.ZipInfo) -> str:
 
 
 class Misnamed(Exception):
-    """A name that not every system takes, of a file that is no work."""
+    """Raised for a name that some systems refuse, of a file that is no work."""
 
 
 def check_name(name: str) -> str:
-    """Return the name, if it stays inside its folder and every system can have it.
+    """Return the name, if it stays inside its folder and every system takes it.
 
-    Raises CannotTake for the name of what may be work, and Misnamed for that of anything else.
+    Raises CannotTake for a file that may be work, and Misnamed for any other.
     """
     parts = [part for part in name.split("/") if part not in ("", ".")]
     if len(parts) > MAX_DEPTH:
@@ -290,9 +288,9 @@ def check_name(name: str) -> str:
 
 
 def write_member(archive: zipfile.ZipFile, member: zipfile.ZipInfo, path: Path) -> None:
-    """Unpack one file, and no more of it than the zip says it has.
+    """Unpack one file, up to the size that the zip gives.
 
-    `zipfile` takes no more memory than it gives back in these two ways of packing alone.
+    Only with these two methods does `zipfile` need no more memory than the file.
     """
     if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
         raise CannotTake(OWN_WAY)

@@ -34,7 +34,7 @@ class Blackboard(Lms):
         return None if path.is_dir() else NAME.fullmatch(path.name)
 
     def read_upload(self, path: Path, people: ClassList) -> Upload | None:
-        """Return whose upload this is; the time is the school's."""
+        """Return the owner and time of an upload; the time is the school's."""
         match = self.match(path)
         if match is None:
             return None
@@ -68,9 +68,9 @@ class Blackboard(Lms):
 
 
 def find_listed_user(match: re.Match[str], people: ClassList) -> str:
-    """Return the user of the class list whose name is the longest end of the file's.
+    """Return the user of the class list with the longest name at the end of the file's.
 
-    `Lab_1_kl_6` is user `kl_6` of `Lab_1`, or `6` of `Lab_1_kl`: the list knows.
+    `Lab_1_kl_6` is user `kl_6` of `Lab_1`, or `6` of `Lab_1_kl`.
     """
     parts = f"{match['assignment']}_{match['user']}".split("_")
     ends = ("_".join(parts[at:]) for at in range(1, len(parts)))

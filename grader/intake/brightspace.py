@@ -29,7 +29,7 @@ class Brightspace(Lms):
         return NAME.fullmatch(path.name)
 
     def read_upload(self, path: Path, people: ClassList) -> Upload | None:
-        """Return whose upload this is; the time is the school's."""
+        """Return the owner and time of an upload; the time is the school's."""
         match = self.match(path)
         if match is None:
             return None
@@ -49,7 +49,7 @@ class Brightspace(Lms):
         return END_OF_LINE in columns or "OrgDefinedId" in columns
 
     def read_row(self, row: Row) -> Row:
-        """Take the sign off that keeps spreadsheets from an identifier; see `make_table`."""
+        """Remove the sign before an identifier; `make_table` needs it again."""
         return (
             row
             | {f"{SIGN}{name}": row[name] for name in OWN if name in row}

@@ -67,7 +67,7 @@ class Canvas(Lms):
     def name_pages(
         self, source: Path, pages: list[Page]
     ) -> Iterator[tuple[str, bytes | dict[str, bytes]]]:
-        """Return files of the very names that Canvas gave: a zip stays one, and a text a text."""
+        """Yield files with the names that Canvas gave: a zip for a zip, a text for any other."""
         if self.match(source) is None:
             return
         if source.suffix.lower() == ".zip":

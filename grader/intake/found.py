@@ -1,4 +1,4 @@
-"""Describe a class that was taken in: submissions where they lie, and notes on the others."""
+"""Describe a class on disk: submissions with their paths, and notes on other files."""
 
 import hashlib
 from dataclasses import dataclass, field
@@ -12,24 +12,24 @@ from grader.judge.submission import CannotGrade
 
 
 class CannotTake(CannotGrade):
-    """A submission that cannot be read and needs manual review; the others of its class can."""
+    """Raised for a submission that cannot be read and needs manual review."""
 
 
 @dataclass(frozen=True)
 class Found:
-    """A submission where it lies, before anything of it is read."""
+    """A submission on disk, before it is read."""
 
     name: str  # of its result; a file name on every platform
     sources: tuple[Path, ...]  # a folder, or what was handed in
-    late: bool = False  # so marked by the LMS
+    late: bool = False  # marked late by the LMS
     handed_in: datetime | None = None  # without a zone where the LMS tells the school's own time
     group: tuple[str, ...] = ()  # the others whose work this is too
     handed_in_by: str = ""  # one of them, where it was not this student
-    taken: tuple[str, ...] = ()  # paths in it that a person chose where two could be meant
+    taken: tuple[str, ...] = ()  # paths in it that a person chose among several
 
     @property
     def team(self) -> tuple[str, ...]:
-        """Return words that are the same for those who handed in together, and for no others."""
+        """Return an identity of the group or student who handed this in."""
         if self.group:
             return str(self.sources[0].parent), *sorted({self.name, *self.group})
         return tuple(str(each) for each in self.sources)
@@ -43,44 +43,44 @@ class Intake:
     notes: list[str] = field(default_factory=list)
 
     def refuse(self, name: str, words: str, *works: Found) -> None:
-        """Leave work to a person, who may choose among it."""
+        """Leave work to manual review, where a person may choose among `works`."""
         self.troubles[name] = words
         self.refused[name] = [*self.refused.get(name, []), *works]
 
     def drop(self, name: str) -> None:
-        """Leave out all that was handed in under a name."""
+        """Remove all work under a name."""
         self.found = [each for each in self.found if each.name != name]
         self.troubles.pop(name, None)
         self.refused.pop(name, None)
 
     @property
     def works(self) -> list[Found]:
-        """Return all that was handed in, also what is left to a person."""
+        """Return all work, with that which needs review."""
         return [*self.found, *(each for works in self.refused.values() for each in works)]
 
     @property
     def names(self) -> list[str]:
-        """Return everybody who handed in, also those whose work cannot be graded."""
+        """Return all students who handed in, also those whose work cannot be graded."""
         return [*(each.name for each in self.found), *self.troubles]
 
 
 @dataclass(frozen=True)
 class Upload:
-    """A file or folder of a class, and whose it is by its name."""
+    """A file or folder of a class, with its owner by its name."""
 
     path: Path
     name: str  # as of `Found`
     late: bool = False
-    from_lms: bool = False  # an LMS names each file by its student: those of one belong together
+    from_lms: bool = False  # an LMS wrote the name: all files of one owner belong together
     empty: bool = False  # a text or a link was handed in, and no file
     handed_in: datetime | None = None
     attempt: str = ""  # the last in order counts
-    timeless: bool = False  # nobody knows which attempt is the last
-    owner: str = ""  # what the LMS itself calls the student; two of one name are two all the same
+    timeless: bool = False  # the order of attempts is unknown
+    owner: str = ""  # the LMS's identifier: two students of one name have two
 
 
 class Package(Struct, frozen=True):
-    """A submission that can travel: its files, the same bytes for the same files."""
+    """A submission as bytes, which can travel to another machine."""
 
     name: str
     files: list[tuple[str, bytes]]  # sorted by path, which is relative and has forward slashes

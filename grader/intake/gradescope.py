@@ -25,7 +25,7 @@ METADATA = "submission_metadata.yml"
 
 
 class MetadataLoader(SafeLoader):
-    """YAML as Ruby writes it, without what bears the tag of a class of its own."""
+    """A loader of YAML that skips values with the tags of Ruby's classes."""
 
 
 MetadataLoader.add_constructor(None, lambda loader, node: None)
@@ -46,7 +46,7 @@ class Submitter(Struct):
 
 
 class Exported(Struct):
-    """One submission in Gradescope's list, as far as it matters here."""
+    """One submission in Gradescope's list."""
 
     submitters: list[Submitter] = field(name=":submitters")
     created_at: Any = field(default=None, name=":created_at")
@@ -60,7 +60,7 @@ class Gradescope(Lms):
         return (folder / METADATA).is_file()
 
     def is_whole_export(self, folder: Path) -> bool:
-        """Tell an export from a submission that brought such a list, by the folder's name."""
+        """Tell an export from a submission with such a file, by the folder's name."""
         return self.is_export(folder) and bool(re.fullmatch(r"assignment_\d+_export", folder.name))
 
     def read_export(self, folder: Path, people: ClassList, intake: Intake) -> Iterator[Found]:

@@ -1,4 +1,4 @@
-"""Share the work of a group of the class list: what one of it handed in is the work of all."""
+"""Share the work of a group of the class list among its members."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
@@ -11,7 +11,7 @@ from grader.intake.roster import ClassList
 def share_work(intake: Intake, people: ClassList, hash_files: Callable[[Found], str]) -> None:
     """Enter the work of a group for its members who handed in nothing.
 
-    Where the group handed in different work, by `hash_files`, a person must say which is theirs.
+    Where members handed in different work, by `hash_files`, the others need manual review.
     """
     for group in people.groups.values():
         names = match_members(group, intake.names)
@@ -36,7 +36,7 @@ def share_work(intake: Intake, people: ClassList, hash_files: Callable[[Found], 
 
 
 def match_members(group: list[str], names: Iterable[str]) -> dict[str, str]:
-    """Return the members who are in the class already, each with the name used there."""
+    """Return the members who handed in, each with their name in the class."""
     there: dict[str, str] = {}
     for name in names:
         there.setdefault(fold(name), name)

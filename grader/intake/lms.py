@@ -1,4 +1,4 @@
-"""A learning system: how to read what it exports, and what it takes back."""
+"""Define a learning system: how to read its exports, and what it takes back."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -21,7 +21,7 @@ class Marked(NamedTuple):
 
 @dataclass(frozen=True)
 class MarkColumn:
-    """The marks of one assignment, as a gradebook is to get them."""
+    """The marks of one assignment, for a gradebook."""
 
     title: str
     total: float
@@ -31,7 +31,7 @@ class MarkColumn:
 
 @dataclass(frozen=True)
 class Page:
-    """A student's page of feedback on its way back."""
+    """A student's page of feedback, to return."""
 
     name: str  # of the student
     file: str  # its name, where the system leaves that free
@@ -41,22 +41,22 @@ class Page:
 
 
 class Lms:
-    """A learning system; this one is any other, whose gradebook asks which column is which.
+    """A learning system; this class is any unknown one, whose gradebook asks for each column.
 
-    A new system overrides what it does otherwise, and is entered in `systems.py`.
+    A new system overrides what differs, and is entered in `systems.py`.
     """
 
     name = "plain"
-    title_sign = ""  # what follows an assignment's title in a column of the gradebook
-    only_commas = False  # it takes back UTF-8 with commas alone
-    names_alone = True  # its export identifies students by nothing but their names
-    takes_feedback = False  # its name_pages has a form in which feedback goes back in bulk
-    side_files: frozenset[str] = frozenset()  # what its export holds besides submissions
+    title_sign = ""  # the sign behind an assignment's title in the gradebook
+    only_commas = False  # it takes back only UTF-8 with commas
+    names_alone = True  # its export identifies students by their names alone
+    takes_feedback = False  # feedback goes back in bulk, by name_pages
+    side_files: frozenset[str] = frozenset()  # other files of its export
 
     # -------------------------------------------------------- what it exports
 
     def read_upload(self, path: Path, people: ClassList) -> Upload | None:
-        """Return whose upload this is; None for a name that this system does not write."""
+        """Return an upload with its owner; None for a name that this system does not write."""
         return None
 
     def match(self, path: Path) -> re.Match[str] | None:
@@ -64,24 +64,24 @@ class Lms:
         return None
 
     def is_trial(self, path: Path) -> bool:
-        """Tell whether the teacher handed this in, in the view that students have."""
+        """Tell whether the teacher handed this in, as a test student."""
         return False
 
     def read_own_name(self, path: Path) -> str | None:
-        """Return a file's name as the student gave it; None where this system wrote no name."""
+        """Return a file's name as the student gave it; None for any other name."""
         match = self.match(path)
         return match["file"] if match else None
 
     def is_export(self, folder: Path) -> bool:
-        """Tell whether a folder lists its submissions in a file of this system."""
+        """Tell whether a folder holds this system's list of submissions."""
         return False
 
     def is_whole_export(self, folder: Path) -> bool:
-        """Tell whether a folder among others is an export, not a submission with such a file."""
+        """Tell whether a folder among others is an export, and no submission with such a list."""
         return False
 
     def read_export(self, folder: Path, people: ClassList, intake: Intake) -> Iterator[Found]:
-        """Return the submissions that the list of an export names."""
+        """Yield the submissions in the list of an export."""
         return iter(())
 
     # -------------------------------------------------------- its gradebook
@@ -94,14 +94,11 @@ class Lms:
         return True
 
     def read_row(self, row: Row) -> Row:
-        """Return a student's row with identifiers as the student knows them."""
+        """Return a student's row without signs around identifiers."""
         return row
 
     def translate(self, titles: list[str]) -> list[str]:
-        """Return the titles of columns in English, and those of `roster.KEYS` and SUBMITTED.
-
-        So each way to name a student, or a time, needs no other place that knows it.
-        """
+        """Return the titles of columns in English, as `roster.KEYS` and SUBMITTED have them."""
         return titles
 
     def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:
@@ -111,29 +108,29 @@ class Lms:
         return [*table, *([*pick(row, own), mark, words] for row, mark, words in marks.rows)]
 
     def for_other_assignments(self) -> "Lms":
-        """Return how marks go back of an assignment that is not the class list's own."""
+        """Return the system to use for another assignment than the class list's own."""
         return self
 
     def find_total(self, roster: Roster, title: str) -> str:
-        """Return what full marks are in the gradebook; empty where it does not say."""
+        """Return the maximum in the gradebook; empty where it has none."""
         head = re.compile(rf"{re.escape(title)}(?: Points Grade)? [\[<]")
         columns = (name for name in roster.columns if head.match(name))
         return next((match[1] for name in columns if (match := TOTAL.search(name))), "")
 
     def warn_above(self, names: str, total: float) -> str:
-        """Return what to tell of students whose marks are above the total."""
+        """Return a note on students whose marks are above the total."""
         return f"{names}: above {total:g}: does your gradebook allow that?"
 
     # -------------------------------------------------------- feedback
 
     def name_page(self, participant: str, file: str) -> str:
-        """Return the name of a page for a student without a file; empty where it takes none."""
+        """Return the name of a page for a student without a file; empty for none."""
         return ""
 
     def name_pages(
         self, source: Path, pages: list[Page]
     ) -> Iterable[tuple[str, bytes | dict[str, bytes]]]:
-        """Return files of feedback for what was handed in as `source`; a dict becomes a zip."""
+        """Yield the files of feedback for the upload `source`; a dict becomes a zip."""
         return ()
 
 
@@ -142,5 +139,5 @@ def pick(row: Row, columns: Iterable[str]) -> list[str]:
 
 
 def find_title(roster: Roster, start: str, otherwise: str) -> str:
-    """Return the gradebook's own name of the assignment's column, which has an id behind it."""
+    """Return the title of the assignment's column, which ends with an id in the gradebook."""
     return next((name for name in roster.columns if name.startswith(start)), otherwise)

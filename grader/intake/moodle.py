@@ -25,7 +25,7 @@ def load_titles() -> dict[str, list[str]]:
 
 
 class Moodle(Lms):
-    """Moodle; its grading worksheet is told from the export of its gradebook, a plain list."""
+    """Moodle with its grading worksheet; the export of its gradebook is a plain list."""
 
     name = "moodle"
     only_commas = True
@@ -62,7 +62,7 @@ class Moodle(Lms):
         plain = {fold(TOTAL): TOTAL}  # newer ones write it in small letters
         for name, others in load_titles().items():
             for other in others:
-                if other != "ID" or "Bestwertung" in titles:  # many lists have an ID that is none
+                if other != "ID" or "Bestwertung" in titles:  # many lists have another ID
                     plain.setdefault(fold(other), name)
         columns = [plain.get(fold(title).replace("\u2019", "'"), title) for title in titles]
         if "Full name" not in columns and "Last name" not in columns:  # Italian: one word for both
@@ -80,7 +80,7 @@ class Moodle(Lms):
         return table
 
     def for_other_assignments(self) -> Lms:
-        """Return the way of a plain list: a worksheet takes marks of its own assignment alone."""
+        """Return a plain list: a worksheet takes marks of its own assignment alone."""
         return Lms()
 
     def find_total(self, roster: Roster, title: str) -> str:
@@ -94,7 +94,7 @@ class Moodle(Lms):
         )
 
     def name_page(self, participant: str, file: str) -> str:
-        """Return Moodle's name of somebody's file; their number follows the first `_` in it."""
+        """Return Moodle's name of a file, with the student's number behind its first `_`."""
         name, _, number = participant.rpartition("_")
         return f"{name.replace('_', ' ')}_{number}_assignsubmission_file_{file}"
 
@@ -108,6 +108,6 @@ class Moodle(Lms):
 
 
 def cut_group(name: str) -> list[str]:
-    """Return what may be the student's name in `Group 3-Ann Lee`."""
+    """Return possible names of the student in `Group 3-Ann Lee`."""
     parts = name.split("-")
     return ["-".join(parts[at:]) for at in range(1, len(parts))]

@@ -1,4 +1,4 @@
-"""Read one submission: unpack archives, find the programs in them, and pack what counts."""
+"""Read one submission: unpack archives, find the programs, and pack what counts."""
 
 import hashlib
 import re
@@ -40,7 +40,7 @@ from grader.judge.submission import CannotGrade, explain_unreadable, module_of, 
 from grader.judge.workplace import work_folder
 from grader.source.flaws import find_bad_bytes
 
-COPY = re.compile(r"-\d+(?=\.\w+$)")  # what an LMS adds to the name of a file that comes again
+COPY = re.compile(r"-\d+(?=\.\w+$)")  # what an LMS adds to the name of a file handed in again
 
 
 @contextmanager
@@ -49,9 +49,9 @@ def open_submission(
     say: Callable[[str], None] = lambda note: None,
     asked: Collection[str] = (),
 ) -> Iterator[Path]:
-    """Unpack the submission at `path` and put its files together, as the lab lays them out.
+    """Unpack the submission at `path` and lay its files out as the lab does.
 
-    It is read as one of a class is. So what cannot be read there raises CannotTake here.
+    It is read like one of a class. Raises CannotTake where it cannot be read.
     """
     if not path.exists():
         raise CannotTake(f"there is no submission at {path}: name a folder or a Python file")
@@ -70,10 +70,10 @@ def open_submission(
 
 
 def pack(found: Found, asked: Collection[str] = ()) -> Package:
-    """Read what may be taken of a submission, wherever in it the programs lie.
+    """Read a submission, wherever in it the programs lie.
 
     Raises CannotTake where it has none of the programs asked for, or cannot be read within the
-    limits: that is not worth 0 points but needs manual review.
+    limits. Then it needs manual review; it is not worth 0 points.
     """
     try:
         work = partial(read_package, found, asked)
@@ -83,7 +83,7 @@ def pack(found: Found, asked: Collection[str] = ()) -> Package:
 
 
 def read_package(found: Found, asked: Collection[str] = ()) -> Package:
-    """Read it in this process."""
+    """Read a submission in this process."""
     bounds, files = Bounds(), []
     asked = asked or list_modules()
     try:
@@ -107,14 +107,14 @@ def read_package(found: Found, asked: Collection[str] = ()) -> Package:
 
 
 class Shown(Struct, frozen=True):
-    """A submission as it came: its files, and those of which a person must choose one."""
+    """A submission as it came: its files, and paths of which a person must choose one."""
 
     files: list[tuple[str, bytes]]
     choices: list[list[str]] = []
 
 
 def show(found: Found, asked: Collection[str] = ()) -> Shown:
-    """Read a submission as it came, within the limits; what cannot be read shows no files."""
+    """Read a submission as it came; return no files where it reaches a limit."""
     try:
         return call_within(READING, Shown, partial(read_shown, found, asked), (CannotTake,))
     except (Exceeded, Failed, Lost, CannotTake, OSError):
@@ -122,7 +122,7 @@ def show(found: Found, asked: Collection[str] = ()) -> Shown:
 
 
 def read_shown(found: Found, asked: Collection[str]) -> Shown:
-    """Read it in this process; archives are opened until a person must choose."""
+    """Read a submission in this process; open archives until a person must choose."""
     bounds = Bounds()
     with work_folder() as folder:
         copy_all(found, folder, bounds)
@@ -135,7 +135,7 @@ def read_shown(found: Found, asked: Collection[str]) -> Shown:
 
 
 def find_empty_programs(files: list[tuple[str, bytes]], asked: Collection[str]) -> list[str]:
-    """Return notes on empty programs; raises CannotTake where Python reads no text in one."""
+    """Return notes on empty programs; raises CannotTake for a program that is no text."""
     held = {name: content for name, content in files if module_of(PurePosixPath(name)) in asked}
     empty = {name for name, content in held.items() if name_type(content) == "empty"}
     if held and len(empty) == len(held):
@@ -169,7 +169,7 @@ def lay_out(folder: Path, laid: Arranged) -> Iterator[Path]:
 def open_found(
     found: Found, asked: Collection[str] = ()
 ) -> Iterator[tuple[Path, Arranged, list[str]]]:
-    """Unpack all that was handed in, and find the lab's files in it."""
+    """Unpack a submission, and find the lab's files in it."""
     folder = found.sources[0]
     if len(found.sources) == 1 and folder.is_dir():
         laid = arrange(folder, asked, found.taken)
@@ -184,7 +184,7 @@ def open_found(
 
 
 def is_complete(laid: Arranged, asked: Collection[str]) -> bool:
-    """Tell whether every program is there that the course asks for."""
+    """Tell whether all programs that the course asks for were found."""
     held = {name.partition("/")[0].removesuffix(".py") for name in laid.files}
     return held.issuperset(asked or list_modules())
 
@@ -202,7 +202,7 @@ def note_unopened(folder: Path, laid: Arranged, asked: Collection[str]) -> list[
 
 
 def unpack(found: Found, folder: Path, bounds: Bounds, asked: Collection[str] = ()) -> Arranged:
-    """Unpack until all programs that are asked for are there, or nothing is left to unpack."""
+    """Unpack until all programs that are asked for were found, or no archive is left."""
     refused: dict[str, str] = {}
     for _ in range(DEEPEST):
         archives = list_archives(folder)
@@ -228,7 +228,7 @@ def unpack(found: Found, folder: Path, bounds: Bounds, asked: Collection[str] = 
 
 
 def copy_all(found: Found, folder: Path, bounds: Bounds) -> None:
-    """Copy all that was handed in under the names it had, the same file only once."""
+    """Copy a submission under its own names, the same file only once."""
     copied: set[tuple[str, str]] = set()
     for source in found.sources:
         if source.is_dir():
@@ -246,7 +246,7 @@ def copy_all(found: Found, folder: Path, bounds: Bounds) -> None:
 
 
 def hash_file(file: BufferedReader, most: int) -> str:
-    """Return a hash of an open file of at most so many bytes; empty for a longer one."""
+    """Return a hash of an open file; empty for one of more than `most` bytes."""
     if size_of(file) > most:
         return ""
     digest = hashlib.file_digest(file, "sha256").hexdigest()
@@ -255,7 +255,7 @@ def hash_file(file: BufferedReader, most: int) -> str:
 
 
 def open_inside(source: Path, path: Path) -> BufferedReader:
-    """Open a file of what was handed in; nothing of it may be a link, from its own name on.
+    """Open a file of a submission; no part of its path may be a link.
 
     Raises CannotTake where it cannot be read.
     """
@@ -266,7 +266,7 @@ def open_inside(source: Path, path: Path) -> BufferedReader:
 
 
 def copy_file(file: BufferedReader, name: str, target: Path, bounds: Bounds) -> None:
-    """Copy one file; an archive may be larger than a submission, its files may not."""
+    """Copy one file within the bounds; an archive has bounds of its own."""
     length = size_of(file)
     head = file.read(8)
     file.seek(0)
@@ -279,7 +279,7 @@ def copy_file(file: BufferedReader, name: str, target: Path, bounds: Bounds) -> 
 
 
 def find_free_name(path: Path) -> Path:
-    """Return a name that is free: a second file of one name gets a number."""
+    """Return a free name: a second file of one name gets a number."""
     number = 1
     while path.exists():
         number += 1

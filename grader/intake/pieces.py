@@ -1,8 +1,8 @@
-"""Find the lab's files in what was handed in, at any depth, under names that others have changed.
+"""Find the lab's files in a submission, at any depth and under changed names.
 
 Browsers and learning systems put `(1)`, `-2` or `copy` into a name, and people put `final` or their
-own. Python can import no such name, so nobody meant it for a file of their own. It is taken as what
-it was, with a note. Where two files could be the same one, a person must choose.
+name. Python cannot import such a name, so it is no file of the student's own: it is taken as the
+lab's, with a note. Where two files could be the same program, a person must choose.
 """
 
 import re
@@ -25,15 +25,15 @@ from grader.source.regions import regions_in
 PACKAGE = "mini_engine"
 INIT = "__init__.py"
 NUMBER = r"\(\d{1,3}\)"
-WORD = r"(copy|copie|copia|kopie)"  # as desktops of several languages say it
-# Each sign has one place in it: what fits in two makes a name take twice as long with every sign.
+WORD = r"(copy|copie|copia|kopie)"  # in several languages
+# No sign fits two parts of it: each such sign would double the time to read a name.
 ADDED = re.compile(
     rf"(\s*{NUMBER}|(\s+|\s*-\s+){WORD}(\s+\d{{4,}})?|-\d{{1,3}}|\s+\d{{1,3}})+", re.I
 )
 BEFORE = re.compile(rf"({WORD} (of|de|di|von) )+", re.I)
 MENTIONED = 5
 MOST_READ = MAX_BYTES + 1  # of a file, to compare it with another one
-SIGNS = {  # how a file begins that somebody saved under a program's name
+SIGNS = {  # the beginnings of files that are no Python
     b"pk\x03\x04": "a zip or an Office document",
     b"%pdf": "a PDF",
     b"{\\rtf": "a text of a word processor",
@@ -45,7 +45,7 @@ SIGNS = {  # how a file begins that somebody saved under a program's name
 
 
 class ManyPrograms(CannotTake):
-    """Two programs of one name in a submission: a person must choose."""
+    """Raised for two programs of one name in a submission: a person must choose."""
 
     def __init__(self, words: str, paths: Iterable[PurePosixPath] = ()) -> None:
         super().__init__(words)
@@ -54,16 +54,16 @@ class ManyPrograms(CannotTake):
 
 @dataclass
 class Arranged:
-    """The files of a submission as the lab lays them out: names, and where each lies."""
+    """The files of a submission by their names in the lab."""
 
     files: dict[str, Path]
-    as_found: bool = True  # the files lie so in `root`
+    as_found: bool = True  # they lie so in `root`
     root: Path = Path()
     notes: list[str] = field(default_factory=list)
 
 
 def strip_additions(name: str) -> str:
-    """Return a file's or folder's name without what browsers and learning systems add to it."""
+    """Return a name without the additions of browsers and learning systems."""
     name = unquote(name)
     name = re.sub(r"(?i)\.py\.txt$", ".py", name)
     stem, dot, suffix = name.partition(".py") if name.lower().endswith(".py") else (name, "", "")
@@ -75,7 +75,7 @@ def strip_additions(name: str) -> str:
 
 
 def match_name(name: str, names: Iterable[str]) -> str | None:
-    """Return the one of `names` that a file's name stands for."""
+    """Return the one of `names` that a file's name means; None if it means none."""
     plain = fold(strip_additions(name))
     return next((each for each in names if each == name), None) or next(
         (each for each in names if fold(each) == plain), None
@@ -84,21 +84,21 @@ def match_name(name: str, names: Iterable[str]) -> str | None:
 
 @cache
 def list_package_files() -> frozenset[str]:
-    """Return the files that the lab's package has, by their names in it."""
+    """Return the names of the files in the lab's package."""
     given = (PurePosixPath(name).parts for name in load_given())
     return frozenset(parts[1] for parts in given if len(parts) == 2 and parts[0] == PACKAGE)
 
 
 @cache
 def list_package_work() -> frozenset[str]:
-    """Return the files of the package that a student works on."""
+    """Return the names of the files in the package that have a TODO."""
     names = (name for name in list_package_files() if name != INIT)
     return frozenset(n for n in names if regions_in(load_given()[f"{PACKAGE}/{n}"]))
 
 
 @dataclass(frozen=True)
 class Piece:
-    """A program of the lab where it lies in a submission."""
+    """A program of the lab in a submission."""
 
     module: str
     path: PurePosixPath  # of a file or a folder
@@ -113,10 +113,10 @@ class Piece:
 
 
 def arrange(folder: Path, asked: Collection[str] = (), taken: Collection[str] = ()) -> Arranged:
-    """Return the submission in `folder` with each program of the lab where it belongs.
+    """Return the submission in `folder` as the lab lays it out.
 
-    Raises ManyPrograms where two could be the same program, and neither lies nearer to the top,
-    unless one of them is `taken`: a person chose it, or its folder.
+    Raises ManyPrograms where two files at the same depth could be the same program, unless a person
+    chose one of them or its folder, as in `taken`.
     """
     left_out: set[PurePosixPath] = set()
     while True:
@@ -132,7 +132,7 @@ def arrange(folder: Path, asked: Collection[str] = (), taken: Collection[str] = 
 
 
 def list_choices(folder: Path, asked: Collection[str] = ()) -> list[list[PurePosixPath]]:
-    """Return the files or folders of which a person must choose one, for each program."""
+    """Return the paths of which a person must choose one, a list for each program."""
     choices: dict[PurePosixPath, list[PurePosixPath]] = {}
     left_out: set[PurePosixPath] = set()
     while True:
@@ -151,9 +151,9 @@ def list_choices(folder: Path, asked: Collection[str] = ()) -> list[list[PurePos
 
 
 def arrange_rest(folder: Path, asked: Collection[str], left_out: set[PurePosixPath]) -> Arranged:
-    """Arrange all but what is `left_out`.
+    """Arrange all files except those `left_out`.
 
-    Of a program that the course does not ask for, either will do: no mark depends on it.
+    Of two programs that the course does not ask for, either will do: no mark depends on it.
     """
     found_paths = (PurePosixPath(p.relative_to(folder).as_posix()) for p in plain_files(folder))
     paths = sorted(path for path in found_paths if not is_covered(path, left_out))
@@ -190,7 +190,7 @@ def arrange_rest(folder: Path, asked: Collection[str], left_out: set[PurePosixPa
 
 
 def find_candidates(paths: list[PurePosixPath]) -> list[Piece]:
-    """Return all that could be a program of the lab; what lies in a package is part of that."""
+    """Return all possible programs of the lab; files inside a package are part of it."""
     found: list[Piece] = []
     taken: set[PurePosixPath] = set()  # where they lie
     folders: dict[PurePosixPath, list[PurePosixPath]] = {}
@@ -213,7 +213,7 @@ def find_candidates(paths: list[PurePosixPath]) -> list[Piece]:
 
 
 def find_renamed(paths: list[PurePosixPath], found: list[Piece]) -> list[Piece]:
-    """Return files under people's own names, for programs that are missing otherwise."""
+    """Return files under other names, for programs that are missing."""
     lacking = sorted(list_modules() - {piece.module for piece in found})
     taken = {piece.path for piece in found}
     pieces = []
@@ -225,9 +225,9 @@ def find_renamed(paths: list[PurePosixPath], found: list[Piece]) -> list[Piece]:
 
 
 def is_renamed(name: str, module: str) -> bool:
-    """Tell whether a name that Python cannot import has the program's in it, as a whole word.
+    """Tell whether a name that Python cannot import contains the program's as a whole word.
 
-    A text file counts too: some systems refuse what ends in `.py`.
+    A text file counts too: some systems refuse names that end in `.py`.
     """
     stem, _, suffix = fold(unquote(name).strip()).rpartition(".")
     stem = stem.removesuffix(".py")
@@ -242,7 +242,7 @@ def is_covered(path: PurePosixPath, taken: set[PurePosixPath]) -> bool:
 
 
 def is_package(folder: PurePosixPath, inside: list[PurePosixPath]) -> bool:
-    """Tell whether a folder of a program's name is that package, not one around all programs."""
+    """Tell a package from a folder of its name around all programs."""
     direct = {path.relative_to(folder).parts[0] for path in inside}
     around = any(match_name(name.removesuffix(".py"), list_modules()) for name in direct)
     return INIT in direct or (not around and any(name.endswith(".py") for name in direct))
@@ -256,7 +256,7 @@ def group_by_module(pieces: list[Piece]) -> list[list[Piece]]:
 def choose_piece(pieces: list[Piece], folder: Path, notes: list[str], matters: bool) -> Piece:
     """Return the candidate nearest to the top.
 
-    Of several there, the one of the right name counts, unless it `matters`: then a person chooses.
+    Of several at that depth, a person must choose if it `matters`; else the right name counts.
     """
     nearest = min(len(piece.path.parts) for piece in pieces)
     first, *others = drop_backups([p for p in pieces if len(p.path.parts) == nearest], notes)
@@ -266,8 +266,8 @@ def choose_piece(pieces: list[Piece], folder: Path, notes: list[str], matters: b
         others = []
     for other in others:
         if first.exact and other.exact and first.path.parent == other.path.parent:
-            continue  # a package beside a file: Python takes the package
-        apart = first.path.parent != other.path.parent  # may well be two people's
+            continue  # Python imports a package before a file
+        apart = first.path.parent != other.path.parent  # possibly of two students
         if apart or not first.is_same(other, folder):
             refuse_two(first.module, [first.path, other.path])
         notes.append(f"{first.path} and {other.path} are the same")
@@ -278,7 +278,7 @@ def choose_piece(pieces: list[Piece], folder: Path, notes: list[str], matters: b
 
 
 def drop_backups(pieces: list[Piece], notes: list[str]) -> list[Piece]:
-    """Leave out a desktop's copy that lies beside its original: that is somebody's backup."""
+    """Leave out copies that a desktop made, if the original lies beside them."""
     backups = [piece for piece in pieces if not piece.exact and is_backup(piece.path.name)]
     if len(backups) == len(pieces):
         return pieces
@@ -293,7 +293,7 @@ def is_backup(name: str) -> bool:
 def refuse_two(
     what: str, paths: list[PurePosixPath], choices: Iterable[PurePosixPath] = ()
 ) -> NoReturn:
-    """Refuse two programs of one name; a person chooses one of them, or of the `choices`."""
+    """Raise ManyPrograms; a person chooses one of the paths, or of the `choices`."""
     at = sorted({path.parent.as_posix() for path in paths})
     places = ", ".join(at if len(at) == len(paths) else sorted(map(str, paths)))
     raise ManyPrograms(
@@ -302,7 +302,7 @@ def refuse_two(
 
 
 def find_loose_package(paths: list[PurePosixPath], folder: Path) -> list[Piece]:
-    """Return the package's files where they lie without their folder, or in one of another name."""
+    """Return the package's files that lie without their folder, or in one of another name."""
     work = {path for path in paths if match_name(path.name, list_package_work())}
     at = sorted({path.parent for path in work}, key=lambda each: (len(each.parts), each))
     at = [each for each in at if len(each.parts) == len(at[0].parts)]
@@ -321,7 +321,7 @@ def find_loose_package(paths: list[PurePosixPath], folder: Path) -> list[Piece]:
 
 
 def list_files(piece: Piece, folder: Path, notes: list[str]) -> list[tuple[str, PurePosixPath]]:
-    """Return a piece's files, those of the lab's package under the lab's names."""
+    """Return a piece's files by the lab's names."""
     if piece.module != PACKAGE or len(piece.files) == 1:
         return list(piece.files)
     files: dict[str, PurePosixPath] = {}
@@ -359,17 +359,17 @@ def is_program(name: str) -> bool:
 
 
 def rank_file(path: PurePosixPath) -> tuple[bool, bool, int, PurePosixPath]:
-    """Return a file's rank while there is room: what may be the lab's comes first."""
+    """Return a file's rank for limited space: the lab's files come first."""
     of_lab = any(map(is_program, path.parts))
     packed = path.suffix.lower() in ARCHIVES
     return not of_lab and not packed, path.suffix != ".py", len(path.parts), path
 
 
-# ---------------------------------------------------------------- saying that there is nothing
+# ---------------------------------------------------------------- files that are no program
 
 
 def refuse_empty(folder: Path, asked: Iterable[str], notes: Iterable[str]) -> NoReturn:
-    """Refuse a submission with nothing of the lab; say what it holds instead."""
+    """Raise CannotTake for a submission without a file of the lab; name its files."""
     names = sorted(path.relative_to(folder).as_posix() for path in plain_files(folder))
     more = f" and {len(names) - MENTIONED} more" if len(names) > MENTIONED else ""
     held = f"it holds {', '.join(names[:MENTIONED])}{more}"
@@ -381,7 +381,7 @@ def refuse_empty(folder: Path, asked: Iterable[str], notes: Iterable[str]) -> No
 
 
 def name_type(content: bytes) -> str:
-    """Name what a file is that is no Python; return nothing where it may be a program."""
+    """Name the type of a file that is no Python; return nothing for a possible program."""
     if not content.strip():
         return "empty"
     head = content.lstrip(b"\xef\xbb\xbf \t\r\n")[:64].lower()

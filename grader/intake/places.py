@@ -1,4 +1,4 @@
-"""Find where in a folder the work lies, apart from what desktops leave there."""
+"""Find the work in a folder, without files that desktops leave there."""
 
 from pathlib import Path, PurePath
 
@@ -8,12 +8,18 @@ from grader.judge.submission import IGNORED
 
 DEEPEST = 3  # folders around a program, and archives inside archives
 SYSTEM_FILES = {"thumbs.db", "desktop.ini", "__macosx", "icon\r"}  # and all that is hidden
-SIGNS = (b"7z\xbc\xaf", b"Rar!", b"\x1f\x8b", b"BZh", b"\xfd7zXZ")  # of what is no zip
+SIGNS = (
+    b"7z\xbc\xaf",
+    b"Rar!",
+    b"\x1f\x8b",
+    b"BZh",
+    b"\xfd7zXZ",
+)  # the first bytes of archives that are no zip
 ARCHIVES = (".zip", ".7z", ".rar", ".tar", ".tgz", ".tbz2", ".txz", ".gz", ".bz2", ".xz")
 
 
 def list_folder(folder: Path) -> list[Path]:
-    """Return what lies in a folder, in a fixed order, without what desktops leave behind."""
+    """Return the sorted contents of a folder, without files that desktops leave there."""
     return sorted(path for path in folder.iterdir() if not is_system_file(path.name))
 
 
@@ -38,14 +44,14 @@ def is_packed(name: PurePath, head: bytes) -> bool:
 
 
 def cut_suffix(path: Path) -> str:
-    """Return a file's name without its suffix, of which `work.tar.gz` has two."""
+    """Return a file's name without its suffix, or both of `work.tar.gz`."""
     packed = path.suffix.lower() in ARCHIVES
     stem = path.stem if packed else path.name
     return stem[:-4] if packed and stem.lower().endswith(".tar") else stem
 
 
 def enter_single_folders(folder: Path) -> Path:
-    """Enter each folder that holds nothing but one other, and return the innermost."""
+    """Return the innermost of folders that hold only one other folder."""
     for _ in range(DEEPEST):
         inside = list_folder(folder)
         if len(inside) != 1 or inside[0].name in {"notebooks", *IGNORED}:

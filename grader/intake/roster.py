@@ -1,4 +1,4 @@
-"""Class lists: their rows, and which student is meant by what a learning system says."""
+"""Describe class lists, and find the student whom a learning system means."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -28,7 +28,7 @@ LAST = ("Last name", "Last Name", "LastName", "Surname")
 FIRST = ("First name", "First Name", "FirstName")
 GROUPS = ("Group", "Groups", "Group name", "Group Name")
 SUBMITTED = "Last modified (submission)"  # in Moodle's worksheet, the school's own time
-CALLED = "Called"  # a teacher's column: what an export calls somebody whom it does not identify
+CALLED = "Called"  # a teacher's column: a student's name in an export without identifiers
 
 
 @dataclass
@@ -49,11 +49,11 @@ class Roster:
         if wanted and wanted not in self.columns:
             columns = ", ".join(self.columns)
             raise Stop(f"{self.path} has no column {wanted!r}; it has {columns}")
-        for enough in (all, any):  # one that everybody has, before one that some have
+        for enough in (all, any):  # first a column that all students have
             for name in [wanted] if wanted else KEYS:
                 if name in self.columns and enough(row[name].strip() for row in self.rows):
                     return name
-        for name in [] if wanted else self.columns:  # in a language that is not known here
+        for name in [] if wanted else self.columns:  # in an unknown language
             addresses = {row[name].strip() for row in self.rows}
             if len(addresses) == len(self.rows) and all("@" in each for each in addresses):
                 return name
@@ -65,7 +65,7 @@ class Roster:
 
     @property
     def group_column(self) -> str:
-        """The column that names groups; empty where there is none."""
+        """Return the column of groups; empty where there is none."""
         return next((name for name in GROUPS if name in self.columns), "")
 
     def list_groups(self) -> dict[str, list[Row]]:
@@ -112,7 +112,7 @@ def list_name(row: Row) -> str:
 
 
 def read_number(row: Row) -> str:
-    """Return the number of Moodle's Identifier, which has a word before it in any language."""
+    """Return the number in Moodle's Identifier, which begins with a word."""
     match = re.search(r"\d+$", row.get("Identifier", "").strip())
     return match[0] if match else ""
 
@@ -122,7 +122,7 @@ def pick_title(row: Row, titles: tuple[str, ...], otherwise: str) -> str:
 
 
 class ClassList:
-    """The students of a class, by all that a system may call them; empty without a roster."""
+    """The students of a class, by all their names and identifiers; empty without a roster."""
 
     def __init__(self, roster: Roster | None = None, key: str = "") -> None:
         self.names: list[str] = []
@@ -158,7 +158,7 @@ class ClassList:
                 self._students.setdefault((column, spelled), set()).add(name)
 
     def find(self, columns: Iterable[str], *labels: object) -> str | None:
-        """Return the one student whom one of the labels means."""
+        """Return the only student whom one of the labels means; None for none or several."""
         for spell in (fold, strip_zeros):
             for column in columns:
                 for label in filter(None, labels):
@@ -168,7 +168,7 @@ class ClassList:
         return None
 
     def list_called(self, label: str) -> list[str]:
-        """Return all students whom any column that names people calls so, in the list's order."""
+        """Return all students with this name or identifier, in the list's order."""
         columns = [*KEYS, "ID", CALLED, "Student", "Full name", "name"]
         spellings = {fold(label), strip_zeros(label)}
         keys = [(column, spelled) for column in columns for spelled in spellings]
@@ -176,31 +176,34 @@ class ClassList:
         return [name for name in self.names if name in found]
 
     def find_anywhere(self, label: str) -> str | None:
-        """Return the student whom any column calls so."""
+        """Return the student with this name or identifier."""
         return self.find([*KEYS, "ID", CALLED, "name"], label)
 
     def find_in_group(self, group: str) -> str:
-        """Return the first student of a group; the others get the work from there."""
+        """Return the first student of a group, from whom the others get the work."""
         groups = self.groups.items()
         return next((names[0] for name, names in groups if names and fold(name) == fold(group)), "")
 
     def has_column(self, column: str) -> bool:
-        """Tell whether the list has such identifiers: then no name need be guessed from."""
+        """Tell whether the list has such identifiers, so that names need not identify anybody."""
         return column in self._columns
 
     def list_absent(self, handed_in: Iterable[str]) -> list[str]:
-        """Return those who handed in nothing, given the names of the others."""
+        """Return the students who are not among `handed_in`."""
         here = {fold(name) for name in handed_in}
         return [name for name in self.names if not here & set(split_login(name))]
 
     def list_unlisted(self, handed_in: Iterable[str]) -> list[str]:
-        """Return those who handed in and are not in the class list."""
+        """Return the names in `handed_in` that are not in the class list."""
         listed = {each for name in self.names for each in split_login(name)}
         return [name for name in handed_in if self.names and fold(name) not in listed]
 
 
 def find_student(who: str, names: list[str], people: ClassList) -> str:
-    """Return the name in the class of whom a decision names; as written, of nobody there."""
+    """Return a student's name in the class, or `who` as written if unknown.
+
+    Raises Stop for a name that two students have.
+    """
     meant = [name for name in names if is_same_student(who, name)]
     listed = [each for name in people.list_called(who) for each in (name, make_portable(name))]
     meant += [name for name in names if any(is_same_student(each, name) for each in listed)]
@@ -213,5 +216,5 @@ def find_student(who: str, names: list[str], people: ClassList) -> str:
 
 
 def is_same_student(who: str, name: str) -> bool:
-    """Tell whether a name in the file is this student's: the same, or half of an address."""
+    """Tell whether two names are the same, or one is the first half of the other's address."""
     return fold(who) in split_login(name) or fold(name) in split_login(who)

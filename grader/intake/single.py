@@ -1,4 +1,4 @@
-"""Grade one submission in any form, as one of a class: what other programs call."""
+"""Grade one submission in any form; the function that other programs call."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -18,12 +18,12 @@ def grade(
 ) -> Result:
     """Grade the submission at `path`: a folder, an archive or a Python file.
 
-    A full grade takes seconds; the same submission and options always give the same marks. What
-    cannot be imported or does not end is graded, with the reason. Raises CannotGrade, with a
-    sentence that says what to do, where a person must look or the options cannot be kept.
+    A full grade takes seconds; the same submission and options always give the same marks. It also
+    grades a program that cannot be imported or does not end, with the reason. Raises CannotGrade,
+    with a sentence that says what to do, where a person must look or an option cannot be met.
 
-    `say` gets notes on the files, such as a name that was mended. A `worker` that is handed in,
-    from `start_worker`, serves more than one grade and stays open.
+    `say` gets notes on the files, such as a changed name. A `worker` from `start_worker` serves
+    several grades and stays open.
     """
     with open_submission(Path(path), say, options.course.modules) as folder:
         return judge.grade(folder, options, worker)

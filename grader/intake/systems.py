@@ -15,13 +15,13 @@ from grader.intake.lms import Lms
 from grader.intake.moodle import Moodle
 from grader.intake.roster import KEYS, ClassList, Roster
 
-# The first that knows a name or a gradebook decides.
+# The first that recognises a name or a gradebook decides.
 SYSTEMS = (Brightspace(), Blackboard(), Moodle(), Canvas(), Gradescope())
 BY_NAME: dict[str, Lms] = {each.name: each for each in SYSTEMS}
 ANY_OTHER = Lms()
 
 WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # .xlsx and .ods, .xls: how they begin
-MANGLED = re.compile(r"\d([.,]\d+)?E\+\d+")  # what a spreadsheet makes of a long number
+MANGLED = re.compile(r"\d([.,]\d+)?E\+\d+")  # a long number in a spreadsheet
 
 
 def find_system(roster: Roster) -> Lms:
@@ -75,9 +75,9 @@ def read_table(path: Path) -> Roster:
 
 
 def decode(content: bytes, path: Path) -> tuple[str, str, str]:
-    """Return a table's text, the encoding to write it in again, and what to look at by hand."""
+    """Return a table's text, the encoding to write it in, and a doubt for a person."""
     if content.startswith((b"\xff\xfe", b"\xfe\xff")):
-        return content.decode("utf-16", "replace"), "utf-16", ""  # Blackboard's .xls is such a one
+        return content.decode("utf-16", "replace"), "utf-16", ""  # as Blackboard's .xls
     with suppress(UnicodeDecodeError):
         return content.decode("utf-8"), "utf-8", ""
     text = content.decode("cp1252", "replace")
@@ -87,7 +87,7 @@ def decode(content: bytes, path: Path) -> tuple[str, str, str]:
 
 
 def read_class_list(folder: Path, roster: Path | None) -> ClassList:
-    """Return the list of the class in a folder: `roster`, or its roster.csv; empty without one."""
+    """Return the class list of a folder: `roster`, or its roster.csv; empty without one."""
     roster = roster or find_file(folder, "roster.csv")
     return ClassList(read_roster(roster) if roster else None)
 

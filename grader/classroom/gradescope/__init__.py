@@ -1,6 +1,6 @@
 """Make the zip with which Gradescope grades.
 
-The zip holds the whole grader and the reference. It is the instructor's: students never see it.
+It holds the whole grader and the reference. Only the instructor sees it.
 """
 
 import subprocess
@@ -25,9 +25,9 @@ MACHINES = ("manylinux_2_28_x86_64", "manylinux_2_17_x86_64", "manylinux2014_x86
 
 
 def write_autograder(path: Path, settings: Settings, wheels: str = "") -> None:
-    """Write the zip; with all packages in it for one Python, if `wheels` names its version.
+    """Write the zip, with all packages for the Python of version `wheels`, if given.
 
-    Then nothing but this Python itself is ever installed over the network.
+    Then Gradescope installs nothing over the network except that Python.
     """
     with tempfile.TemporaryDirectory() as temporary:
         work = Path(temporary)

@@ -1,7 +1,7 @@
-"""Grade one submission where Gradescope has laid it, and write the results it looks for.
+"""Grade one submission in Gradescope's container, and write its results.
 
-Whatever happens, the results are valid. Where nothing could be graded they have no score, not one
-of 0, and say why. What is printed is for the instructor alone.
+The results are always valid. Where nothing could be graded they have no score, not even 0, and say
+why. Only the instructor sees the printed lines.
 """
 
 import sys
@@ -63,7 +63,7 @@ def main(top: Path) -> int:
 
 
 def grade_submission(submission: Path) -> bytes:
-    """Take a submission in as one of a class, with folders around it, and grade it."""
+    """Read a submission like one of a class, and grade it."""
     settings = msgspec.json.decode((KIT / "settings.json").read_bytes(), type=Settings)
     reference, course = shipped_reference(), settings.course
     options = Options(reference, settings.isolation, seed=settings.seed, course=course)

@@ -1,4 +1,4 @@
-"""Write the engine's marks into the gradebook, and read what everybody has in every notebook."""
+"""Write the engine's marks into the gradebook, and read all points of all notebooks."""
 
 import warnings
 from collections.abc import Iterable, Iterator
@@ -30,7 +30,7 @@ class Filled:
 
 
 def read_results(paths: Iterable[Path]) -> Iterator[tuple[str, Result | str]]:
-    """Return the results in files or folders, by their students; a sentence for what is none."""
+    """Yield the results in files or folders, by their students; a sentence for an invalid one."""
     for path in paths:
         for file in sorted(path.glob("*.json")) if path.is_dir() else [path]:
             try:
@@ -100,7 +100,7 @@ def write_marks(book: Any, cells: list[Any], student: str, result: Result) -> Fi
 
 
 def add_empty_submission(book: Any, student: str) -> None:
-    """Add a submission without notebooks, which nbgrader skips: nothing waits to be graded."""
+    """Add a submission without notebooks, which nbgrader does not grade."""
     for notebook in book.add_submission(ASSIGNMENT, student).notebooks:
         for grade in notebook.grades:
             grade.auto_score, grade.needs_manual_grade = 0, False
@@ -135,7 +135,7 @@ def await_result(book: Any, cells: list[Any], student: str) -> bool:
 
 
 def write_comment(todo: TodoResult) -> str:
-    """Return the comment that feedback shows: indented, so that nothing in it is markup."""
+    """Return the comment for feedback, indented so that nothing in it is markup."""
     lines = [f"{todo.state}: {todo.points} / {todo.max_points}"]
     for check in todo.checks:
         if check.state != "passed":
@@ -148,7 +148,7 @@ def write_comment(todo: TodoResult) -> str:
 
 
 def read_parts(course: Path, marking: Marking) -> dict[str, Parts]:
-    """Return what everybody has in every notebook, late penalties taken off."""
+    """Return the points of all students in all notebooks, less late penalties."""
     api = load_nbgrader()
     found: dict[str, Parts] = {}
     with open_gradebook(course, api) as book:
@@ -172,7 +172,7 @@ def read_parts(course: Path, marking: Marking) -> dict[str, Parts]:
 
 
 def write_names(course: Path, roster: Roster, key: str) -> None:
-    """Give the students in the gradebook the names of a class list; those not in it are added."""
+    """Give students in the gradebook the names of a class list, and add missing students."""
     with open_gradebook(course, load_nbgrader()) as book:
         ids = {fold(student.id): student.id for student in book.students}
         for person in list_people(roster, key):

@@ -30,7 +30,7 @@ NAME = re.compile(r"[^\s*?\[\]/\\.][^*?\[\]/\\]*")  # nbgrader looks students up
 
 @dataclass(frozen=True)
 class Taken:
-    """A student's folder, and what became of it."""
+    """A student's folder, and what was taken of it."""
 
     student: str
     words: str
