@@ -62,8 +62,14 @@ class ScriptedClock:
 
     def install(self) -> None:
         """Replace every function and class that reads time, waits or shows the picture."""
+        for module, names in self.replacements().items():
+            for name, replacement in names.items():
+                setattr(module, name, replacement)
+
+    def replacements(self) -> dict[Any, dict[str, Any]]:
+        """Return what to put in place of the real functions and classes, by module and name."""
         clock = type("Clock", (FrameClock,), {"script": self})
-        replacements: dict[Any, dict[str, Any]] = {
+        found: dict[Any, dict[str, Any]] = {
             pygame: {"Clock": clock},
             pygame.time: {
                 "Clock": clock,
@@ -81,11 +87,9 @@ class ScriptedClock:
             time: {"sleep": lambda seconds: self.sleep(seconds * 1000)},
         }
         for name in ("time", "monotonic", "perf_counter", "process_time"):
-            replacements[time][name] = lambda: self.read() / 1000
-            replacements[time][name + "_ns"] = lambda: int(self.read() * 1_000_000)
-        for module, names in replacements.items():
-            for name, replacement in names.items():
-                setattr(module, name, replacement)
+            found[time][name] = lambda: self.read() / 1000
+            found[time][name + "_ns"] = lambda: int(self.read() * 1_000_000)
+        return found
 
     # ------------------------------------------------------------ time
 

@@ -22,7 +22,6 @@ from types import ModuleType
 from typing import Any, NoReturn
 
 import msgspec
-import pygame
 import pymunk
 
 from grader.protocol import (
@@ -37,6 +36,7 @@ from grader.protocol import (
 from grader.worker import child
 from grader.worker.copies import compile_all, copy_submission
 from grader.worker.imports import ALLOWED, LIBRARIES
+from grader.worker.scripted import ScriptedClock
 from grader.worker.session import Session
 
 # Gets the seconds that a request may take when it begins, and None when it ends. It raises
@@ -49,19 +49,14 @@ MISSING = object()
 now = time.process_time  # the real one: a child replaces it
 step: Any = pymunk.Space.step
 
-OWN = [  # the attributes that each child has for itself, by owner
+OWN: list[
+    tuple[Any, tuple[str, ...]]
+] = [  # what each child has for itself
     (sys, ("path", "argv", "meta_path", "stdout", "stderr", "dont_write_bytecode")),
     (tempfile, ("tempdir",)),
     (os, ("_exit", "abort")),
     (random.Random, ("seed",)),
-    (pygame, ("Clock",)),
-    (pygame.time, ("Clock", "get_ticks", "wait", "delay")),
-    (pygame.key, ("get_pressed",)),
-    (pygame.display, ("flip", "update")),
-    (pygame.event, ("wait",)),
-    (datetime, ("datetime",)),
-    (time, ("sleep", "time", "monotonic", "perf_counter", "process_time")),
-    (time, ("time_ns", "monotonic_ns", "perf_counter_ns", "process_time_ns")),
+    *((owner, tuple(names)) for owner, names in ScriptedClock().replacements().items()),
     (pymunk.Space, ("__init__",)),  # a replay watches it
     (step, ("__code__", "__defaults__", "__kwdefaults__")),  # replaced to count steps
 ]
