@@ -1,4 +1,4 @@
-"""Write text for people: a submission's words made safe, tables, numbers, lists and times."""
+"""Write text for people: safe words of a submission, tables, numbers, lists and times."""
 
 import csv
 import io
@@ -11,13 +11,13 @@ from datetime import datetime
 MAX_WORDS = 400  # characters of a submission in one line
 
 
-def harmless(words: str) -> str:
+def defuse(words: str) -> str:
     """Return words without control and direction characters, so that they are safe to show."""
     return words.translate(HARMLESS)
 
 
 class Harmless(dict[int, int]):
-    """The letters to show, by number of letter; each is looked up when it first comes."""
+    """The code of the letter to show for each code; it is computed at first use."""
 
     def __missing__(self, number: int) -> int:
         letter = chr(number)
@@ -30,21 +30,21 @@ HARMLESS = Harmless()
 
 def printable(words: str) -> str:
     """Return words without line breaks, control and direction characters."""
-    return harmless(words).replace("\n", " ")
+    return defuse(words).replace("\n", " ")
 
 
 def clean(words: str) -> str:
-    """Return a submission's words on one line, with nothing that a terminal would obey."""
+    """Return a submission's words on one line, without control characters."""
     return printable(words)[:MAX_WORDS]
 
 
 def plural(number: int, noun: str) -> str:
-    """`1 point`, `2 points`."""
+    """Return a number with its noun: `1 point`, `2 points`."""
     return f"{number} {noun}" + "s" * (number != 1)
 
 
-def moment(when: datetime | None) -> str:
-    """`4 May 2027 23:59 (UTC+02:00)`; empty for none."""
+def format_time(when: datetime | None) -> str:
+    """Return `4 May 2027 23:59 (UTC+02:00)`; empty for None."""
     return f"{when.day} {when:%B %Y %H:%M} ({when.tzname()})" if when else ""
 
 
@@ -55,33 +55,31 @@ NUMBERS = (
 )
 
 
-def number(count: int) -> str:
+def spell_number(count: int) -> str:
     """Return a small number as a word: `three`."""
     return NUMBERS[count] if count < len(NUMBERS) else str(count)
 
 
-def listed(words: list[str]) -> str:
-    """`a, b and c`."""
+def join_words(words: list[str]) -> str:
+    """Join words: `a, b and c`."""
     return " and ".join(filter(None, [", ".join(words[:-1]), words[-1]]))
 
 
 def digits(value: float) -> str:
-    """Return six digits, without the noise that rounding leaves around 0."""
+    """Return a number with six digits, and 0 for rounding noise around 0."""
     return f"{round(value, 9) + 0.0:.6g}" if math.isfinite(value) else str(value)
 
 
-def about(value: float) -> str:
-    """Return three digits, or all before the point."""
+def format_rough(value: float) -> str:
+    """Return a number with three digits, or all before the point."""
     return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
 
 
 # ---------------------------------------------------------------- tables for spreadsheets
 
-FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")  # how a cell begins that a spreadsheet would run
-
-
-# The same signs inside a cell: spreadsheets part a line where their language or a setting says so.
-# Wide, small, raised and lowered ones count too.
+FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")  # the beginning of a cell that a spreadsheet runs
+# The same signs inside a cell, also wide, small, raised and lowered ones. A spreadsheet's language
+# and settings decide which separators split a line.
 SIGNS = (
     "=+@\uff1d\uff0b\uff0d\uff20\ufe66\ufe62\ufe63\ufe6b\u207c\u207a\u208c\u208a\ufb29\u2a75\u2a76-"
 )
@@ -89,27 +87,27 @@ SEPARATORS = ";|\t\r\n"
 
 
 def escape_formula(cell: str) -> str:
-    """Put an apostrophe before a cell that a spreadsheet would take for a formula."""
+    """Put an apostrophe before a cell that a spreadsheet would run as a formula."""
     plain = unicodedata.normalize("NFKC", cell).lstrip(" ")
     return f"'{cell}" if plain.startswith(FORMULA) and not is_dash(cell) else cell
 
 
 def is_plain_row(cells: list[object]) -> bool:
-    """Return whether a row begins with a word, and on one line: a dash in it begins nothing."""
+    """Return whether a row begins with a word and has one line: then a dash begins no formula."""
     words = [str(cell) for cell in cells]
     return words[0][:1].isalnum() and not any(sign in word for word in words for sign in '"\r\n')
 
 
 def is_dash(cell: object) -> bool:
-    """Return whether a cell is a dash alone, which stands for nothing."""
+    """Return whether a cell is only a dash, which means nothing."""
     return isinstance(cell, str) and unicodedata.normalize("NFKC", cell).lstrip(" ") == "-"
 
 
 def escape_inside(cell: str, separators: str = SEPARATORS) -> str:
-    """Put an apostrophe before each formula that begins after one of these separators."""
+    """Put an apostrophe before each formula after one of these separators."""
     between = rf"[\s\"{separators}]"
     return re.sub(
-        rf"(?<!{between}){between}++(?=[{SIGNS}])",  # each run is looked at once
+        rf"(?<!{between}){between}++(?=[{SIGNS}])",  # reads each run once
         lambda found: found[0] + "'" * any(each in separators for each in found[0]),
         cell,
     )
@@ -121,9 +119,9 @@ def format_csv(
     line_end: str = "\r\n",
     escape: Callable[[str], str] = escape_formula,
 ) -> str:
-    """Return the rows of a table as CSV, each text in it escaped.
+    """Return the rows of a table as CSV, each text escaped.
 
-    No cell begins like a formula, whatever the table is taken apart at.
+    No cell begins like a formula, whatever separator a spreadsheet uses.
     """
     separators = SEPARATORS + "," * (delimiter != ",")  # the writer quotes what has a delimiter
     out = io.StringIO(newline="")

@@ -33,7 +33,7 @@ from grader.intake.pieces import name_type, rank_file
 from grader.intake.roster import ClassList, is_same_student
 from grader.player.page import clean_line, fill_template
 from grader.report.html import Remark
-from grader.text import harmless, plural
+from grader.text import defuse, plural
 
 TEMPLATES = Path(__file__).with_name("templates")
 MOST_FILES, MOST_LINES = 60, 20_000  # on a page
@@ -249,7 +249,10 @@ def decide_owner(review: Review, name: str, form: Form) -> None:
 
 def decide_comment(review: Review, name: str, form: Form) -> None:
     """Write a comment, on a line if the form names one."""
-    words, file = harmless(form.get("comment", "").replace("\r", "")).strip(), form.get("file", "")
+    words, file = (
+        defuse(form.get("comment", "").replace("\r", "")).strip(),
+        form.get("file", ""),
+    )
     if not words:
         raise Stop("the comment is empty: write one")
     comment = Comment(name, words)
@@ -293,7 +296,7 @@ def read_number(form: Form, name: str) -> int:
 
 
 def read_reason(form: Form) -> str:
-    words = " ".join(harmless(form.get("reason", "")).split())
+    words = " ".join(defuse(form.get("reason", "")).split())
     if not words:
         raise Stop("the reason is missing: the student reads it")
     return words
@@ -391,5 +394,5 @@ def show_file(name: str, content: bytes, remarks: list[Remark], most: int) -> Fi
 
 
 def fill(template: str, **values: object) -> str:
-    values |= {"clean": clean_line, "harmless": harmless, "quote": quote, "forms": True}
+    values |= {"clean": clean_line, "harmless": defuse, "quote": quote, "forms": True}
     return fill_template(TEMPLATES / template, "review.css", has_replays=False, **values)

@@ -29,7 +29,7 @@ from grader.cli.shared import (
 from grader.errors import Stop
 from grader.judge.course import WrongCourse, read_course
 from grader.judge.grade import KIT, Options, shipped_reference
-from grader.text import clean, listed
+from grader.text import clean, join_words
 
 if TYPE_CHECKING:
     from grader.classroom.dashboard import Entry
@@ -157,10 +157,10 @@ def roster_command(roster: Gradebook, course: CourseFolder = Path("."), key: Key
     from grader.classroom.nbgrader.gradebook import write_names
     from grader.intake.systems import read_roster
 
-    listed = read_roster(roster)
-    column = listed.choose_key(key)
-    write_names(course, listed, column)
-    console.print(f"{len(listed.rows)} students are in the gradebook, by {column}")
+    names = read_roster(roster)
+    column = names.choose_key(key)
+    write_names(course, names, column)
+    console.print(f"{len(names.rows)} students are in the gradebook, by {column}")
 
 
 @app.command("gradescope")
@@ -247,6 +247,6 @@ def require_same_class(
     known = {entry.outcome.name for entry in entries}
     if others := sorted(name for name in names if name not in known):
         raise Stop(
-            f"{results} has no result of {listed(others)} in {submissions}: name the class as it "
-            "was graded, or grade it again"
+            f"{results} has no result of {join_words(others)} in {submissions}: name the class as "
+            "it was graded, or grade it again"
         )

@@ -17,7 +17,7 @@ from grader.judge.submission import MAX_BYTES, MAX_FILES, plain_files
 from grader.report.files import put_in, write_whole
 from grader.source.flaws import find_flaw
 from grader.source.regions import read_source
-from grader.text import listed, moment, plural
+from grader.text import format_time, join_words, plural
 
 PACKED = "hand-in.zip"
 PROGRAMS = ("mini_engine", "pymunk_scene", "integrators")  # those without a TODO are given, too
@@ -81,7 +81,7 @@ def list_warnings(tree: Path, names: Sequence[str]) -> Iterator[str]:
             yield f"{name}, line {flaw.line}: Python cannot read this ({flaw.message})."
     empty = [name for name in names if name.endswith(".ipynb") and has_no_answer(tree / name)]
     if empty:
-        yield f"No answers yet in {listed(empty)}."
+        yield f"No answers yet in {join_words(empty)}."
 
 
 def has_no_answer(path: Path) -> bool:
@@ -97,7 +97,7 @@ def has_no_answer(path: Path) -> bool:
 def write_receipt(packed: Path) -> str:
     """Return the time and the first digits of the SHA-256 of what was packed."""
     digest = hashlib.sha256(packed.read_bytes()).hexdigest()[:DIGITS]
-    return f"Receipt: {digest}, {moment(datetime.now().astimezone())}"
+    return f"Receipt: {digest}, {format_time(datetime.now().astimezone())}"
 
 
 def find_missing(names: list[str], course: Course) -> list[str]:

@@ -29,7 +29,7 @@ from grader.report.progress import CheckProgress
 from grader.report.screen import Screen
 from grader.report.terminal import say, show_all
 from grader.source.regions import TODO_ID
-from grader.text import clean, moment, plural
+from grader.text import clean, format_time, plural
 
 app = typer.Typer()
 
@@ -113,7 +113,7 @@ def find_tree(path: Path, course: Course) -> Path:
 
 
 def write_due(course: Course) -> str:
-    return f", until {moment(course.due)}" if course.due else ""
+    return f", until {format_time(course.due)}" if course.due else ""
 
 
 @app.command("hand-in")

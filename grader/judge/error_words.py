@@ -18,7 +18,7 @@ from grader.source.definitions import statements
 from grader.source.given import given_pieces, imported_names
 from grader.source.regions import read_regions
 from grader.source.suspects import REBOUND
-from grader.text import listed
+from grader.text import join_words
 
 RAISED = re.compile(r"(?P<error>\w+(?:: .*)?) \(in (?P<file>.+?), line (?P<line>\d+): ", re.DOTALL)
 DEBUGGER = re.compile(r"\bbreakpoint\(|\bset_trace\(")
@@ -265,7 +265,7 @@ def explain_attribute(match: Match, error: Error) -> str:
     if home:
         return f"{name} belongs to a {home}, not to a {kind}."
     fields = [each for each in known if not each.startswith("_")]
-    return f"A {kind} has no {name}. It has {listed(fields)}." if 0 < len(fields) <= FEW else ""
+    return f"A {kind} has no {name}. It has {join_words(fields)}." if 0 < len(fields) <= FEW else ""
 
 
 def explain_not_callable(match: Match, error: Error) -> str:

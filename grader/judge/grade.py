@@ -30,7 +30,7 @@ from grader.judge.workplace import work_folder
 from grader.protocol import cut
 from grader.source.given import GivenChange
 from grader.source.regions import python_files, shape_of
-from grader.text import harmless
+from grader.text import defuse
 
 if TYPE_CHECKING:
     from grader.judge.loop import CheckLoop
@@ -218,7 +218,7 @@ class Grading:
         unfinished = {id for id, some in checks.items() if state_of(some) != "passed"}
         nothing = Result(
             schema=1,
-            submission=cut(harmless(self.submission.name), MAX_FILE),
+            submission=cut(defuse(self.submission.name), MAX_FILE),
             points=0,
             max_points=0,
             bonus=0,

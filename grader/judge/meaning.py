@@ -18,7 +18,7 @@ from grader.judge.result import CheckResult, Where
 from grader.judge.rubric import Todo
 from grader.judge.submission import load_given
 from grader.source.suspects import Suspect
-from grader.text import listed
+from grader.text import join_words
 
 OUTSIDE = "No TODO is to blame for this: look at the code around them."
 MISSING = "There is no {program} here, in a file or a folder: hand it in with the others."
@@ -220,7 +220,9 @@ def name_mistake(failure: Failure) -> str:
 def name_earlier_todos(failure: Failure) -> str:
     """Name the TODOs in which the program fails before it reaches this one."""
     ids = failure.earlier
-    return FINISH.format(ids=listed([*ids]), it="it" if len(ids) == 1 else "them") if ids else ""
+    return (
+        FINISH.format(ids=join_words([*ids]), it="it" if len(ids) == 1 else "them") if ids else ""
+    )
 
 
 def name_trespass(failure: Failure) -> str:

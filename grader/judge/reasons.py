@@ -34,7 +34,7 @@ from grader.source.suspects import (
     find_leftover,
     find_suspects,
 )
-from grader.text import listed
+from grader.text import join_words
 
 if TYPE_CHECKING:
     from grader.judge.grade import Grading
@@ -241,5 +241,5 @@ class Reasons:
 def wait_for(todos: list[str], check: CheckResult) -> CheckResult:
     """Return a failed check without the words that are about other TODOs, which come first."""
     are = "is" if len(todos) == 1 else "are"
-    got = f"your program fails before that: TODO {listed(todos)} {are} not right yet"
+    got = f"your program fails before that: TODO {join_words(todos)} {are} not right yet"
     return structs.replace(check, expected="", got=got, meaning="")

@@ -6,7 +6,7 @@ import msgspec
 from msgspec import UNSET, Struct, UnsetType, structs
 
 from grader.protocol import cut
-from grader.text import harmless
+from grader.text import defuse
 
 State = Literal["passed", "not yet", "not started", "waiting", "error"]
 Kind = Literal["unit", "property", "scene"]
@@ -50,7 +50,7 @@ class CheckResult(Struct, frozen=True):
 def in_bounds(check: CheckResult, most: int = TEXT_LENGTHS[0]) -> CheckResult:
     """Return a check with short texts and no control characters: some quote a submission."""
     names = [*TEXTS, "printed"] if check.printed else TEXTS
-    texts = {name: harmless(cut(getattr(check, name), most)) for name in names}
+    texts = {name: defuse(cut(getattr(check, name), most)) for name in names}
     where = check.where if check.where and len(check.where.file) <= MAX_FILE else None
     return structs.replace(check, where=where, **texts)
 

@@ -9,7 +9,7 @@ from msgspec import structs
 from grader.judge.course import Course
 from grader.judge.result import CheckResult, Result, State, TodoResult
 from grader.judge.rubric import load_rubric
-from grader.text import clean, moment, plural
+from grader.text import clean, format_time, plural
 
 MEANINGS: dict[State, str] = {
     "not yet": "a check got another answer than the right one",
@@ -112,7 +112,7 @@ def withhold_reasons(result: Result, course: Course, now: datetime | None = None
     when = course.visible
     if when is None or (now or datetime.now(when.tzinfo)) >= when:
         return result
-    later = f"shown from {moment(when)} on"
+    later = f"shown from {format_time(when)} on"
     hidden = {(todo.id, c.id) for todo in course.rubric.todos for c in todo.checks if c.hidden}
     todos = [
         structs.replace(

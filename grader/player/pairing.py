@@ -16,7 +16,7 @@ from grader.player.runs import (
     numbers_of,
 )
 from grader.protocol import BodyLook, BodyRow, Moment
-from grader.text import about
+from grader.text import format_rough
 
 VISIBLE = 0.5  # px or px/s
 A_SHARE = 0.01  # of the highest speed, where that is less, and of a mass
@@ -200,13 +200,13 @@ def compare_bodies(row: BodyRow, right: BodyRow, radius: float, tolerance: Toler
     turned, spin = abs(row.angle - right.angle), abs(row.omega - right.omega)
     faster = math.dist((row.vx, row.vy), (right.vx, right.vy))
     if away > tolerance.distance:
-        return f"is {about(away)} px off"
+        return f"is {format_rough(away)} px off"
     if turned * radius > tolerance.distance:
-        return f"is turned by {about(turned)} rad too much or too little"
+        return f"is turned by {format_rough(turned)} rad too much or too little"
     if faster > tolerance.speed:
-        return f"has a velocity that is {about(faster)} px/s off"
+        return f"has a velocity that is {format_rough(faster)} px/s off"
     if spin * radius > tolerance.speed:
-        return f"has a spin that is {about(spin)} rad/s off"
+        return f"has a spin that is {format_rough(spin)} rad/s off"
     return ""
 
 

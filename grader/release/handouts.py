@@ -17,7 +17,7 @@ from grader.judge.course import Course
 from grader.judge.rubric import Todo, load_rubric
 from grader.report.screen import Tasks
 from grader.source.regions import TODO_ID
-from grader.text import listed, moment, number
+from grader.text import format_time, join_words, spell_number
 
 EXAMPLE, BONUS_EXAMPLE = "4", "B1"  # the TODOs that commands are shown with
 SHEETS = ("lab-sheet.md", "bonus.md")  # the pages with a section for each TODO
@@ -125,16 +125,16 @@ def list_words(course: Course) -> dict[str, Any]:
         "asked": lambda *names: any(name in todos for name in names),
         "every": course.rubric == load_rubric(),
         "title": course.title,
-        "due": moment(course.due),
-        "tasks": number(len(tasks)),
-        "bonus_tasks": number(len(bonus)),
+        "due": format_time(course.due),
+        "tasks": spell_number(len(tasks)),
+        "bonus_tasks": spell_number(len(bonus)),
         "bonus_points": sum(todo.max_points for todo in bonus),
         "points": {id: todo.max_points for id, todo in todos.items()},
         "span": f"TODO {ids[0]} to {ids[-1]}" if len(ids) > 1 else f"TODO {ids[0]}",
         "programs": "\n".join(
             ["```", *(f"python {name_command(each)}" for each in course.modules), "```"]
         ),
-        "hand_in": listed([f"`{name_program(each)}`" for each in course.modules]),
+        "hand_in": join_words([f"`{name_program(each)}`" for each in course.modules]),
     }
 
 

@@ -49,9 +49,7 @@ MISSING = object()
 now = time.process_time  # the real one: a child replaces it
 step: Any = pymunk.Space.step
 
-OWN: list[
-    tuple[Any, tuple[str, ...]]
-] = [  # what each child has for itself
+OWN: list[tuple[Any, tuple[str, ...]]] = [  # what each child has for itself
     (sys, ("path", "argv", "meta_path", "stdout", "stderr", "dont_write_bytecode")),
     (tempfile, ("tempdir",)),
     (os, ("_exit", "abort")),

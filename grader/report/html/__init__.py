@@ -9,7 +9,7 @@ from grader.judge.result import Result, TodoResult
 from grader.judge.wording import list_reasons
 from grader.player.page import clean_line, fill_template
 from grader.report.files import write_whole
-from grader.text import harmless
+from grader.text import defuse
 
 TEMPLATES = Path(__file__).with_name("templates")
 MAX_EMBEDDED = 8_000_000  # characters of replays in one page; further ones become links
@@ -53,7 +53,7 @@ def write_standing(standing: Standing, path: Path) -> None:
     """Write the page of a student without a result."""
     template = TEMPLATES / "standing.html"
     page = fill_template(
-        template, "report.css", standing=standing, clean=clean_line, harmless=harmless
+        template, "report.css", standing=standing, clean=clean_line, harmless=defuse
     )
     write_whole(page.encode("utf-8"), path)
 
@@ -70,7 +70,7 @@ def render(result: Result, replays: Mapping[str, str], standing: Standing | None
         standing=standing,
         unconfined=list_unconfined(result.isolation),
         clean=clean_line,
-        harmless=harmless,
+        harmless=defuse,
         reasons=list_reasons,
     )
 
