@@ -5,16 +5,7 @@ from dataclasses import dataclass
 from typing import NoReturn
 
 from grader.judge.failures import Broke, NotYet
-from grader.protocol import (
-    BodyValue,
-    ContactValue,
-    Items,
-    Ref,
-    SpaceBody,
-    SpaceValue,
-    Value,
-    Vec,
-)
+from grader.protocol import BodyValue, ContactValue, Items, Ref, SpaceBody, SpaceValue, Value, Vec
 
 Pair = tuple[float, float]
 SHOWN = 4  # items of a list or tuple that are listed one by one

@@ -22,14 +22,7 @@ from grader.judge.misconceptions import (
     predict,
     separate_questions,
 )
-from grader.judge.narrowing import (
-    FEWEST,
-    Narrowing,
-    Question,
-    join,
-    narrow,
-    read_questions,
-)
+from grader.judge.narrowing import FEWEST, Narrowing, Question, join, narrow, read_questions
 from grader.judge.recorded import key
 
 

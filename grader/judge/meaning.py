@@ -185,25 +185,16 @@ def explain_names(failure: Failure) -> str:
     return "" if known and failure.check.got.startswith(UNFIT) else failure.hint()
 
 
-def name_swapped_sign(failure: Failure) -> str:
-    """Name a line with =+ instead of +=."""
-    return "" if failure.is_error else failure.evidence.suspect("swapped sign")
+def name_suspect(kind: str, is_all: bool = False) -> "Explainer":
+    """Name a suspect line in code that gives answers, after other reasons unless it `is_all`."""
 
+    def name(failure: Failure) -> str:
+        words = "" if failure.is_error else failure.evidence.suspect(kind)
+        if not words or is_all:
+            return words
+        return f"{explain_after(name, failure)} {words}".strip()
 
-def name_unread(failure: Failure) -> str:
-    """Name a value that nothing reads, after what the answers show."""
-    words = failure.evidence.suspect("unread")
-    if not words or failure.is_error:
-        return ""
-    return f"{explain_after(name_unread, failure)} {words}".strip()
-
-
-def name_return_in_loop(failure: Failure) -> str:
-    """Name a return that ends its loop in the first round, after what the answers show."""
-    words = failure.evidence.suspect("return in loop")
-    if not words or failure.is_error:
-        return ""
-    return f"{explain_after(name_return_in_loop, failure)} {words}".strip()
+    return name
 
 
 def name_kind(failure: Failure) -> str:
@@ -296,9 +287,9 @@ EXPLAINERS: tuple[Explainer, ...] = (
     name_loop,
     name_printed_error,
     explain_names,
-    name_swapped_sign,
-    name_unread,
-    name_return_in_loop,
+    name_suspect("swapped sign", is_all=True),
+    name_suspect("unread"),
+    name_suspect("return in loop"),
     name_kind,
     name_mistake,
     name_earlier_todos,

@@ -319,9 +319,7 @@ class WatchedProcess:
         place = self.stack.enter_context(work_folder())
         place.chmod(0o711)  # a child that is a user of its own passes through
         process = subprocess.Popen(
-            command("grader.judge.outer", str(place)),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
+            command("grader.judge.outer", str(place)), stdin=subprocess.PIPE, stdout=subprocess.PIPE
         )
         self.send(process, sys.path)
         return process
@@ -331,11 +329,7 @@ class WatchedProcess:
         write_message(process.stdin, pickle.dumps(what))
 
     def call(
-        self,
-        allowance: Allowance,
-        kind: Any,
-        function: Callable[..., Reply],
-        *args: object,
+        self, allowance: Allowance, kind: Any, function: Callable[..., Reply], *args: object
     ) -> Reply:
         """Call an importable function in the process; raises as `call_within`, and Lost."""
         if self.closed:

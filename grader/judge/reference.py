@@ -11,10 +11,7 @@ from types import CodeType
 import msgspec
 
 from grader.judge.rubric import Rubric, Todo
-from grader.judge.submission import (
-    CannotGrade,
-    Submission,
-)
+from grader.judge.submission import CannotGrade, Submission
 from grader.protocol import Piece
 from grader.source.definitions import Function, Program
 from grader.source.regions import python_files, read_source, shape_of

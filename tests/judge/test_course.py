@@ -375,8 +375,7 @@ MEASURED = ("effects.md",)  # tells of what was measured in the whole lab
 
 
 @pytest.mark.parametrize(
-    "todo",
-    [pytest.param(t, marks=() if t in TODOS[::6] else pytest.mark.soak) for t in TODOS],
+    "todo", [pytest.param(t, marks=() if t in TODOS[::6] else pytest.mark.soak) for t in TODOS]
 )
 def test_the_pages_of_a_course_of_one_task_name_no_other(todo: str):
     """With one bonus task there is a page of them, and not all that others link to on it."""

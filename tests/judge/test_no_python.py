@@ -221,10 +221,7 @@ def test_a_broken_todo_costs_its_own_points(hand_in, reference: Path | None):
     tree = edited(hand_in("solution"), SOLVER, IN_2, "total += cross(ra, axis ** 2")
     options = Options(reference, only=frozenset("25"), trusted=True)
     result = grade(tree, options, shared_worker())
-    assert {todo.id: todo.state for todo in result.todos} == {
-        "2": "error",
-        "5": "passed",
-    }
+    assert {todo.id: todo.state for todo in result.todos} == {"2": "error", "5": "passed"}
     broken = result.todos[0].checks
     assert {check.points for check in broken} == {0} and len({check.got for check in broken}) == 1
     assert "'(' was never closed" in broken[0].got and "Add the bracket" in broken[0].meaning

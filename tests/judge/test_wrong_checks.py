@@ -30,10 +30,7 @@ RIGHT = '(end,) = lab.integrate("rk4", (1.0, 0.0), 0.1, [0.0])'
 
 
 def graded(
-    body: str,
-    tree: Path,
-    patched: pytest.MonkeyPatch,
-    function: str = "integrators:rk4",
+    body: str, tree: Path, patched: pytest.MonkeyPatch, function: str = "integrators:rk4"
 ) -> str:
     """The state of the check; the sentence where it is refused."""
     checks = ModuleType("checks")

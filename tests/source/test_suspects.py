@@ -42,10 +42,7 @@ def test_lines_of_the_stub_at_an_end_are_left_over(lines: tuple[str, ...], first
 
 @pytest.mark.parametrize(
     ("lines", "answers"),
-    [
-        (("x += 1", "return None"), True),
-        (("if x:", "    return 1", "return None"), False),
-    ],
+    [(("x += 1", "return None"), True), (("if x:", "    return 1", "return None"), False)],
 )
 def test_a_given_return_below_own_code_gives_every_answer(lines: tuple[str, ...], answers: bool):
     found = find_leftover(region(*lines), "return None")
