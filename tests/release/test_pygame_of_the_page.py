@@ -34,10 +34,12 @@ for line in json.loads(sys.argv[1]):
 """
 EXACT = """
 v + w|v - w|v * c|c * v|v * w|v / c|v // c|-v|+v|v + (c, d)|(c, d) - v|[c, d] + v|v * 2|v / 3
-v.dot(w)|v.cross(w)|v.length()|v.length_squared()|v.normalize()|v.is_normalized()|v.lerp(w, share)
+Vector2().dot((-1, -1))|Vector2() * Vector2(-1, -1)
+v.__iadd__(w)|v.__isub__(w)|v.__imul__(c)|v.__itruediv__(d)|v.__ifloordiv__(d)
+v.dot(w)|v.cross(w)|v.length()|v.length_squared()|v.normalize()|v.lerp(w, share)
 v.distance_to(w)|v.distance_squared_to(w)|v.rotate(e)|v.rotate_rad(e)
 v.rotate(90)|v.rotate(-180)|v.rotate(270.0)|v.rotate_rad(1e-8)|v.project(w)|v.reflect(w)
-v.angle_to(w)|v.angle|v.as_polar()|v.move_towards(w, e)|v.clamp_magnitude(share)
+v.angle_to(w)|v.as_polar()|v.clamp_magnitude(share)
 v == w|v == (a, b)|v != w|v < w|v < 3|v + 1|1 + v|c - v|v * "a"|v * None|v / w
 v / 0|v // 0|v % 2|abs(v)|hash(v)|repr(v)|str(v)|f"{v}"|bool(v)|len(v)|v[0]|v[-1]|v[2]|v["a"]
 v[::-1]

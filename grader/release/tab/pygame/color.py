@@ -50,10 +50,6 @@ class Color(metaclass=Named):
     def __init__(self, *values):
         self.r, self.g, self.b, self.a = read_color(*values)
 
-    def update(self, *values):
-        """Set the colour from the arguments of Color()."""
-        self.r, self.g, self.b, self.a = read_color(*values)
-
     def __iter__(self):
         return iter((self.r, self.g, self.b, self.a))
 
@@ -62,10 +58,6 @@ class Color(metaclass=Named):
 
     def __getitem__(self, index):
         return (self.r, self.g, self.b, self.a)[index]
-
-    def __setitem__(self, index, value):
-        (number,) = check_channels((value,))
-        setattr(self, "rgba"[index], number)
 
     def __eq__(self, other):
         try:

@@ -72,13 +72,7 @@ def update(*rectangles):
 
 
 def set_caption(title, icontitle=None):
-    """Set the window's title."""
-    state.caption = title
-
-
-def get_caption():
-    """Return the window's title, twice."""
-    return (state.caption, state.caption) if state.on else ()
+    """Do nothing: the page has its own title."""
 
 
 def set_icon(surface):

@@ -10,7 +10,6 @@ wait_hook = None  # the page's: called while wait has nothing; rests a frame and
 MOST = 65_535  # events in the queue
 
 queue = []
-custom_types = iter(range(c.USEREVENT + 1, c.NUMEVENTS))
 MODIFIERS = {
     c.K_LSHIFT: c.KMOD_LSHIFT, c.K_RSHIFT: c.KMOD_RSHIFT, c.K_LCTRL: c.KMOD_LCTRL,
     c.K_RCTRL: c.KMOD_RCTRL, c.K_LALT: c.KMOD_LALT, c.K_RALT: c.KMOD_RALT,
@@ -55,11 +54,6 @@ def event_name(type):
     if c.USEREVENT <= type < c.NUMEVENTS:
         return "UserEvent"
     return c.event_names.get(type, "Unknown")
-
-
-def custom_type():
-    """Return an unused event type."""
-    return next(custom_types)
 
 
 def pump():

@@ -17,7 +17,10 @@ NEEDS_A_PAIR = (
 )
 NO_ORDER = "This operation is not supported by vectors"
 ZERO_LENGTH = "Can't normalize Vector of length zero"
-ABSENT = {"elementwise", "epsilon", "slerp", "smoothstep"}  # of Vector2
+ABSENT = {  # attributes of Vector2
+    *("angle", "angle_rad", "elementwise", "epsilon", "is_normalized", "move_towards"),
+    *("move_towards_ip", "slerp", "smoothstep"),
+}
 INFINITY, NAN = float("inf"), float("nan")
 
 
@@ -155,14 +158,7 @@ class Vector2(metaclass=Named):
             raise IndexError("subscript out of range.") from None
 
     def __setitem__(self, index, value):
-        if isinstance(index, slice):
-            numbers = [self._x, self._y]
-            count = len(numbers[index])
-            if not hasattr(value, "__getitem__") or len(value) != count:
-                raise ValueError("Sequence has the wrong length.")
-            numbers[index] = map(to_float, value)
-            self._x, self._y = numbers
-        elif not hasattr(index, "__index__"):
+        if not hasattr(index, "__index__"):
             raise TypeError(f"list indices must be integers, not {type(index).__name__}")
         elif index in (0, -2):
             self.x = value
@@ -273,22 +269,13 @@ class Vector2(metaclass=Named):
             return Vector2(self._x * other, self._y * other)
         pair = read_pair(other)
         if pair is not None:
-            return self._x * pair[0] + self._y * pair[1]
+            return 0.0 + self._x * pair[0] + self._y * pair[1]
         number = read_number(other)
         if number is None:
             return NotImplemented
         return Vector2(self._x * number, self._y * number)
 
     __rmul__ = __mul__
-
-    def __imul__(self, other):
-        if type(other) is not float:
-            other = read_number(other)
-            if other is None:
-                return NotImplemented
-        self._x *= other
-        self._y *= other
-        return self
 
     def __truediv__(self, other):
         number = read_number(other)
@@ -299,30 +286,11 @@ class Vector2(metaclass=Named):
         number = 1.0 / number  # as pygame: its last bit differs from that of a division
         return Vector2(self._x * number, self._y * number)
 
-    def __itruediv__(self, other):
-        number = read_number(other)
-        if number is None:
-            return NotImplemented
-        if not number:
-            raise ZeroDivisionError("division by zero")
-        number = 1.0 / number
-        self._x *= number
-        self._y *= number
-        return self
-
     def __floordiv__(self, other):
         number = read_number(other)
         if number is None:
             return NotImplemented
         return Vector2(floor_division(self._x, number), floor_division(self._y, number))
-
-    def __ifloordiv__(self, other):
-        number = read_number(other)
-        if number is None:
-            return NotImplemented
-        self._x = floor_division(self._x, number)
-        self._y = floor_division(self._y, number)
-        return self
 
     def __neg__(self):
         return Vector2(-self._x, -self._y)
@@ -345,9 +313,9 @@ class Vector2(metaclass=Named):
     def dot(self, other):
         """Return the dot product."""
         if type(other) is Vector2:
-            return self._x * other._x + self._y * other._y
+            return 0.0 + self._x * other._x + self._y * other._y
         x, y = need_pair(other, TypeError, "Cannot perform dot product with this type.")
-        return self._x * x + self._y * y
+        return 0.0 + self._x * x + self._y * y
 
     def cross(self, other):
         """Return the cross product, a number."""
@@ -373,10 +341,6 @@ class Vector2(metaclass=Named):
         if not length:
             raise ValueError(ZERO_LENGTH)
         return Vector2(self._x / length, self._y / length)
-
-    def is_normalized(self):
-        """Return whether the length is 1."""
-        return fabs(self.length_squared() - 1) < EPSILON
 
     def scale_to_length(self, length):
         """Set the length."""
@@ -428,16 +392,6 @@ class Vector2(metaclass=Named):
         """Return the vector turned by an angle in rad."""
         return Vector2(*turn(self._x, self._y, to_float(angle)))
 
-    @property
-    def angle(self):
-        """Return the direction in degrees."""
-        return degrees(atan2(self._y, self._x))
-
-    @property
-    def angle_rad(self):
-        """Return the direction in rad."""
-        return atan2(self._y, self._x)
-
     def angle_to(self, other):
         """Return the angle to another vector in degrees."""
         message = "Incompatible vector argument: cannot calculate angle to"
@@ -463,7 +417,7 @@ class Vector2(metaclass=Named):
         if length != 1:
             length = sqrt(length)
             x, y = x / length, y / length
-        along = self._x * x + self._y * y
+        along = 0.0 + self._x * x + self._y * y
         return Vector2(self._x - 2 * x * along, self._y - 2 * y * along)
 
     def project(self, other):
@@ -472,7 +426,7 @@ class Vector2(metaclass=Named):
         length = x * x + y * y
         if length < EPSILON:
             raise ValueError("Cannot project onto a vector with zero length")
-        share = (self._x * x + self._y * y) / length
+        share = (0.0 + self._x * x + self._y * y) / length
         return Vector2(x * share, y * share)
 
     # ------------------------------------------------------------ on the way to another vector
@@ -486,18 +440,6 @@ class Vector2(metaclass=Named):
         rest = 1 - share
         return Vector2(self._x * rest + x * share, self._y * rest + y * share)
 
-    def move_towards(self, other, most):
-        """Return the point on the way to another one, at most this distance away."""
-        x, y = need_pair(other, TypeError, "Expected Vector as argument 1")
-        most = to_float(most)
-        over, down = x - self._x, y - self._y
-        length = sqrt(over * over + down * down)
-        if not length:
-            return Vector2(self._x, self._y)
-        if length <= most:
-            return Vector2(x, y)
-        return Vector2(self._x + over * (most / length), self._y + down * (most / length))
-
 
 def make_in_place(method):
     """Return a method that sets its vector to the result of another method."""
@@ -508,9 +450,23 @@ def make_in_place(method):
     return change
 
 
-for each in ("normalize", "clamp_magnitude", "rotate", "rotate_rad", "reflect", "move_towards"):
+def make_operator(operate):
+    """Return an operator such as *= from one such as *."""
+
+    def change(self, other):
+        if isinstance(result := operate(self, other), Vector2):
+            self._x, self._y = result
+            return self
+        return NotImplemented
+
+    return change
+
+
+for each in ("normalize", "clamp_magnitude", "rotate", "rotate_rad", "reflect"):
     setattr(Vector2, f"{each}_ip", make_in_place(getattr(Vector2, each)))
 Vector2.rotate_ip_rad = Vector2.rotate_rad_ip
+for each in ("mul", "truediv", "floordiv"):
+    setattr(Vector2, f"__i{each}__", make_operator(getattr(Vector2, f"__{each}__")))
 
 
 def read_coordinates(x, y):

@@ -12,7 +12,6 @@ class State:
     fonts = False
     surface = None  # the window
     sink = None  # called with the window's Surface when a picture is shown; None shows nothing
-    caption = "pygame window"
     ticked = False  # a Clock has ticked since the last picture
     keys, mods = set(), 0  # keys held down, modifiers
     mouse, moved, buttons = (0, 0), (0, 0), set()

@@ -20,13 +20,12 @@ class Clock(metaclass=Named):
     wait_hook = None
 
     def __init__(self):
-        self._last, self._length, self._work = time.perf_counter(), 0, 0
+        self._last, self._length = time.perf_counter(), 0
         self._lengths = []
 
     def tick(self, framerate=0):
         """End a frame after at least 1/framerate seconds; return its length in ms."""
         framerate = to_float(framerate)
-        self._work = int((time.perf_counter() - self._last) * 1000)
         rest(framerate, self._last)
         State.ticked = True
         now = time.perf_counter()
@@ -39,10 +38,6 @@ class Clock(metaclass=Named):
     def get_time(self):
         """Return the length of the last frame in ms."""
         return self._length
-
-    def get_rawtime(self):
-        """Return the length of the last frame in ms, without its rest."""
-        return self._work
 
     def get_fps(self):
         """Return the frames per second of the last ten; 0 before there are ten."""
