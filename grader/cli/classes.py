@@ -1,4 +1,4 @@
-"""Define `grader class`: a class from its first day to its marks, in a folder that remembers."""
+"""Define `grader class`: a class from its first day to its marks, in a folder with its settings."""
 
 import sys
 from pathlib import Path
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 OTHER_RECIPIENTS = ("email", "nbgrader")  # of feedback, beside the learning systems
 
 app = typer.Typer()
-class_app = typer.Typer(help="A class, in a folder that remembers it.", no_args_is_help=True)
+class_app = typer.Typer(help="A class, in a folder with its settings.", no_args_is_help=True)
 app.add_typer(class_app, name="class")
 
 Folder = Annotated[Path, typer.Argument(help="The folder of the class.")]
@@ -57,7 +57,7 @@ def new_command(
     ] = None,
     other_course: OtherCourse = False,
 ) -> None:
-    """Make a class, or change what it remembers. Exit status 1: there are problems."""
+    """Make a class, or change its settings. Exit status 1: there are problems."""
     require_folder_target(folder, "the class")
     from grader.classroom.course_check import Files, find_problems
     from grader.classroom.folder import FILE, remember_class, shorten_path
@@ -84,7 +84,7 @@ def new_command(
 
 
 def describe_class(made: "ClassFolder") -> list[str]:
-    """Return what the class is, a line each."""
+    """Return lines on the course, students and submissions of a class."""
     course, students = made.course, len(made.list_people().names)
     listed = f"{plural(students, 'student')} in {made.roster}" if made.roster else "no class list"
     counted = course.rubric.counted
@@ -106,7 +106,7 @@ def grade_command(
     cluster: Annotated[str, typer.Option(help="Grade on the Dask cluster at this address.")] = "",
     other_course: OtherCourse = False,
 ) -> None:
-    """Grade what is new, and make the pages and the table.
+    """Grade new and changed submissions, and write pages and table.
 
     Exit status 0: all graded, 2: some need manual review, or nothing could be graded.
     """
@@ -157,7 +157,7 @@ def grade_folder(
 
 @class_app.command("review")
 def review_command(folder: Folder = Path(".")) -> None:
-    """Decide on a local page what needs a person: it writes the file of decisions."""
+    """Open a local page to decide what needs manual review."""
     known = open_folder(folder)
     from grader.classroom.review_server import open_review
 
@@ -172,7 +172,7 @@ def review_command(folder: Folder = Path(".")) -> None:
 
 @class_app.command("mail")
 def mail_command(folder: Folder = Path(".")) -> None:
-    """Write a draft to each who must send work again, and mail.csv; nothing is sent."""
+    """Write mail drafts to students who must hand in again. Nothing is sent."""
     known = open_folder(folder)
     results, path = known.find_results(), known.find_roster("a mail")
     from grader.classroom.dashboard import read_outcomes
@@ -200,12 +200,12 @@ def mail_command(folder: Folder = Path(".")) -> None:
 @class_app.command("marks")
 def marks_command(
     folder: Folder = Path("."),
-    so_far: Annotated[bool, typer.Option(help="Count what waits for a person as 0.")] = False,
+    so_far: Annotated[bool, typer.Option(help="Count ungraded work as 0.")] = False,
     others_known: Annotated[
-        bool, typer.Option(help="Who handed in and is not in the class list is nobody in it.")
+        bool, typer.Option(help="No submission outside the class list is by a listed student.")
     ] = False,
 ) -> None:
-    """Write marks.csv, the gradebook with the marks in it. Exit status 1: some have none.
+    """Write marks.csv, the gradebook with marks. Exit status 1: some students have none.
 
     With a gradebook of nbgrader, its notebooks count as marks.toml says.
     """
@@ -261,10 +261,10 @@ def upload_command(
         bool, typer.Option("--over", help="Replace marks that a person entered in Canvas.")
     ] = False,
     others_known: Annotated[
-        bool, typer.Option(help="Who handed in and is not in the class list is nobody in it.")
+        bool, typer.Option(help="No submission outside the class list is by a listed student.")
     ] = False,
 ) -> None:
-    """Show which marks and pages Canvas lacks, or send them. Exit status 1: somebody was left out.
+    """Show the marks and pages to send to Canvas, or send them. Exit status 1: some were left out.
 
     The environment variable CANVAS_TOKEN holds the access token.
     """
@@ -282,10 +282,13 @@ def upload_command(
 def feedback_command(
     folder: Folder = Path("."),
     for_: Annotated[
-        str, typer.Option("--for", help="Who takes it, if not the class's system: email, nbgrader.")
+        str,
+        typer.Option(
+            "--for", help="email, nbgrader or a learning system; the class's own if left out."
+        ),
     ] = "",
 ) -> None:
-    """Write everybody's page for the way back. Exit status 1: somebody was left out."""
+    """Write each student's page for feedback. Exit status 1: some students were left out."""
     known = open_folder(folder)
     results = known.find_results()
     from grader.classroom.dashboard import read_class, write_dashboard
@@ -363,7 +366,7 @@ def questions_command(
 
 
 def write_sheet_marks(known: "ClassFolder", marked: "Marking", out: Path) -> list[str]:
-    """Write the points of the sheets as a column of the gradebook; return what to say of it."""
+    """Write the points of the sheets into a gradebook; return notes on it."""
     if known.roster is None:
         return []
     from grader.classroom.marks import load_marking, make_marks, score_sheets

@@ -60,10 +60,10 @@ def course_command(
     renew: Annotated[bool, typer.Option(help="Replace the assignment's source.")] = False,
     release: Annotated[
         Path | None,
-        typer.Option(help="What students get, an archive; the newest in build/release."),
+        typer.Option(help="The release for students; the newest in build/release if left out."),
     ] = None,
     without_checks: Annotated[
-        bool, typer.Option(help="Make it of the kit as it is: students get nothing to check with.")
+        bool, typer.Option(help="Make it without a release: students cannot run checks.")
     ] = False,
     taken: CourseFile = None,
 ) -> None:
@@ -85,7 +85,7 @@ def course_command(
 
 
 def find_course(folder: Path, named: Path | None) -> Path | None:
-    """Return the course that is named, or of which the folder was made; None for the kit's own."""
+    """Return the named course, or that of the folder; None for the kit's own."""
     own = folder / COURSE
     return named or (own if own.is_file() else None)
 
@@ -95,7 +95,7 @@ def collect_command(
     folder: Annotated[Path, typer.Argument(help="A folder of submissions, a folder each.")],
     course: CourseFolder = Path("."),
 ) -> None:
-    """Take submissions into the course folder. Exit status 1: a name could not be used."""
+    """Copy submissions into the course folder. Exit status 1: a name could not be used."""
     require_checkout("nbgrader collect")
     from grader.classroom.nbgrader.submissions import ASSIGNMENT, collect_submissions
 
@@ -118,7 +118,7 @@ def bridge_command(
     seed: SecretSeed = None,
     taken: CourseFile = None,
 ) -> None:
-    """Write the grader's marks into the gradebook. Exit status 1: not for everyone."""
+    """Write the grader's marks into the gradebook. Exit status 1: some are missing."""
     if results:
         given = ("jobs", "isolation", "seed")
         refuse_ignored(context, given, "with results, which are graded already")
@@ -144,7 +144,7 @@ def bridge_command(
 
 @course_app.command("release", hidden=True)
 def release_command() -> None:
-    """Renew the notebooks that the starter holds, by nbgrader itself."""
+    """Renew the starter's notebooks with nbgrader."""
     require_checkout("nbgrader release")
     from grader.release import nbgrader_notebooks as notebooks
 
@@ -175,7 +175,7 @@ def gradescope_command(
     seed: SecretSeed = None,
     course: CourseFile = None,
 ) -> None:
-    """Make the autograder for Gradescope. It holds the solution: it is for you alone."""
+    """Make the autograder for Gradescope. It holds the solution: do not publish it."""
     require_checkout("gradescope")
     require_file_target(out, "--out")
     from grader.classroom.gradescope import write_autograder
@@ -190,13 +190,13 @@ def dashboard_command(
     context: typer.Context,
     results: ResultsFolder,
     submissions: Annotated[
-        Path | None, typer.Option(help="The class itself: one student's replay per known mistake.")
+        Path | None, typer.Option(help="The class: adds a replay of each known mistake.")
     ] = None,
     roster: ClassList = None,
     seed: Annotated[int | None, typer.Option(help="The seed it was graded with.")] = None,
     course: CourseFile = None,
 ) -> None:
-    """Make a page of a class, and beside it a report for each student."""
+    """Make a page of a class, and a report for each student."""
     if submissions is None:
         refuse_ignored(context, ("roster", "seed"), "without --submissions")
     from grader.classroom.dashboard import add_replays, read_class, write_dashboard
@@ -224,7 +224,7 @@ def course_check_command(course: CourseFile = None) -> None:
 
 
 def find_release_problems(path: Path | None) -> Iterator[str]:
-    """Yield why a release of the course would be refused; nothing of a course that is invalid."""
+    """Yield why a release of a valid course would be refused."""
     if list_missing():
         return
     from grader.release.build import prove_cut

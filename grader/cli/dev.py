@@ -56,9 +56,9 @@ def verify_command(
     fresh: Annotated[bool, typer.Option("--fresh", help=FRESH)] = False,
     course: CourseFile = None,
 ) -> None:
-    """Grade the bank of wrong, right and hostile submissions and ladders: the grader is graded.
+    """Grade the bank of wrong, right and hostile submissions, to test the grader.
 
-    What build/verify holds of an earlier run is not graded again, unless something changed.
+    Unchanged members with a result in build/verify are not graded again.
     """
     require_checkout("verify")
     from grader.bank.verify import verify
@@ -78,10 +78,10 @@ def release_command(
     cffi: Cffi = None,
     course: CourseFile = None,
 ) -> None:
-    """Make the archive that students get, unless something in it gives the solution away.
+    """Make the archive for students, and check that it does not give the solution away.
 
-    The page of `grader tab` goes with it, where Node.js and the network are there.
-    Exit status 0: it is there, 2: it was not made, and why.
+    With Node.js and a network it also makes the page of `grader tab`.
+    Exit status 0: it was made, 2: it was not made.
     """
     require_checkout("release")
     from grader.release.build import release
@@ -102,7 +102,7 @@ def tab_command(
     cffi: Cffi = None,
     course: CourseFile = None,
 ) -> None:
-    """Make the lab as a page: to write, run, check and hand in with nothing but a browser.
+    """Make the lab as a page for a browser, without installation.
 
     Any web server can serve the folder. Needs Node.js, and the network the first time.
     """
@@ -127,10 +127,10 @@ def mutants_command(
         bool, typer.Option("--alone", help="A mutant's own TODO only, and no names: much faster.")
     ] = False,
 ) -> None:
-    """Change the solution in small ways, and see whether the checks notice.
+    """Change the solution in small ways, and test whether the checks notice.
 
     Exit status 0: every mutant lost points in its own TODO alone, 1: not so.
-    With --alone, neither what the others lose nor names are looked at.
+    With --alone, other TODOs and the names of mistakes are not tested.
 
     A survivor with other results than the solution's is a wrong submission with full marks: put it
     into tests/bank/wrong, named by its mistake, and make a check stricter until `verify` agrees.

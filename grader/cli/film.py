@@ -18,7 +18,7 @@ SCENE, SECONDS = 12, 4.0  # the seed of the window's scene, and how much of it
 def write_film(folder: Path, options: Options, worker: Worker, result: Result) -> Path:
     """Write `build/film.html` of a program that was graded; return its path.
 
-    Raises what its scene raises, and CannotAsk where there is more in it than a film shows.
+    Raises the errors of its scene, and CannotAsk if the scene is too large for a film.
     """
     with open_program(folder, options, worker, result) as program:
         film = make_film(program.own, {}, SCENE, seconds=SECONDS)

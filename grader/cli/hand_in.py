@@ -1,4 +1,4 @@
-"""Pack what a student hands in: one zip of their own work, without what was given."""
+"""Pack a student's work without the given files into one zip."""
 
 import hashlib
 import io
@@ -32,7 +32,7 @@ SUFFIXES = (".whl", ".zip")  # the grader, and what was packed before
 
 
 def pack_tree(tree: Path, course: Course = FULL, out: Path | None = None) -> tuple[Path, list[str]]:
-    """Pack the tree; return the zip, `out` or else in the tree, and the names in it."""
+    """Pack the tree into `out` or a zip in the tree; return the zip and the names in it."""
     files = choose_files(tree, course)
     size = sum(path.stat().st_size for path in files.values())
     target = out or tree / PACKED
@@ -54,7 +54,7 @@ def pack_tree(tree: Path, course: Course = FULL, out: Path | None = None) -> tup
 
 
 def choose_files(tree: Path, course: Course) -> dict[str, Path]:
-    """Return programs, notebooks and all that was added, by name, in a fixed order."""
+    """Return programs, notebooks and added files by name, in a fixed order."""
     given = {program for program in PROGRAMS if program not in course.modules}
     given |= GIVEN | {f"{program}.py" for program in given}
     found = {path.relative_to(tree).as_posix(): path for path in plain_files(tree)}
@@ -66,7 +66,7 @@ def choose_files(tree: Path, course: Course) -> dict[str, Path]:
 
 
 def list_tops(names: Sequence[str]) -> Iterator[str]:
-    """Yield what is packed, a folder with the number of its files."""
+    """Yield the packed files and folders, with the number of files in each folder."""
     for top, count in Counter(name.partition("/")[0] for name in names).items():
         yield top if top in names else f"{top}: {plural(count, 'file')}"
 
@@ -95,7 +95,7 @@ def has_no_answer(path: Path) -> bool:
 
 
 def write_receipt(packed: Path) -> str:
-    """Return the time and the first digits of the SHA-256 of what was packed."""
+    """Return the time and the first digits of the zip's SHA-256."""
     digest = hashlib.sha256(packed.read_bytes()).hexdigest()[:DIGITS]
     return f"Receipt: {digest}, {format_time(datetime.now().astimezone())}"
 

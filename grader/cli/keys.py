@@ -27,14 +27,14 @@ def open_keys() -> Iterator[Callable[[], str]]:
 
 
 def read_key(terminal: int) -> str:
-    """Return the letter typed on a terminal, or an empty text where none is."""
+    """Return the letter typed on a terminal, or an empty text."""
     ready, _, _ = import_module("select").select([terminal], [], [], 0)
     typed = os.read(terminal, MOST).decode(errors="ignore") if ready else ""
     return "" if typed.startswith(ESCAPE) else typed[:1].lower()
 
 
 def read_windows_key() -> str:
-    """Return the same in a Windows terminal, where other keys than letters come in two parts."""
+    """Return the letter typed on a Windows terminal, where other keys come in two parts."""
     console = import_module("msvcrt")
     if not console.kbhit():
         return ""

@@ -50,7 +50,7 @@ EPILOG = (
 
 
 class Commands(TyperGroup):
-    """Commands that end with a sentence and an exit status where something stops them."""
+    """Commands that end with a sentence and an exit status at an error."""
 
     def invoke(self, context: Any) -> Any:
         try:
@@ -73,7 +73,7 @@ app = typer.Typer()
 
 @dataclass(frozen=True)
 class Output:
-    """The files to write about one submission, and the points that are enough."""
+    """The files to write about one submission, and the points for exit status 0."""
 
     out: Path | None = None
     json: Path | None = None
@@ -85,7 +85,7 @@ def grade_command(
     context: typer.Context,
     path: Annotated[
         Path | None,
-        typer.Argument(help="The submission: folder, file or zip. Left out: the shipped trees."),
+        typer.Argument(help="The submission: folder, file or zip; the shipped trees if left out."),
     ] = None,
     class_: Annotated[
         bool,
@@ -94,7 +94,9 @@ def grade_command(
     out: Annotated[
         Path | None, typer.Option(help="Write NAME.json into this folder; a class always does.")
     ] = None,
-    json: Annotated[Path | None, typer.Option(help="Write the one result here as JSON.")] = None,
+    json: Annotated[
+        Path | None, typer.Option(help="Write the result of one submission here as JSON.")
+    ] = None,
     reference: Annotated[
         Path | None, typer.Option(help="The complete tree; the kit's own if left out.")
     ] = None,
@@ -108,7 +110,7 @@ def grade_command(
     seed: SecretSeed = None,
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
     ci: Annotated[
-        Path | None, typer.Option(help="For CI: write its reports into this folder, tell GitHub.")
+        Path | None, typer.Option(help="For CI: write reports into this folder, and notify GitHub.")
     ] = None,
     at_least: Annotated[
         int | None, typer.Option(min=0, help="Points for exit status 0, instead of full marks.")
@@ -182,7 +184,7 @@ def grade_and_show(path: Path, options: Options, replays: Path | None) -> Result
 
 
 def finish(result: Result, output: Output) -> NoReturn:
-    """Write what is wanted, and end with the status that the points deserve."""
+    """Write the output, and end with the exit status for the points."""
     if output.json is not None:
         write_json(result, output.json)
     if output.out is not None:
@@ -196,7 +198,7 @@ def finish(result: Result, output: Output) -> NoReturn:
 
 
 def grade_in_ci(path: Path, folder: Path, output: Output, options: Options) -> NoReturn:
-    """Grade for a CI system; what is printed for people must not be read as commands."""
+    """Grade for a CI system, which must not read printed text as commands."""
     from grader.report.ci import is_free_folder, name_after_repository, tell_github, write_reports
     from grader.report.sinks.github import stop_commands
 
@@ -221,10 +223,10 @@ def demonstrate(options: Options) -> None:
 
 
 def interrupt_again(ignored: "sys.UnraisableHookArgs") -> None:
-    """Raise Ctrl-C again where it came during a callback, such as a garbage collection's.
+    """Raise Ctrl-C again if it came during a callback, such as a garbage collection's.
 
-    Python cannot raise it there and only prints it. A moment later it can. On a busy machine that
-    moment may be over before this function is, which Python would only print as well.
+    Python only prints it there, so a timer raises it a moment later. On a busy machine that may be
+    during this function, which then starts another timer.
     """
     if not issubclass(ignored.exc_type, KeyboardInterrupt):
         sys.__unraisablehook__(ignored)
@@ -240,7 +242,7 @@ def interrupt_again(ignored: "sys.UnraisableHookArgs") -> None:
 
 
 def interrupt() -> None:
-    """Interrupt the main thread as Ctrl-C does, where possible in the middle of a wait."""
+    """Interrupt the main thread as Ctrl-C does, if possible during a wait."""
     if hasattr(signal, "pthread_kill"):
         signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
     else:
@@ -248,7 +250,7 @@ def interrupt() -> None:
 
 
 def end_like_ctrl_c() -> None:
-    """Clean up as after Ctrl-C, and only once, when the system or the terminal ends us."""
+    """Clean up once, as after Ctrl-C, when the system or the terminal ends this process."""
 
     def end(number: int, _: object) -> NoReturn:
         for name in ENDINGS:
@@ -292,7 +294,7 @@ def make_app() -> typer.Typer:
 
 
 def make_dev_app(apps: Collection[typer.Typer]) -> typer.Typer:
-    """Return the commands that `--help` leaves out, as a group of their own."""
+    """Return the commands that `--help` omits as a group."""
     maintainers = typer.Typer(help="For maintainers of the kit.", no_args_is_help=True)
     every = [each for app in apps for each in app.registered_commands]
     maintainers.registered_commands += [x for x in every if x.name not in FOR_INSTRUCTORS]
@@ -300,7 +302,7 @@ def make_dev_app(apps: Collection[typer.Typer]) -> typer.Typer:
 
 
 def hide_commands(whole: typer.Typer, shown: Collection[str]) -> typer.Typer:
-    """Return the commands, those not `shown` hidden: they work, and `--help` leaves them out."""
+    """Return the commands, and hide those not `shown` from `--help`."""
     part = copy(whole)
     part.registered_commands = [copy(each) for each in whole.registered_commands]
     for each in part.registered_commands:

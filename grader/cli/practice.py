@@ -39,14 +39,14 @@ def questions_command(
         Path | None, typer.Option(help="The page; build/questions.html if left out.")
     ] = None,
     seed: Annotated[
-        int | None, typer.Option(help="For the same questions again; new ones if left out.")
+        int | None, typer.Option(help="A number gives the same questions again.")
     ] = None,
     course: CourseFile = None,
 ) -> None:
-    """Make a page of questions about your own program, to practise; new ones each time.
+    """Make a page of practice questions about your own program.
 
-    It asks about TODOs that pass their checks, and its answers open with a click. Exit status 0:
-    there are questions, 1: nothing to ask about yet, 2: no page could be made.
+    It asks new questions each time, about TODOs that pass. Exit status 0: there are questions,
+    1: no TODO passes yet, 2: the page could not be made.
     """
     require_file_target(out, "--out")
     taken = read_course(course)
@@ -57,7 +57,7 @@ def questions_command(
 def make_questions(
     folder: Path, course: Course, out: Path | None = None, seed: int | None = None
 ) -> tuple[Sheet, Path]:
-    """Make the page of a tree, and print what is on it; return the sheet and the page's path."""
+    """Make and describe the page of a tree; return the sheet and the page's path."""
     practice = load_practice()
     if practice is None:
         raise Stop("this copy has no cases for practice")
@@ -78,7 +78,7 @@ def make_questions(
 
 
 def print_sheet(sheet: Sheet, target: Path) -> None:
-    """Print how many questions there are, and which TODOs have none, and why."""
+    """Print the number of questions, and why some TODOs have none."""
     print_notes([f"not asked: {words}" for words in sheet.dropped])
     if not sheet.questions:
         console.print("none of your TODOs passes its checks yet: ask again when one does")

@@ -1,4 +1,4 @@
-"""Define the command `questions`: sheets about students' programs, and marks for the answers."""
+"""Define the command `questions`: sheets about programs, and marks for the answers."""
 
 from collections.abc import Callable
 from pathlib import Path

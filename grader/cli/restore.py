@@ -49,9 +49,9 @@ def is_unread(check: CheckResult) -> bool:
 
 
 def restore(tree: Path, name: str) -> list[str]:
-    """Put back the function, constant or file of this name, and return what was done.
+    """Restore the function, constant or file of this name; return a line on each file.
 
-    TODO regions stay as they are, and a copy of each file as it was is kept beside it.
+    TODO regions stay, and a copy of each old file is kept beside it.
     """
     texts = make_texts(tree, name)
     if not texts:
@@ -66,7 +66,7 @@ def restore(tree: Path, name: str) -> list[str]:
 
 
 def make_texts(tree: Path, name: str) -> dict[str, str]:
-    """Return the files to write, with what has this name as it was handed out."""
+    """Return the files to write, with the given code of this name."""
     given = load_given()
     file = name.replace("\\", "/").removeprefix("./")
     if file in given:
@@ -95,7 +95,7 @@ def is_given(name: str, texts: Iterable[str]) -> bool:
 
 
 def write_text(tree: Path, name: str, file: str, text: str) -> str:
-    """Write a file, keep a copy of the one before, and return what was done."""
+    """Write a file, keep a copy of the old one, and return a line on it."""
     path, content = tree / file, encode(text)
     if link := find_link(tree, file):
         raise Stop(f"{link} is a link, and links are not followed: put there what it leads to")
@@ -111,13 +111,13 @@ def write_text(tree: Path, name: str, file: str, text: str) -> str:
 
 
 def find_link(tree: Path, file: str) -> str:
-    """Return the first part of a file's path inside the tree that is a link; empty without one."""
+    """Return the first link in a file's path inside the tree; empty without one."""
     inside = PurePosixPath(file)
     parts = [*reversed(inside.parents), inside][1:]  # the first is the tree itself
     return next((str(each) for each in parts if (tree / each).is_symlink()), "")
 
 
 def find_free_name(path: Path) -> Path:
-    """Return `solver_old.py` beside `solver.py`, with a number where there is one."""
+    """Return an unused name beside `solver.py`, such as `solver_old.py`."""
     names = [f"{path.stem}_old.py", *(f"{path.stem}_{n}_old.py" for n in range(2, 1000))]
     return next(path.with_name(name) for name in names if not os.path.lexists(path.with_name(name)))

@@ -1,4 +1,4 @@
-"""Share what all commands need: where they print, how they end, which TODOs there are."""
+"""Share options, output and checks of arguments among all commands."""
 
 import re
 from collections.abc import Collection, Iterator
@@ -33,7 +33,7 @@ def course_option(*names: str) -> typer.models.OptionInfo:
 
 
 CourseFile = Annotated[Path | None, course_option("--course")]
-Confinement = Annotated[Isolation, typer.Option(help="Confinement to insist on.")]
+Confinement = Annotated[Isolation, typer.Option(help="The isolation to require.")]
 SecretSeed = Annotated[
     int | None, typer.Option(help="A secret seed: other numbers in every check.")
 ]
@@ -42,7 +42,7 @@ ResultsFolder = Annotated[Path, typer.Argument(help="The results of a class, a f
 
 
 def list_missing() -> list[str]:
-    """List the folders of a checkout of the kit that are not here."""
+    """List the missing folders of a checkout of the kit."""
     return [name for name in CHECKOUT if not (KIT / name).is_dir()]
 
 
@@ -56,7 +56,7 @@ def require_checkout(command: str, instead: str = "") -> None:
 
 
 def refuse_ignored(context: typer.Context, names: Collection[str], when: str) -> None:
-    """Stop if any of these options was given: nobody should believe that it counted."""
+    """Stop if any of these options, which have no effect, was given."""
     given = [
         option.opts[-1]
         for option in context.command.params
@@ -72,7 +72,7 @@ def was_given(context: typer.Context, name: str) -> bool:
 
 
 def require_file_target(path: Path | None, option: str) -> None:
-    """Stop before any work where no file can be written as the option says."""
+    """Stop if an option names a file that cannot be written."""
     if path is not None and path.is_dir():
         raise Stop(f"{option} {path} is a folder: name a file")
     if path is not None:
@@ -80,7 +80,7 @@ def require_file_target(path: Path | None, option: str) -> None:
 
 
 def require_folder_target(path: Path | None, option: str) -> None:
-    """Stop before any work where no folder can be made as the option says."""
+    """Stop if an option names a folder that cannot be made."""
     if path is None:
         return
     there = next(each for each in (path.absolute(), *path.absolute().parents) if each.exists())
@@ -89,7 +89,7 @@ def require_folder_target(path: Path | None, option: str) -> None:
 
 
 def check_todos(todos: list[str] | None, course: Course = FULL) -> frozenset[str]:
-    """Return the TODOs named on the command line; stop where the course lacks one.
+    """Return the TODOs named on the command line; stop at one that the course lacks.
 
     A number stands for all its parts: 7 for 7a to 7d.
     """
@@ -97,7 +97,7 @@ def check_todos(todos: list[str] | None, course: Course = FULL) -> frozenset[str
 
 
 def find_parts(todo: str, course: Course) -> list[str]:
-    """Return the TODOs that a word names, in capitals or not."""
+    """Return the TODOs that a word names, ignoring case."""
     ids = [todo.id for todo in course.rubric.todos]
     found = [id for id in ids if id.lower() == todo.lower()]
     found = found or [id for id in ids if re.fullmatch(rf"{re.escape(todo)}[a-z]", id)]
@@ -107,7 +107,7 @@ def find_parts(todo: str, course: Course) -> list[str]:
 
 
 def grade_one(path: Path, options: Options, replays: Path | None = None) -> Result:
-    """Grade one submission, with `replays` in a folder if one is named."""
+    """Grade one submission, and write replays into the folder `replays`, if any."""
     try:
         if replays is None:
             return grade(path, options)
@@ -121,9 +121,9 @@ def grade_one(path: Path, options: Options, replays: Path | None = None) -> Resu
 
 @contextmanager
 def open_path(path: Path, programs: Collection[str] = ()) -> Iterator[Path]:
-    """Open a submission: the instructor's grader reads it as one of a class.
+    """Open a submission as one of a class; students' graders read the path itself.
 
-    Two files for one program matter only if it is one of `programs`, those of the course.
+    Two files for one program are an error only for the course's `programs`.
     """
     if not find_spec("grader.classroom"):  # students have no zips and no folders of submissions
         yield path

@@ -1,4 +1,4 @@
-"""Define what students run in their own tree: `check`, `hint` and `hand-in`."""
+"""Define the students' commands `check`, `hint` and `hand-in`."""
 
 import re
 from dataclasses import replace
@@ -79,7 +79,7 @@ def check_command(
 
 
 def split_words(words: list[str]) -> tuple[list[str], Path]:
-    """Return which of the words may be TODOs, and the folder that is among them."""
+    """Split words into TODOs and a folder."""
     paths = [each for each in words if not IS_TODO.fullmatch(each) or Path(each).is_dir()]
     if len(paths) > 1:
         raise Stop(f"{paths[0]} and {paths[1]} are two folders: name one, or TODOs such as 4 or 7a")
@@ -87,7 +87,7 @@ def split_words(words: list[str]) -> tuple[list[str], Path]:
 
 
 def grade_shown(folder: Path, options: Options, replays: Path | None) -> Result:
-    """Grade a tree and show how far this is."""
+    """Grade a tree with a progress bar."""
     with CheckProgress(options, console) as shown:
         return grade_one(folder, replace(options, progress=shown.count), replays)
 
@@ -146,7 +146,7 @@ def hand_in_command(
 
 
 def describe_progress(folder: Path, options: Options) -> str:
-    """Check a tree; return the points and the TODOs that are not finished."""
+    """Check a tree; return a line on the points and the unfinished TODOs."""
     try:
         result = grade_shown(folder, options, None)
     except Stop as error:
@@ -158,7 +158,7 @@ def describe_progress(folder: Path, options: Options) -> str:
 
 
 def make_replay_folder(tree: Path) -> Path | None:
-    """Make a folder for replays that git ignores; return None where nothing can be written."""
+    """Make a folder for replays that git ignores; return None if it cannot be written."""
     folder = tree / "build" / "replays"
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -172,7 +172,9 @@ def make_replay_folder(tree: Path) -> Path | None:
 def hint_command(
     name: Annotated[str, typer.Argument(help="The TODO, such as 4.")] = "",
     todo: Annotated[str, typer.Option(help="The same, as an option.")] = "",
-    level: Annotated[int, typer.Option(min=1, max=3, help="How much to tell.")] = 1,
+    level: Annotated[
+        int, typer.Option(min=1, max=3, help="1 for the least help, 3 for the most.")
+    ] = 1,
     course: CourseFile = None,
 ) -> None:
     """Give a hint: a question, with --level 2 the idea, with 3 nearly the code."""

@@ -38,7 +38,7 @@ LOOK_EVERY = 0.25  # s, while checks are running
 
 
 class SavedAgain(Exception):
-    """The tree is no longer the one that is being checked."""
+    """Raised when a file is saved during a check."""
 
 
 @dataclass

@@ -35,7 +35,7 @@ def worker() -> Iterator[WarmWorker]:
 
 @pytest.fixture
 def opened(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """The pages that were opened in a browser."""
+    """List the pages opened in a browser."""
     pages: list[str] = []
     monkeypatch.setattr(grader.cli.guide.webbrowser, "open", pages.append)
     return pages
@@ -43,7 +43,7 @@ def opened(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 @pytest.fixture
 def open_guide(hand_in, worker: WarmWorker) -> Callable[..., Guide]:
-    """A guide through a tree, after its first screen."""
+    """Return a function that starts a guide and shows its first screen."""
 
     def start(tree: str = "starter", options: Options = ONE) -> Guide:
         folder = hand_in(tree)
@@ -58,7 +58,7 @@ def open_guide(hand_in, worker: WarmWorker) -> Callable[..., Guide]:
 
 
 def shown(guide: Guide) -> str:
-    """What was printed since the last call, on one line."""
+    """Return the output since the last call, on one line."""
     out = guide.console.file
     text = out.getvalue()
     out.seek(0)

@@ -1,4 +1,4 @@
-"""What a student hands in is what is asked for, and what the instructor's side finds in it."""
+"""hand-in packs the work alone, and the instructor's side reads it."""
 
 import os
 import shutil
@@ -22,7 +22,7 @@ from grader.judge.grade import KIT
 
 @pytest.fixture
 def tree(tmp_path: Path) -> Path:
-    """A student's folder, with what lies about in one."""
+    """Make a student's folder with the usual other files."""
     for name, path in list_students_files(KIT).items():
         target = tmp_path / "lab" / name
         target.parent.mkdir(parents=True, exist_ok=True)

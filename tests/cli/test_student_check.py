@@ -1,4 +1,4 @@
-"""What a student sees: `check` and `hint`, from any folder, in any terminal."""
+"""Students run `check` and `hint` from any folder, in any terminal."""
 
 import io
 import os
@@ -210,7 +210,7 @@ def test_control_c_ends_a_check_without_a_traceback(hand_in):
 @pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is no signal there")
 @pytest.mark.parametrize("busy", [False, True])
 def test_control_c_counts_in_the_middle_of_a_garbage_collection_too(busy: bool):
-    """Python can raise nothing there, and hypothesis has a callback that looks on each time."""
+    """Python cannot raise it there, and hypothesis has a callback for each collection."""
     pressed_while_collecting = """
 import gc, signal, sys, time
 from grader.cli.main import interrupt_again

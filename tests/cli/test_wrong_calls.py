@@ -116,7 +116,7 @@ nosuchcommand
 
 @pytest.fixture(scope="module")
 def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with two classes, the results of one of them, and files that are of no use."""
+    """Make a folder with two classes, the results of one, and useless files."""
     folder = tmp_path_factory.mktemp("calls")
     for name in ("class/ann", "class/ben", "other/zoe"):
         classes.put(folder / f"{name}.zip", packed.as_zip(classes.work(3)))
@@ -137,7 +137,7 @@ needs_make = pytest.mark.skipif(shutil.which("make") is None, reason="there is n
 
 
 class Begun(Exception):
-    """Work was begun."""
+    """Raised where work begins."""
 
 
 @pytest.fixture(autouse=True)

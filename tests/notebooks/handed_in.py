@@ -1,4 +1,4 @@
-"""Notebooks as students hand them in, made from the source's."""
+"""Make notebooks as students hand them in, from those of the source."""
 
 import json
 import os
@@ -32,13 +32,13 @@ def source(cell):
 
 
 def kind(cell):
-    """What nbgrader makes of a cell: one of its four flags, or two of them."""
+    """Return nbgrader's flags of a cell."""
     details = cell["metadata"].get("nbgrader", {})
     return "+".join(flag for flag in ("grade", "locked", "solution", "task") if details.get(flag))
 
 
 def released(cell):
-    """The words of a cell after its answers and hidden tests are gone."""
+    """Return the source of a cell without answers and hidden tests."""
     text = source(cell)
     if "solution" in kind(cell) and "### BEGIN SOLUTION" not in text:
         return STUBS[cell["cell_type"]]
@@ -52,17 +52,8 @@ def released(cell):
     return re.sub(hidden, "", text, flags=re.MULTILINE | re.DOTALL).rstrip("\n")
 
 
-def secrets(name):
-    """Every line of a notebook that only its source has."""
-    notebook, found, given = read(SOURCE / f"{name}.ipynb"), set(), set()
-    for cell in notebook["cells"]:
-        found |= {line.strip() for line in source(cell).splitlines()}
-        given |= {line.strip() for line in released(cell).splitlines()}
-    return {line for line in found - given if len(line) > 8 and not line.startswith("###")}
-
-
 def answered(name):
-    """A released notebook with every answer of the source written in."""
+    """Return a released notebook with every answer filled in."""
     notebook = read(RELEASED / f"{name}.ipynb")
     right = {cell["id"]: cell for cell in read(SOURCE / f"{name}.ipynb")["cells"]}
     for cell in notebook["cells"]:
@@ -77,19 +68,19 @@ def answers():
 
 
 def activated():
-    """The variables of a terminal in which the environment is active."""
+    """Return the variables of a terminal with the active environment."""
     path = os.pathsep.join([str(SCRIPTS), os.environ["PATH"]])
     return {**os.environ, "PATH": path}
 
 
 def run(course, *arguments):
-    """One of nbgrader's commands, as a person would type it in the course folder."""
+    """Run one of nbgrader's commands in the course folder."""
     command = [str(SCRIPTS / "nbgrader"), *arguments]
     return subprocess.run(command, cwd=course, env=activated(), capture_output=True, text=True)
 
 
 def hand_in(folder, tree, notebooks):
-    """A folder as a student hands it in: a tree's files and these notebooks, by name."""
+    """Make a folder that a student hands in, of a tree's files and these notebooks."""
     ignored = shutil.ignore_patterns("__pycache__", "notebooks", "build")
     shutil.copytree(KIT / tree, folder, ignore=ignored)
     for name, notebook in notebooks.items():
@@ -98,7 +89,7 @@ def hand_in(folder, tree, notebooks):
 
 
 def replace_in(notebook, cell_id, text):
-    """Write other words into a cell."""
+    """Replace the source of a cell."""
     for cell in notebook["cells"]:
         if cell["id"] == cell_id:
             cell["source"] = text.splitlines(keepends=True)

@@ -1,6 +1,6 @@
 """Run a notebook's code cells in order, as Jupyter does, and print what failed as JSON.
 
-With it comes what the last of them said.
+The output of the last cell is printed too.
 
     python run_cells.py NOTEBOOK [--draw]
 
@@ -20,7 +20,7 @@ from unittest.mock import MagicMock
 
 
 def stand_in():
-    """A pyplot that draws nothing."""
+    """Replace pyplot by one that draws nothing."""
 
     def subplots(rows=1, columns=1, **look):
         axes = [MagicMock() for _ in range(rows * columns)]

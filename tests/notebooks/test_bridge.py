@@ -1,4 +1,4 @@
-"""The grader's marks in nbgrader's gradebook: clamped, complete, and the same a second time."""
+"""The bridge writes the grader's marks into nbgrader's gradebook."""
 
 import shutil
 import warnings
@@ -64,7 +64,7 @@ def test_results_are_named_by_their_files_and_rubbish_is_a_sentence(tmp_path):
 
 @pytest.fixture(scope="module")
 def gradebook(tmp_path_factory):
-    """A gradebook with three cells for the engine, a quiz, and two hand-ins."""
+    """Make a gradebook with three cells for the engine, a quiz, and two submissions."""
     api = pytest.importorskip(
         "nbgrader.api", reason="needs the extra notebooks, which make soak installs"
     )

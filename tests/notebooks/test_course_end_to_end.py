@@ -1,4 +1,4 @@
-"""A whole course with the real nbgrader: its command line, eight students, one gradebook.
+"""Grade a course of eight students with nbgrader's own command line.
 
 Needs nbgrader beside the grader; takes some minutes.
 """
@@ -58,7 +58,7 @@ def edit(path, old, new):
 
 
 def with_noise(notebook, cell_id, before):
-    """The answer in a cell, with noise to stderr inside its function."""
+    """Write noise to stderr into the function of an answer."""
     text = next(source(cell) for cell in notebook["cells"] if cell["id"] == cell_id)
     noise = "".join(f"    {line}\n" for line in NOISE.splitlines() if line)
     assert text.count(before) == 1
@@ -71,10 +71,13 @@ def without_cell(notebook, cell_id):
 
 
 def make_class(folder):
-    """anna: complete. ben: untouched. chen: TODO 4 is wrong, and much goes to stderr.
+    """Make the class.
+
+    anna: complete. ben: untouched. chen: TODO 4 is wrong, and much goes to stderr.
     dora: a loop in a notebook, a test deleted, a wrong answer. emil: a loop when integrators.py
     is imported. farid: no notebooks. gus: a loop that cannot be interrupted.
-    hana: a notebook that is no notebook."""
+    hana: a broken notebook.
+    """
     hand_in(folder / "anna", "solution", answers())
     hand_in(folder / "ben", "starter", {n: read(RELEASED / f"{n}.ipynb") for n in NAMES})
 
@@ -114,7 +117,7 @@ def bridge(course, *results):
 
 @pytest.fixture(scope="module")
 def course(tmp_path_factory):
-    """Everything up to the marks in the gradebook, once for all tests."""
+    """Make the course up to the marks in the gradebook, once for all tests."""
     pytest.importorskip(
         "nbgrader.api", reason="needs the extra notebooks, which make soak installs"
     )
@@ -135,7 +138,7 @@ def course(tmp_path_factory):
 
 
 def gradebook(course):
-    """All that the gradebook says about everybody's submission."""
+    """Return the grades and comments of all submissions."""
     import nbgrader.api as api
 
     with api.Gradebook(f"sqlite:///{course}/gradebook.db") as book:
@@ -160,7 +163,7 @@ def book(course):
 
 
 def lost(book, student, notebook):
-    """The cells graded by a program that did not get full points."""
+    """Return the automatically graded cells without full points."""
     grades = book[student][notebook]["grades"].items()
     return {name for name, (score, most, waits) in grades if score != most and not waits}
 
@@ -287,7 +290,7 @@ def test_feedback_gives_the_reasons(course):
 
 
 def test_a_students_words_are_never_markup(course, tmp_path):
-    """On a copy: a result whose words would run in a browser."""
+    """Bridge a result with a script in its words, on a copy."""
     copy = tmp_path / "copy"
     shutil.copytree(course, copy, ignore=shutil.ignore_patterns("submitted"))
     result = json.loads((course / "results" / "chen.json").read_text(encoding="utf-8"))
@@ -338,7 +341,7 @@ def test_the_gradebook_learns_the_names_of_the_class(course, tmp_path):
 
 
 def test_a_changed_submission_is_taken_in_and_graded_anew(course, tmp_path):
-    """On a copy: ben hands in again, with the solution's quiz."""
+    """Hand in ben's work again with the solution's quiz, on a copy."""
     copy = tmp_path / "copy"
     shutil.copytree(course, copy)
     again = tmp_path / "class"

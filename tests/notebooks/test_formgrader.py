@@ -1,4 +1,4 @@
-"""A teacher's way with nbgrader's own tools: zip_collect, autograde, feedback, and the formgrader.
+"""Grade a course with zip_collect, autograde, feedback and the formgrader of nbgrader.
 
 Needs nbgrader beside the grader, and Chromium; takes some minutes.
 """
@@ -26,7 +26,7 @@ ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/")
 
 @pytest.fixture(scope="module")
 def course(tmp_path_factory):
-    """Anna's work is complete, and Ben has one answer of the quiz wrong."""
+    """Make a course: Anna's work is complete, and Ben has one wrong answer in the quiz."""
     pytest.importorskip(
         "nbgrader.api", reason="needs the extra notebooks, which make soak installs"
     )

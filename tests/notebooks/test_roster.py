@@ -1,4 +1,4 @@
-"""Class lists of Canvas and Moodle, and the marks that go back to them."""
+"""Read class lists of Canvas and Moodle, and write marks into them."""
 
 import csv
 import io
@@ -6,7 +6,6 @@ import io
 import msgspec
 import pytest
 
-from grader.classroom.book import Outcome
 from grader.classroom.marks import (
     Marking,
     Part,
@@ -14,7 +13,6 @@ from grader.classroom.marks import (
     compute_mark,
     load_marking,
     make_marks,
-    make_parts,
 )
 from grader.errors import Stop
 from grader.intake.roster import list_people
@@ -153,11 +151,6 @@ def test_who_is_not_in_the_list_is_named(tmp_path):
     roster = listed(tmp_path, CANVAS)
     made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE, "guest": ZOE}, MARKING))
     assert "guest: handed in, but is not in the class list under 'SIS Login ID'" in made.notes
-
-
-def test_results_alone_make_marks_of_the_engine():
-    done = Outcome("zoe", points=87, final=87, max_points=100)
-    assert make_parts([done]) == {"zoe": {"engine": Part(87, 100)}}
 
 
 def test_the_shipped_settings_name_the_notebooks():

@@ -1,4 +1,4 @@
-"""What nbgrader releases, in the hands of a student: a new folder, a new Python, and the README."""
+"""A student sets up nbgrader's release by its README, in a new folder with a new Python."""
 
 import os
 import re
@@ -22,7 +22,7 @@ HERE = Path(sys.executable).parent
 
 
 def typed(lines: str, folder: Path) -> subprocess.CompletedProcess[str]:
-    """What a person types in a shell of their own, this environment not activated in it."""
+    """Run lines in a new shell, without this environment."""
     kept = ("HOME", "LANG", "http_proxy", "https_proxy", "no_proxy", "PIP_INDEX_URL")
     environment = {name: os.environ[name] for name in kept if name in os.environ}
     system = [str(Path(sys.base_prefix, "bin")), "/usr/bin", "/bin"]
@@ -36,7 +36,7 @@ def typed(lines: str, folder: Path) -> subprocess.CompletedProcess[str]:
 
 
 def first_lines(readme: str) -> str:
-    """The first block of commands that the README tells a student to type."""
+    """Return the first block of commands in the README."""
     block = re.search(r"^```\w*\n(.*?)^```", readme, re.M | re.S)
     assert block is not None and "pip install" in block[1]
     return block[1]
@@ -44,7 +44,7 @@ def first_lines(readme: str) -> str:
 
 @pytest.fixture(scope="module")
 def handed_out(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder that nbgrader's own command releases, copied to where nothing else is."""
+    """Release an assignment by nbgrader's own command; return a copy of its folder."""
     pytest.importorskip("nbgrader.api", reason="needs the extra notebooks")
     top = tmp_path_factory.mktemp("nbgrader")
     (archive,) = releases.build(top / "work", []).glob("*.zip")

@@ -23,7 +23,7 @@ from grader.source.cut import list_defined, list_uses
 
 
 def draw_courses(count: int, seed: int = 1) -> Iterator[Course]:
-    """Draw courses of any TODOs, with the bonus in any form, that may be taken."""
+    """Draw valid courses of any TODOs, with the bonus in any form."""
     draw = random.Random(seed)
     ids = [todo.id for todo in load_rubric().todos]
     while count:
@@ -35,7 +35,7 @@ def draw_courses(count: int, seed: int = 1) -> Iterator[Course]:
 
 
 def find_missing(texts: dict[str, str]) -> list[str]:
-    """Return what the files of checks import from each other, and is not there."""
+    """Return the missing names that the files of checks import from each other."""
     modules = {f"grader.checks.{name[:-3].replace('/', '.')}": name for name in texts}
     every = [*modules, *(f"grader.checks.{name}" for name in ("exact", "pacing", "todo_7.checks"))]
     here = {
@@ -98,7 +98,7 @@ ODDER = ("1,B4", "7b", "6,whole", "2", "4,5,B1,B6", "7a,8b,whole", "5,B3")
     "names", [*ODD, *(pytest.param(each, marks=pytest.mark.soak) for each in ODDER)]
 )
 def test_nothing_asks_for_what_a_course_leaves_out(names: str):
-    """Nor names it, but where it says that it is given, and the program of the measured effects."""
+    """Except where a page says that a TODO is given, and in the program of effects."""
     course = Course(todos=tuple(names.split(",")))
     left = [todo.id for todo in course.given]
     about = re.compile(
@@ -110,7 +110,7 @@ def test_nothing_asks_for_what_a_course_leaves_out(names: str):
 
 
 def write_artefacts(course: Course) -> Iterator[tuple[str, str]]:
-    """Yield what students and nbgrader get of a course, but the code of the checks."""
+    """Yield all texts of a course for students and nbgrader, except the checks."""
     files = make_students_tree(KIT, course)
     files |= make_notebooks(KIT / "solution" / "notebooks", course)
     for name, content in files.items():

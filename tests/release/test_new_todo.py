@@ -92,7 +92,7 @@ Stuck? `make hint TODO=9`, or [the hints](hints.md#todo-9-how-far-a-spring-swing
 
 
 def add_todo_9(kit: Path) -> None:
-    """Edit what steps 1 to 4 name, and no other file."""
+    """Edit the files of steps 1 to 4."""
     for tree, line in (("solution", SOLVED), ("starter", STUB)):  # 1
         put_before(kit / tree / "integrators.py", "\n\ndef main():", FUNCTION.format(line=line))
     rubric = kit / "grader" / "checks" / "rubric.toml"  # 2
@@ -148,7 +148,7 @@ def make_the_rest(kit: Path) -> None:
 
 
 def run(kit: Path, *words: str, status: int = 0) -> str:
-    """Start Python in the copy, and return what it prints."""
+    """Run Python in the copy, and return its output."""
     course = str(kit / "course.toml")
     settings = {**os.environ, "PYTHONPATH": str(kit), "COLUMNS": "200", "COURSE_FILE": course}
     command = [sys.executable, *words]

@@ -1,4 +1,4 @@
-"""What a release records, and when it is recorded again."""
+"""A release keeps its recordings until their sources change."""
 
 from pathlib import Path
 

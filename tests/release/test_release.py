@@ -87,7 +87,7 @@ class Released:
         return wheel
 
     def check(self, submissions: list[tuple[Path, frozenset[str]]]) -> list[Result]:
-        """What `check` says in the students' copy of the grader."""
+        """Return the results of `check` in the students' copy."""
         asked = "\n".join(json.dumps([str(path), sorted(todos)]) for path, todos in submissions)
         done = subprocess.run(
             releases.make_command(self.installed, f"exec({GRADE!r})"),
@@ -115,7 +115,7 @@ def make(work: Path, chosen: list[Member]) -> Released:
 
 
 def released_in(work: Path, chosen: list[Member]) -> Released:
-    """What `make` left in a folder."""
+    """Return the release that `make` wrote into a folder."""
     (archive,) = (work / "built").glob("*.zip")
     tree = work / "unpacked" / releases.NAME
     return Released(work / "built", archive, tree, work / "installed", wrong_in(work, chosen))
@@ -127,10 +127,10 @@ def wrong_in(work: Path, chosen: list[Member]) -> dict[str, Path]:
 
 @pytest.fixture(scope="session")
 def released(once, expected_runs: bytes, practice_file: bytes, secrets: list[Secret]) -> Released:
-    """Made by one of the processes that run the tests, with the runs that are recorded already.
+    """Make a release once for all test processes, with the recorded runs.
 
-    It has the answers of the TODOs in ASKED alone. What the copy makes of both trees is asked by
-    `make release` and in `make soak`.
+    It has the answers of the TODOs in ASKED alone. `make release` and `make soak` grade both trees
+    with the whole copy.
     """
 
     def fill(work: Path) -> None:
@@ -152,7 +152,7 @@ def released(once, expected_runs: bytes, practice_file: bytes, secrets: list[Sec
 
 
 def recorded_for_some(wrong: Iterable[Tree], rubric: Rubric) -> recorded.RecordedAnswers:
-    """The right answers of those TODOs alone that `make test` asks of the copy."""
+    """Record the answers of the TODOs in ASKED alone."""
     return record_answers(wrong, Rubric([todo for todo in rubric.todos if todo.id in ASKED]))
 
 
@@ -168,15 +168,17 @@ Pair = tuple[TodoResult, TodoResult]  # ours and theirs
 
 
 def as_told(todo: TodoResult) -> dict[str, CheckResult]:
-    """The checks of a TODO, without what only one of both graders may know."""
+    """Return the checks of a TODO without their meanings and replays."""
     return {
         check.id: msgspec.structs.replace(check, meaning="", replay=None) for check in todo.checks
     }
 
 
 def compare(released: Released, submissions: list[tuple[Path, frozenset[str]]]) -> list[Pair]:
-    """Ask `check` of the copy and `grade` of the kit: every visible check must end alike, with the
-    same words. Returns what both say of each TODO."""
+    """Check submissions with the copy and the kit, and compare every visible check.
+
+    Return both results of each TODO.
+    """
     pairs: list[Pair] = []
     for (path, todos), theirs in zip(submissions, released.check(submissions), strict=True):
         ours = grade(path, Options(reference=None, only=todos), shared_worker())
@@ -189,9 +191,9 @@ def compare(released: Released, submissions: list[tuple[Path, frozenset[str]]]) 
 
 
 def contradicts_nothing(our: TodoResult, their: TodoResult) -> bool:
-    """Whether the kit names the mistake that the copy names, be it for a part of the questions.
+    """Return whether the kit names the copy's mistake, at least in one check.
 
-    It asks more, and hidden checks may show where the mistake is not made.
+    The kit asks more questions, and hidden checks may show that the mistake is not made there.
     """
     if their.misconception in (our.misconception, None):
         return True
@@ -202,7 +204,7 @@ def contradicts_nothing(our: TodoResult, their: TodoResult) -> bool:
 
 
 def share_named(pairs: list[Pair]) -> float:
-    """How many of the mistakes that the kit names the copy names as well."""
+    """Return the share of the kit's named mistakes that the copy names too."""
     named = [their.misconception for our, their in pairs if our.misconception]
     return sum(map(bool, named)) / len(named)
 
@@ -247,7 +249,7 @@ ON_THIS_MACHINE = {
 def test_a_machine_with_other_things_on_it_changes_nothing(
     released: Released, tmp_path: Path, names: tuple[str, ...]
 ):
-    """`check` runs in the student's folder, on any machine, and says what `grade` will."""
+    """`check` in the student's folder, on any machine, agrees with `grade`."""
     text = (KIT / "starter" / "integrators.py").read_text(encoding="utf-8")
     trees = []
     for name, body in ((name, ON_THIS_MACHINE[name][0]) for name in names):
@@ -286,7 +288,7 @@ def test_the_wheel_has_the_visible_rubric(released: Released):
 def test_a_release_is_proved_by_the_course_in_it_and_refused_if_it_marks_wrongly(
     released: Released, monkeypatch
 ):
-    """`make release COURSE_FILE=…` hands the file on, and with it points of checks left out."""
+    """`make release COURSE_FILE=…` passes the file on to the copy."""
     monkeypatch.setenv("COURSE_FILE", str(KIT / "tests" / "courses" / "integrators.toml"))
     none = releases.grade_with(released.installed, KIT / "starter")
     assert none.max_points == drop_hidden(load_rubric()).max_points
@@ -385,7 +387,7 @@ def test_a_line_is_found_in_every_kind_of_file(name: str, secrets: list[Secret])
 def test_planted_leaks_stop_the_release(
     released: Released, secrets: list[Secret], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
-    """A solution line in the starter, in a handout, in the hints and in the wheel's code."""
+    """Plant solution lines in the starter, in a handout, in the hints and in the wheel."""
     monkeypatch.setattr(releases, "find_secrets", lambda *_: secrets)  # found out once
     tree = tmp_path / releases.NAME
     shutil.copytree(released.tree, tree)
@@ -411,7 +413,7 @@ def test_planted_leaks_stop_the_release(
 
 
 def test_one_verify_serves_every_course(tmp_path: Path, monkeypatch):
-    """What a course's members are made of and graded by is what `make verify` has kept."""
+    """The members of a course are those that `make verify` has graded."""
     few = Course(todos=("8c",), points={"8c": 7})
     asked: dict[str, list[Member]] = {"full": [], "few": []}
     for name, course in (("full", FULL), ("few", few)):
@@ -486,7 +488,7 @@ def test_a_student_unpacks_few_files_and_reads_a_short_readme(released: Released
 
 
 def unpack_extra(released: Released, name: str, folder: Path) -> dict[str, Path]:
-    """Unpack an archive beside the lab; returns its files by name."""
+    """Unpack an archive beside the lab; return its files by name."""
     (archive,) = released.built.glob(f"*-extra/{name}.zip")
     shutil.unpack_archive(archive, folder)
     return dict(releases.list_files(folder / releases.NAME))
@@ -591,9 +593,9 @@ build(Path(sys.argv[2]), [], read_course(Path(sys.argv[3])))
 
 @SOAK
 def test_the_release_is_the_same_wherever_and_whenever_it_is_built(tmp_path: Path):
-    """With other modes for new files, other paths, time zones, locales and orders of sets.
+    """Build with other file modes, paths, time zones, locales and orders of sets.
 
-    The course has TODOs of several files: what is known of each was once read in a set's order.
+    The course has TODOs of several files, which were once read in the order of a set.
     """
     course = tmp_path / "course.toml"
     course.write_text('todos = ["3", "7c", "B2"]\n', encoding="utf-8")
@@ -625,12 +627,7 @@ def test_only_what_runs_is_required():
 NO_FORK = "import os; del os.fork; "  # as on Windows
 
 
-@pytest.mark.parametrize(
-    ("first", "folder"), [pytest.param("", "mini_engine", marks=SOAK), (NO_FORK, ".")]
-)
-def test_a_student_unpacks_checks_and_hands_in(
-    released: Released, tmp_path: Path, first: str, folder: str
-):
+def test_a_student_unpacks_checks_and_hands_in(released: Released, tmp_path: Path):
     """With the packages of this environment; `test_walk.py` has the whole lab."""
     tree = tmp_path / "a course" / releases.NAME
     shutil.copytree(released.tree, tree)
@@ -638,8 +635,8 @@ def test_a_student_unpacks_checks_and_hands_in(
     def types(*words: str) -> tuple[int, str]:
         argv = ["grader", *words]
         code = f"import runpy; sys.argv = {argv!r}; runpy.run_module('grader', run_name='__main__')"
-        command = releases.make_command(released.installed, first + code)
-        done = subprocess.run(command, cwd=tree / folder, capture_output=True, text=True)
+        command = releases.make_command(released.installed, NO_FORK + code)
+        done = subprocess.run(command, cwd=tree, capture_output=True, text=True)
         assert not done.stderr
         return done.returncode, done.stdout
 
@@ -712,7 +709,7 @@ def test_a_body_is_replaced_below_its_docstring():
 
 
 def test_visible_checks_are_cut_out_unchanged():
-    """A property draws its examples from its own text, so that text must stay as it is."""
+    """The students' copy asks the same as the kit."""
     cut = cut_checks(drop_hidden(load_rubric()))
     for todo in drop_hidden(load_rubric()).todos:
         text = (CHECKS / todo.folder / "checks.py").read_text(encoding="utf-8")
@@ -723,7 +720,7 @@ def test_visible_checks_are_cut_out_unchanged():
 
 
 def test_no_check_imports_an_oracle_by_its_name():
-    """It is asked as exact.NAME, so that a release can write down what it answers."""
+    """Checks call it as exact.NAME, so that a release can replace it."""
     names = set(recorded.oracles)
     assert names == {name for name in names if callable(getattr(exact, name))}
     for path in CHECKS.rglob("*.py"):

@@ -1,4 +1,4 @@
-"""The lab as a page: static files, used in a browser as a student would, and graded alike."""
+"""The page for a browser is used as a student would, and grades as the kit does."""
 
 import gzip
 import http.server
@@ -97,7 +97,7 @@ worker.close()
 
 
 def need_parts() -> None:
-    """Skip a test without what the page is made of, which CI fetches."""
+    """Skip a test without the page's parts; CI fetches them."""
     try:
         if os.environ.get("CI"):
             fetch_parts(CACHE)
@@ -109,7 +109,7 @@ def need_parts() -> None:
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory, expected_runs: bytes) -> Path:
-    """The page's folder, without what wrong members would add to the recorded answers."""
+    """Build the page without the recorded answers of wrong members."""
     need_parts()
 
     def record(name: str, make: Callable[[], bytes]) -> bytes:
@@ -148,7 +148,7 @@ def address(site: Path) -> Iterator[str]:
 
 
 class Tab:
-    """The page in a browser, and what it asked of other hosts or complained about."""
+    """The page in a browser, with its errors and requests to other hosts."""
 
     def __init__(self, browser: Any, address: str) -> None:
         self.context = browser.new_context(accept_downloads=True, bypass_csp=True)
@@ -168,7 +168,7 @@ class Tab:
         self.page.wait_for_selector("body[data-shown]")
 
     def do(self, button: str) -> str:
-        """Press a button, wait until it has been done, and return what the page says."""
+        """Press a button, wait for its end, and return the page's status."""
         self.page.click(f"#{button}")
         return self.wait()
 
@@ -216,7 +216,7 @@ def asked(has_pymunk: bool) -> dict[str, str]:
 
 
 def list_passed(zipped: Path) -> set[str]:
-    """Return the TODOs that pass in what was handed in, by the command of an instructor."""
+    """Grade a submission as an instructor; return the TODOs that pass."""
     out = zipped.with_suffix(".json")
     command = [sys.executable, "-m", "grader", "grade", str(zipped), "--json", str(out)]
     subprocess.run(command, cwd=KIT, check=True, capture_output=True)
@@ -426,7 +426,7 @@ def test_endless_loops_end_in_firefox(address: str, tmp_path: Path):
 
 
 def write_members(members: Iterable[tuple[Member, list[str]]], folder: Path) -> list[str]:
-    """Write what each of these hands in, and the TODOs to ask it about; return their names."""
+    """Write these members' files and the TODOs to check; return their names."""
     names = []
     (folder / "asked").mkdir(parents=True)
     for number, (member, todos) in enumerate(members):
@@ -449,7 +449,7 @@ def grade_on_the_page(site: Path, folder: Path) -> list[Result]:
 
 
 def grade_by_processes(site: Path, folder: Path) -> list[Result]:
-    """Grade the same with the sources of the page's grader, as a computer does."""
+    """Grade the same members in processes, with the sources of the page's grader."""
     kit, lab = site.parents[1] / "copy", folder / "lab"
     for name, content in make_students_tree(KIT, FULL).items():
         (lab / name).parent.mkdir(parents=True, exist_ok=True)
@@ -466,7 +466,7 @@ def read_results(command: list[str], folder: Path) -> list[Result]:
 
 
 def assert_same(site: Path, folder: Path, names: list[str]) -> None:
-    """Both must give the same result, but for the isolation and how a Python words its errors."""
+    """Compare both results, except the isolation and Python's words for errors."""
     pairs = zip(
         names, grade_on_the_page(site, folder), grade_by_processes(site, folder), strict=True
     )
@@ -477,9 +477,9 @@ def assert_same(site: Path, folder: Path, names: list[str]) -> None:
 
 
 def without_errors(todo: TodoResult) -> TodoResult:
-    """Return the same without what hangs on the version of Python.
+    """Return a result without words that depend on the version of Python.
 
-    Each has its own words for errors, and counts the lines of a comprehension in its own way.
+    Versions differ in their words for errors and in how they count lines of a comprehension.
     """
     checks = [
         replace(each, got="", meaning="")
@@ -503,7 +503,7 @@ def test_members_get_the_same_on_the_page(site: Path, tmp_path: Path):
 
 
 def needs_more(member: Member, tree: Path) -> bool:
-    """Return whether a member needs what the page lacks, and says so: numpy, or threads."""
+    """Return whether a member needs numpy or threads, which the page lacks."""
     member.build(KIT, tree)
     texts = [read_source(path) for path in tree.rglob("*.py")]
     return any(re.search("import numpy|import (_thread|threading)", text) for text in texts)
@@ -556,7 +556,7 @@ def test_what_is_loaded_is_compiled_and_the_search_has_read_its_source(site: Pat
 
 
 def list_unpacked(packed: Path) -> list[str]:
-    """Return the names of what the page unpacks from one of its archives."""
+    """Return the names in one of the page's archives."""
     with zipfile.ZipFile(packed) as outer:
         inner = io.BytesIO(outer.read(tab_page.SOLID))
     with zipfile.ZipFile(inner) as archive:

@@ -1,4 +1,4 @@
-"""The whole lab as the lab sheet says it, typed from the unpacked zip to full marks."""
+"""Do the whole lab as the lab sheet says, from the unpacked zip to full marks."""
 
 import html
 import os
@@ -28,22 +28,22 @@ LINES = 16  # of the first screen
 
 @pytest.fixture(scope="session")
 def zip_unpacked(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """What students unpack, with all that is recorded for them."""
+    """Make a release with all recordings; return its unpacked folder."""
     return make(tmp_path_factory.mktemp("released"), []).tree
 
 
 @dataclass
 class Student:
-    """Somebody who types what the pages say, in the unpacked folder."""
+    """A student who types the commands of the pages in the unpacked folder."""
 
     tree: Path
     python: str = sys.executable
     forks: bool = True
 
     def types(self, line: str) -> str:
-        """What a line of a page prints; `python` is that of the folder's own environment.
+        """Run a line of a page and return its output; `python` is the folder's own.
 
-        Its exit status is 0; without make, that of a check may say that points are missing.
+        Its exit status is 0, or without make, after a check, also 1.
         """
         words = [self.python if word == "python" else word for word in shlex.split(line)]
         kept = {name: os.environ[name] for name in ("PATH", "HOME", "LANG") if name in os.environ}
@@ -64,7 +64,7 @@ class Student:
         return done.stdout
 
     def command(self, with_make: str) -> str:
-        """A command of the sheet; where there is no make, as the sheet says it without."""
+        """Return a command of the sheet in its form with make or without."""
         if self.forks and shutil.which("make"):
             return with_make
         _, what, *options = with_make.split()
@@ -90,13 +90,13 @@ def sheet_of(tree: Path) -> str:
 
 
 def blocks(page: str) -> Iterator[list[str]]:
-    """The blocks of lines to be typed."""
+    """Yield the blocks of commands of a page."""
     for block in re.findall(r"<pre[^>]*><code>(.*?)</code></pre>", page, re.DOTALL):
         yield html.unescape(block).splitlines()
 
 
 def tasks(page: str) -> Iterator[tuple[str, str, str]]:
-    """The tasks in their order: TODO, file, and the command that is to say PASSED."""
+    """Yield the tasks in their order: TODO, file, and the command that says PASSED."""
     for section in re.split(r'<h2 id="todo-', page)[1:]:
         said = re.search(r"<code>(make check TODO=(\w+))</code> says <code>PASSED</code>", section)
         file = re.search(r"<code>([\w/]+\.py)</code>", section)
@@ -105,7 +105,7 @@ def tasks(page: str) -> Iterator[tuple[str, str, str]]:
 
 
 def environment_of(tree: Path, python: str) -> str:
-    """Set up the folder as its README says; returns its Python."""
+    """Set up the folder as its README says; return its Python."""
     if subprocess.run([python, "-m", "venv", ".venv"], cwd=tree, capture_output=True).returncode:
         pytest.skip(f"{python} makes no environment here")
     own = tree / ".venv" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
@@ -155,7 +155,7 @@ def test_the_lab_is_walked_from_the_zip_to_full_marks(
 
 
 def walk_through_experiments(student: Student, program: str, check: str) -> None:
-    """Change given code as the sheet has it, see that it is noticed, and put it back."""
+    """Change given code as the sheet says, check that it is noticed, and restore it."""
     loop, constants = "mini_engine/game_loop.py", "mini_engine/constants.py"
     student.changes(loop, "clock.tick(60)", "clock.tick(144)")
     student.changes(constants, "ITERATIONS = 8 ", "ITERATIONS = 80 ")
@@ -168,7 +168,7 @@ def walk_through_experiments(student: Student, program: str, check: str) -> None
 
 
 def test_what_is_typed_stands_in_the_sheet_in_the_order_of_the_lab(tmp_path: Path):
-    """The short form of the walk: the same is read off the page, and nothing is run."""
+    """Read the commands of the walk from the page, without running them."""
     write_pages(KIT / "handouts", tmp_path / "handouts")
     page = sheet_of(tmp_path)
     found = list(tasks(page))
