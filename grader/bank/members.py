@@ -113,6 +113,12 @@ class Entry(Variant, frozen=True):
         return {file.partition("/")[0].removesuffix(".py") for file in self.files}
 
 
+class Printed(Entry, frozen=True):
+    """A variant of the lesson's programs."""
+
+    base: str = f"{LESSON}as-printed"
+
+
 class Wrong(Entry, frozen=True):
     """A wrong member. It is a half-way state as well if it `says` anything."""
 
@@ -332,7 +338,7 @@ def lesson_members(bank: Path) -> Iterator[Member]:
     """Yield the lesson's programs as printed, and the variants of them."""
     yield from (each for each in submissions(bank, "right") if is_of_lesson(each.name))
     sheet = bank / "lesson.toml"
-    entries = msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Entry])
+    entries = msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Printed])
     for name, entry in entries.items():
         yield Member("right", f"{LESSON}{name}", "package", entry, sheet)
 
