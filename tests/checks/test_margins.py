@@ -41,10 +41,16 @@ def named(value: Any) -> str:
     return getattr(value, "__name__", str(value))
 
 
-def run_scene(
-    module: str, scene: Callable[[Lab], None], seed: int, times: float, folder: Path
-) -> None:
+@pytest.mark.parametrize(
+    ("module", "scene", "seed", "times"),
+    [pytest.param(*case, marks=[] if case in FEW else pytest.mark.soak) for case in CASES],
+    ids=named,
+)
+def test_a_scene_holds_with_other_balls_and_at_other_times(
+    module: str, scene: Callable[[Lab], None], seed: int, times: float, tmp_path: Path
+):
     """Ask the lesson's program for a scene, with balls and a length of its own."""
+    folder = tmp_path / "lesson"
     lay_over(LESSON, folder)
     for path in folder.glob("*.py"):
         text = path.read_text(encoding="utf-8").replace("Random(12)", f"Random({seed})")
@@ -60,18 +66,3 @@ def run_scene(
         patch.setattr(checks, "PHOTOGRAPHED", photographed)
         with opened(folder) as children, Lab(module, lambda: children(20), []).opened() as lab:
             scene(lab)
-
-
-@pytest.mark.soak
-@pytest.mark.parametrize(("module", "scene", "seed", "times"), CASES, ids=named)
-def test_a_scene_holds_with_other_balls_and_at_other_times(
-    module: str, scene: Callable[[Lab], None], seed: int, times: float, tmp_path: Path
-):
-    run_scene(module, scene, seed, times, tmp_path / "lesson")
-
-
-@pytest.mark.parametrize(("module", "scene", "seed", "times"), FEW, ids=named)
-def test_so_it_is_for_some(
-    module: str, scene: Callable[[Lab], None], seed: int, times: float, tmp_path: Path
-):
-    run_scene(module, scene, seed, times, tmp_path / "lesson")
