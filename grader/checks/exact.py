@@ -35,7 +35,7 @@ class Touch(NamedTuple):
 
 @recorded.oracle()
 def circle_box(disc: Disc, rect: Rect) -> list[Touch | None]:
-    """The contact of a disc with a box; several answers where faces are equally near."""
+    """Return the contact of a disc with a box; several where faces are equally near."""
     x = min(max(disc.x, rect.x - rect.hx), rect.x + rect.hx)
     y = min(max(disc.y, rect.y - rect.hy), rect.y + rect.hy)
     dx, dy = x - disc.x, y - disc.y
@@ -60,7 +60,7 @@ def equally_near(disc: Disc, rect: Rect) -> bool:
 
 @recorded.oracle()
 def ways_out(disc: Disc, rect: Rect) -> list[Touch]:
-    """The contacts by which a disc with its centre inside could leave: left, right, top, bottom."""
+    """Return the contacts by which a centre inside could leave: left, right, top, bottom."""
     left, right = rect.x - rect.hx, rect.x + rect.hx
     top, bottom = rect.y - rect.hy, rect.y + rect.hy
     return [
@@ -80,7 +80,7 @@ DAMPED_STEPS = [*STEP_SIZES, 1 / 24, 1 / 50, 1 / 118, 1 / 100, 1 / 1000, 0.1, 0.
 
 @recorded.oracle(RATES, DAMPED_STEPS)
 def damped(rate: float, seconds: float) -> float:
-    """The share of a speed that is left after so many seconds at a rate per second."""
+    """Return the share of a speed that is left after so many seconds at a rate per second."""
     return math.exp(-rate * seconds)
 
 
@@ -91,7 +91,7 @@ Pair = tuple[float, float]
 
 
 def inverse(mass: float) -> float:
-    """In 1/kg; a mass of 0 is a static body's, which no impulse moves."""
+    """Return 1 / mass, in 1/kg; a mass of 0 is a static body's, which no impulse moves."""
     return 1 / mass if mass else 0.0
 
 
@@ -114,7 +114,7 @@ def cross(first: Pair, second: Pair) -> float:
 
 @recorded.oracle()
 def effective_mass(a: Lever, b: Lever, axis: Pair) -> float:
-    """The sum that effective_mass returns, in 1/kg."""
+    """Return the sum that effective_mass returns, in 1/kg."""
     turning = (cross((each.rx, each.ry), axis) ** 2 * inverse(each.inertia) for each in (a, b))
     return inverse(a.mass) + inverse(b.mass) + sum(turning)
 
@@ -141,7 +141,7 @@ class Rod(NamedTuple):
 
     @property
     def speed(self) -> float:
-        """The speed of B away from A, px/s."""
+        """Return the speed of B away from A, px/s."""
         (ax, ay), (bx, by), (x, y) = self.vel_a, self.vel_b, self.axis
         return (bx - ax) * x + (by - ay) * y
 
@@ -152,20 +152,20 @@ class Rod(NamedTuple):
 
     @property
     def turned(self) -> "Rod":
-        """The same rod with A for B and B for A."""
+        """Return the same rod with A for B and B for A."""
         x, y = self.offset
         ends = self.mass_b, self.mass_a, self.length, (-x, -y), self.vel_b, self.vel_a
         return Rod(*ends, self.dt)
 
     @property
     def bias(self) -> float:
-        """The speed of B away from A that takes the share BETA of the error away, px/s."""
+        """Return the speed of B away from A that takes the share BETA of the error away, px/s."""
         return -BETA / self.dt * (math.hypot(*self.offset) - self.length)
 
 
 @recorded.oracle()
 def pushed(rod: Rod, impulse: float) -> tuple[Pair, Pair]:
-    """The velocities of A and B after an impulse along the axis; positive pushes them apart."""
+    """Return the velocities of A and B after an impulse along the axis; above 0 it parts them."""
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
     a, b = impulse * inverse(rod.mass_a), impulse * inverse(rod.mass_b)
     return (ax - a * x, ay - a * y), (bx + b * x, by + b * y)
@@ -173,7 +173,7 @@ def pushed(rod: Rod, impulse: float) -> tuple[Pair, Pair]:
 
 @recorded.oracle()
 def rod_solved(rod: Rod) -> tuple[Pair, Pair]:
-    """The velocities of A and B after a pass over the rod."""
+    """Return the velocities of A and B after a pass over the rod."""
     return pushed(rod, (rod.bias - rod.speed) / rod.k)
 
 
@@ -191,7 +191,7 @@ class Spring(NamedTuple):
 
 @recorded.oracle()
 def spring_applied(spring: Spring) -> tuple[Pair, Pair]:
-    """The velocities of A and B after the spring's force has worked for a step (Hooke's law)."""
+    """Return the velocities of A and B after a step of the spring's force (Hooke's law)."""
     rod = spring.rod
     force = spring.stiffness * spring.stretch + spring.damping * rod.speed
     return pushed(rod, -force * rod.dt)
@@ -219,7 +219,10 @@ def clamped(value: float, limit: float) -> float:
 
 @recorded.oracle()
 def friction(mu: Pair, k: float, closing: float, slip: float) -> float:
-    """The friction impulse on B in a step, along the slip, kg px/s; k in 1/kg, speeds in px/s."""
+    """Return the friction impulse on B in a step, along the slip, kg px/s.
+
+    k is in 1/kg, the speeds in px/s.
+    """
     return clamped(-slip / k, math.sqrt(mu[0] * mu[1]) * max(closing / k, 0.0))
 
 
@@ -230,7 +233,7 @@ Accel = Callable[[float], float]
 
 
 def polynomial(coefficients: Sequence[float]) -> Accel:
-    """The acceleration c0 + c1 x + c2 x² + ..."""
+    """Return the acceleration c0 + c1 x + c2 x² + ..."""
     return lambda x: math.fsum(c * x**power for power, c in enumerate(coefficients))
 
 
@@ -242,7 +245,7 @@ def semi_implicit_euler(x: float, v: float, dt: float, accel: Accel) -> State:
 
 @recorded.oracle()
 def velocity_verlet(x: float, v: float, dt: float, accel: Accel) -> State:
-    """Half a kick, the whole way, half a kick."""
+    """Take half a kick, the whole way, half a kick."""
     half_way = v + dt / 2 * accel(x)
     x += dt * half_way
     return x, half_way + dt / 2 * accel(x)
@@ -250,7 +253,7 @@ def velocity_verlet(x: float, v: float, dt: float, accel: Accel) -> State:
 
 @recorded.oracle()
 def rk4(x: float, v: float, dt: float, accel: Accel) -> State:
-    """The classical Runge-Kutta method for (x, v)' = (v, accel(x))."""
+    """Take a step of the classical Runge-Kutta method for (x, v)' = (v, accel(x))."""
     total_dx = total_dv = 0.0
     dx, dv = v, accel(x)
     for weight, reach in ((1, dt / 2), (2, dt / 2), (2, dt), (1, 0.0)):
@@ -283,6 +286,6 @@ Place = tuple[float, float, float]  # x and y in px, an angle in rad
 
 @recorded.oracle()
 def part_of_the_way(before: Place, now: Place, share: float) -> Place:
-    """So much of the way from one place and angle to another."""
+    """Return the position and angle at this share of the way from one to the other."""
     x, y, angle = (begin + (end - begin) * share for begin, end in zip(before, now, strict=True))
     return x, y, angle

@@ -37,7 +37,7 @@ def frames_at(rate: int, seconds: float) -> list[int]:
 
 
 def ever_longer_frames() -> list[int]:
-    """Frames of all lengths below the cap, 6 of each: a length that is taken for another shows."""
+    """Return frames of all lengths below the cap, 6 of each, so that a wrong length shows."""
     return [length for length in range(1, LONGEST_FRAME + 1) for _ in range(6)]
 
 

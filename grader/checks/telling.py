@@ -43,6 +43,6 @@ def told_apart(
 
 
 def decimals_to_tell(wanted: Iterable[float], got: Iterable[float], least: int) -> int:
-    """So many decimals that *Expected* and *Got* look different: `least`, or up to 15."""
+    """Return how many decimals make *Expected* and *Got* look different: `least`, or up to 15."""
     off = max((abs(a - b) for a, b in zip(wanted, got, strict=True)), default=1.0)
     return min(15, max(least, math.ceil(-math.log10(off)))) if 0 < off < math.inf else least

@@ -81,7 +81,10 @@ def want_new(
     box: Thing,
     noted: tuple[Disc, Rect] | None,
 ) -> None:
-    """Of these two, and with no impulse yet; then it gets some, which are no other contact's."""
+    """Insist on a contact of these two, with no impulse yet, and give it some.
+
+    The next contact must not have them.
+    """
     order = contact.a == circle.ref, contact.b == box.ref
     if noted:
         lab.saw("order", noted, order)
@@ -108,13 +111,13 @@ def say(answer: Touch | None, digits: int = 3) -> str:
 
 
 def want(lab: Lab, answer: Touch | None, right: list[Touch | None], of: str = "") -> None:
-    """One of the right answers."""
+    """Insist on one of the right answers."""
     good = any(same(answer, each) for each in right)
     want_told(lab, good, say, right[0], answer, expected=of + "{}")
 
 
 def want_exact(lab: Lab, discs: Iterable[Disc], at: Pair = (0.0, 0.0), **circle: Any) -> None:
-    """The right answers about these discs, as seen from the middle of the box, which is there."""
+    """Insist on the right answers about these discs, given as seen from the middle of the box."""
     size, x, y = lab.about(1.0), lab.about(at[0], 64.0), lab.about(at[1], 64.0)
     box = Rect(x, y, size * BOX.hx, size * BOX.hy)
     for each in discs:
@@ -124,7 +127,7 @@ def want_exact(lab: Lab, discs: Iterable[Disc], at: Pair = (0.0, 0.0), **circle:
 
 
 def same(answer: Touch | None, right: Touch | None) -> bool:
-    """Alike but for rounding, which grows with the numbers."""
+    """Return whether two answers are equal up to rounding, which grows with the numbers."""
     if answer is None or right is None:
         return answer is right
     return all(
@@ -155,7 +158,7 @@ def overlap_from_outside_points_into_the_box(lab: Lab) -> None:
 
 
 def near_round_numbers(off: float) -> Iterable[tuple[Disc, Rect]]:
-    """Faces and centres that are nearly at each round place of the window, and distances alike.
+    """Yield faces and centres near each round position of the window, and such distances.
 
     Whoever takes such a number for the round one (or a small one for 0) gives another answer.
     """
@@ -216,7 +219,7 @@ CLOSE, HARDLY = 1 / 64, 63 / 64  # shares of a way
 
 
 def regions(size: Size, share: float) -> Iterator[Pair]:
-    """Places of a centre, as seen from the middle of the box: one in every region there is.
+    """Yield positions of a centre, as seen from the middle of the box: one in every region.
 
     `share`, from 0 to 1, says how far inside or outside they are. All shares are parts of 64, so
     that sums are exact.
@@ -319,7 +322,7 @@ def balls_land_on_a_floor_and_lie_there(lab: Lab) -> None:
 
 
 def want_at_rest(lab: Lab, moments: list[Moment], x: float) -> None:
-    """On the floor: at most as deep as it may be without a push, and a step's fall."""
+    """Insist on a ball on the floor: as deep as it may be without a push, and a step's fall."""
     last = moments[-30:]
     lab.want(
         all(abs(each.y - 370.0) < 1.5 and abs(each.x - x) < 1.0 for each in last),

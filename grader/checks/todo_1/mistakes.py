@@ -119,7 +119,7 @@ known_in("1", "order")("the-box-comes-first", lambda disc, rect: (False, False))
 
 
 @known("normal-points-out-of-the-box")
-def normal_points_out(disc: Disc, rect: Rect) -> Answer:
+def normal_points_out_of_the_box(disc: Disc, rect: Rect) -> Answer:
     answer = right(disc, rect)
     return answer and turned(answer)
 
@@ -149,7 +149,7 @@ known(
 
 
 @known("inside-leaves-by-the-farthest-face")
-def farthest_face(disc: Disc, rect: Rect) -> Answer:
+def inside_leaves_by_the_farthest_face(disc: Disc, rect: Rect) -> Answer:
     if not is_inside(disc, rect):
         return right(disc, rect)
     deepest = sorted(exact.ways_out(disc, rect), key=lambda touch: -touch.depth)
@@ -159,7 +159,7 @@ def farthest_face(disc: Disc, rect: Rect) -> Answer:
 
 
 @known("inside-always-leaves-by-the-top")
-def top_face(disc: Disc, rect: Rect) -> Answer:
+def inside_always_leaves_by_the_top(disc: Disc, rect: Rect) -> Answer:
     if not is_inside(disc, rect):
         return right(disc, rect)
     return exact.ways_out(disc, rect)[2]
@@ -207,14 +207,14 @@ known(
 
 @known("normal-points-at-the-centre-of-the-box")
 @outside
-def normal_to_centre(touch: Touch, disc: Disc, rect: Rect) -> Touch:
+def normal_points_at_the_centre_of_the_box(touch: Touch, disc: Disc, rect: Rect) -> Touch:
     dx, dy = rect.x - disc.x, rect.y - disc.y
     return with_normal(touch, dx / math.hypot(dx, dy), dy / math.hypot(dx, dy))
 
 
 @known("corner-normal-along-an-axis")
 @outside
-def normal_along_an_axis(touch: Touch, disc: Disc, rect: Rect) -> Touch:
+def corner_normal_along_an_axis(touch: Touch, disc: Disc, rect: Rect) -> Touch:
     if abs(touch.nx) == abs(touch.ny):
         raise Undecided
     if abs(touch.nx) > abs(touch.ny):
@@ -245,7 +245,7 @@ known("apart-is-not-noticed", lambda disc, rect: any_distance(disc, rect))
 
 
 @known("touching-counts-as-overlap")
-def touching(disc: Disc, rect: Rect) -> Answer:
+def touching_counts_as_overlap(disc: Disc, rect: Rect) -> Answer:
     touch = any_distance(disc, rect)
     return touch if touch.depth >= 0 else None
 
@@ -284,7 +284,7 @@ known(
 
 
 @known("test-is-turned-round")
-def overlap_turned_round(disc: Disc, rect: Rect) -> Answer:
+def overlap_is_turned_round(disc: Disc, rect: Rect) -> Answer:
     answer = any_distance(disc, rect)
     if is_inside(disc, rect) or math.isclose(answer.depth, 0.0, abs_tol=1e-9):
         raise Undecided  # either way

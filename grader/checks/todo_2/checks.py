@@ -81,7 +81,7 @@ def want_about(lab: Lab, a: Lever, b: Lever, axis: Pair) -> None:
 
 
 def like(lab: Lab, lever: Lever) -> Lever:
-    """As heavy and as large, the arm in the same direction."""
+    """Return a lever as heavy and as large, with the arm in the same direction."""
     size = lab.about(1.0)
     return Lever(lab.about(lever.mass), *(size * each for each in lever[1:]))
 
@@ -187,7 +187,7 @@ def a_sliding_ball_comes_to_roll_on_a_large_one(lab: Lab) -> None:
 
 
 def want_to_roll(lab: Lab, ground: Thing, pos: Pair, radius: float, mass: float, name: str) -> None:
-    """After a second and a half the lowest point of the ball rests on the ground.
+    """Insist that the lowest point of the ball rests on the ground after a second and a half.
 
     Friction of 0.6 takes 588 px/s off the speed in a second, and a third of 300 must go.
     """

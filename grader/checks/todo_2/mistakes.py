@@ -90,7 +90,7 @@ known(
 
 
 @known("divides-by-the-inverse")
-def divided(a: Lever, b: Lever, axis: Pair) -> float:
+def divides_by_the_inverse(a: Lever, b: Lever, axis: Pair) -> float:
     if not (a.mass and b.mass):
         raise Undecided  # a division by 0
     return with_term(lambda lever, axis: lever_cross(lever, axis) ** 2 * lever.inertia)(a, b, axis)
@@ -155,7 +155,7 @@ known("returns-the-inverse", lambda a, b, axis: 1 / exact.effective_mass(a, b, a
 
 
 @known("arms-are-crossed")
-def arms_crossed(a: Lever, b: Lever, axis: Pair) -> float:
+def arms_are_crossed(a: Lever, b: Lever, axis: Pair) -> float:
     both = cross((a.rx, a.ry), (b.rx, b.ry)) ** 2
     return masses(a, b) + both * (inverse(a.inertia) + inverse(b.inertia))
 

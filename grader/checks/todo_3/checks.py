@@ -126,7 +126,7 @@ def rounding(rod: Rod, far: float = 0.0) -> float:
 
 
 def like(lab: Lab, rod: Rod) -> Rod:
-    """Between ends as heavy and as fast, as long, and off by the same share."""
+    """Return a rod as long and off by the same share, its ends as heavy and as fast."""
     size, fast, x, y = lab.about(1.0), lab.about(1.0), *rod.offset
     return Rod(
         lab.about(rod.mass_a),
@@ -158,7 +158,7 @@ def a_squeezed_rod_pushes_its_ends_apart(lab: Lab) -> None:
 
 
 def ends_in_one_place_part(lab: Lab) -> None:
-    """Which way is for `prepare` to say: it has given the rod an axis."""
+    """Insist that the ends part, whichever way; `prepare` has given the rod an axis."""
     rod = like(lab, Rod(3.0, 1.0, 50.0, STILL, SLOW, SLOW, STEP))
     lab.ran(f"solve on a rod {rod.length:g} px long whose ends are in one place, both {SLOW} px/s")
     joint, a, b = joined(lab, rod)
@@ -247,7 +247,7 @@ def any_rod_reaches_its_speed_and_keeps_the_momentum(
 
 
 def want_passes(lab: Lab, rod: Rod, spins: Pair, surfaces: tuple[Surface, Surface]) -> None:
-    """Two passes over a rod: after each, the speed, the momentum, and a static end at rest."""
+    """Insist on the speed, the momentum and a static end at rest after each of two passes."""
     lab.ran(f"2 x solve at 1/{1 / rod.dt:g} s on a rod, {described(rod)}")
     still = (spins[0] * (rod.mass_a > 0), spins[1] * (rod.mass_b > 0))
     joint, a, b = joined(lab, rod, still, surfaces=surfaces)
@@ -265,7 +265,7 @@ def want_passes(lab: Lab, rod: Rod, spins: Pair, surfaces: tuple[Surface, Surfac
 
 
 def want_both_rods(lab: Lab, rod: Rod, other: Rod, turned: bool) -> None:
-    """Three passes over two rods that share a ball, in turn."""
+    """Insist on the right speeds in three passes over two rods that share a ball."""
     lab.ran(f"3 x solve on two rods that share a ball: {described(rod)}; {described(other)}")
     joint, a, b = joined(lab, rod)
     x, y = rod.offset
@@ -292,7 +292,7 @@ def described(rod: Rod) -> str:
 
 
 def want_solved(lab: Lab, rod: Rod, vel_a: Pair, vel_b: Pair, far: float) -> None:
-    """After a pass the ends part at bias, and have the momentum that they had."""
+    """Insist that the ends part at bias and keep their momentum in a pass."""
     after = rod._replace(vel_a=vel_a, vel_b=vel_b)
     if rod.mass_a and rod.mass_b:
         off = math.dist(after.momentum, rod.momentum)
@@ -344,7 +344,7 @@ def swing(
 
 
 def want_length(lab: Lab, lengths: list[float], right: float, within: float = 1.0) -> None:
-    """Within a pixel in every step.
+    """Insist on this length, within a pixel, in every step.
 
     A step at speed v along the circle stretches a rod by v² dt² / 2L, and the bias takes back a
     share of 0.2: it settles at v² dt² / 0.4L, here below 0.8 px for the fastest bob.

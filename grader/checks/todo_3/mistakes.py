@@ -81,7 +81,7 @@ known("ignores-the-speed", velocities(lambda rod: exact.pushed(rod, rod.bias / r
 
 
 def as_seen(rod: Rod, seen: Rod) -> Ends:
-    """After the impulse for the speed of another rod, of which one end rests."""
+    """Return the velocities after the impulse for another rod's speed, of which one end rests."""
     return exact.pushed(rod, (rod.bias - seen.speed) / rod.k)
 
 
@@ -126,7 +126,7 @@ known(
 
 
 def impulse_made_anew(rod: Rod) -> Ends:
-    """Of two lines that each work out the impulse: the second one sees A changed."""
+    """Work the impulse out twice: the second time A has changed."""
     a, _ = exact.pushed(rod, right_impulse(rod))
     return a, exact.pushed(rod, right_impulse(rod._replace(vel_a=a)))[1]
 
@@ -151,14 +151,14 @@ known(
 
 @known("velocity-changed-in-place")
 @velocities
-def speed_taken_from_b(rod: Rod) -> Ends:
+def velocity_changed_in_place(rod: Rod) -> Ends:
     a, (x, y) = exact.pushed(rod, right_impulse(rod))
     return a, (x - rod.vel_a[0], y - rod.vel_a[1])
 
 
 @known("pushes-both-the-same-way")
 @velocities
-def same_way(rod: Rod) -> Ends:
+def pushes_both_the_same_way(rod: Rod) -> Ends:
     by = right_impulse(rod) * exact.inverse(rod.mass_a)
     return moved(rod.vel_a, rod.axis, by), exact.pushed(rod, right_impulse(rod))[1]
 
@@ -199,7 +199,7 @@ def masses_crossed(rod: Rod) -> Ends:
 
 @known("axis-is-not-a-unit-vector")
 @velocities
-def axis_too_long(rod: Rod) -> Ends:
+def axis_is_not_a_unit_vector(rod: Rod) -> Ends:
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.offset
     impulse = (rod.bias - ((bx - ax) * x + (by - ay) * y)) / rod.k
     a, b = (impulse * exact.inverse(mass) for mass in (rod.mass_a, rod.mass_b))
@@ -208,21 +208,21 @@ def axis_too_long(rod: Rod) -> Ends:
 
 @known("velocities-are-replaced")
 @velocities
-def replaced(rod: Rod) -> Ends:
+def velocities_are_replaced(rod: Rod) -> Ends:
     still = rod._replace(vel_a=(0.0, 0.0), vel_b=(0.0, 0.0))
     return exact.pushed(still, right_impulse(rod))
 
 
 @known("shares-equally")
 @velocities
-def halves(rod: Rod) -> Ends:
+def shares_equally(rod: Rod) -> Ends:
     by = (rod.bias - rod.speed) / 2
     return moved(rod.vel_a, rod.axis, -by), moved(rod.vel_b, rod.axis, by)
 
 
 @known("stops-the-sideways-speed")
 @velocities
-def whole_velocity(rod: Rod) -> Ends:
+def stops_the_sideways_speed(rod: Rod) -> Ends:
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
     wanted = rod.bias * x - (bx - ax), rod.bias * y - (by - ay)
     size = math.hypot(*wanted)
@@ -234,7 +234,7 @@ def whole_velocity(rod: Rod) -> Ends:
 
 
 @known("moves-positions-instead")
-def placed(rod: Rod) -> Answer:
+def moves_positions_instead(rod: Rod) -> Answer:
     if not rod.k:
         raise Undecided
     return rod.vel_a, rod.vel_b, (rod.axis[0] * rod.length, rod.axis[1] * rod.length)
@@ -242,7 +242,7 @@ def placed(rod: Rod) -> Answer:
 
 @known("speed-in-every-direction")
 @velocities
-def by_whole_speed(rod: Rod) -> Ends:
+def speed_in_every_direction(rod: Rod) -> Ends:
     (ax, ay), (bx, by) = rod.vel_a, rod.vel_b
     return exact.pushed(rod, (rod.bias - math.hypot(bx - ax, by - ay)) / rod.k)
 

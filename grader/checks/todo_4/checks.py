@@ -132,7 +132,7 @@ def motion(a: BodyValue, b: BodyValue) -> Motion:
 def want_opposite(
     lab: Lab, discs: Discs, first: Motion, last: Motion, pressing: float, rubbing: float
 ) -> None:
-    """Nothing closes any more, and A got the opposite of what B got."""
+    """Insist that nothing closes any more, and that A got the opposite of what B got."""
     x, y = discs.normal
     push = pressing * x - rubbing * y, pressing * y + rubbing * x
     a, b = (exact.inverse(mass) for mass in discs.mass)
@@ -152,7 +152,7 @@ def want_opposite(
 
 
 def want_contact(lab: Lab, world: Thing, discs: Discs, pressing: float, rubbing: float) -> None:
-    """The one contact is as it was found, and has the impulses that worked."""
+    """Insist that the one contact is as it was found, with the impulses that worked."""
     found = [
         lab.contact_or_none(each) for each in lab.items(lab.get(world, "contacts"), "contacts")
     ]
@@ -204,7 +204,7 @@ def want_exact(
 
 
 def want_about(lab: Lab, discs: Discs, closing: float, slip: float) -> None:
-    """The same for discs as heavy, as fast and pressed as hard."""
+    """Insist on the same for discs as heavy, as fast and pressed as hard."""
     heavy, fast = lab.about(1.0), lab.about(1.0)
     (a, b), (x, y) = discs.mass, discs.drift
     like = discs._replace(mass=(heavy * a, heavy * b), drift=(fast * x, fast * y))
@@ -260,7 +260,7 @@ SHARES = 4.0, -4.0, 0.25, -0.25, 63 / 64, -63 / 64, 65 / 64, -65 / 64, 100.0, -1
 
 
 def slips(discs: Discs, closing: float) -> Iterator[float]:
-    """Slips both ways, in px/s: some that friction can end, some that it just can, and more."""
+    """Yield slips both ways, px/s: some that friction can end, some that it just can, and more."""
     most = math.sqrt(discs.mu[0] * discs.mu[1]) * closing
     yield from (share * most for share in SHARES)
 
@@ -327,7 +327,7 @@ def every_contact_of_a_pile_keeps_within_its_friction(lab: Lab) -> None:
 
 
 def sliding_blocks(lab: Lab, speeds: tuple[float, ...], frictions: tuple[float, ...]) -> Run:
-    """Half a second of blocks of 2 kg and friction 0.5, each on a floor of its own."""
+    """Slide blocks of 2 kg and friction 0.5, each on a floor of its own, for half a second."""
     floors = [
         lab.box((0.0, 1000.0 * n), (1000.0, 20.0), friction=mu) for n, mu in enumerate(frictions)
     ]

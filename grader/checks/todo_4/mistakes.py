@@ -69,7 +69,10 @@ known("limit-comes-from-the-depth", with_limit(lambda mu, jn: math.sqrt(mu[0] * 
 
 
 def with_clamp(rule: Rule, sign: int = 1) -> Model:
-    """With sign -1, the rule is for totals that count the other way."""
+    """Return the friction with the right limit and this rule.
+
+    With sign -1, the rule is for totals that count the other way.
+    """
     return with_limit_and_rule(
         lambda mu, jn: math.sqrt(mu[0] * mu[1]) * jn,
         lambda total, wanted, limit: sign * rule(sign * total, sign * wanted, limit),
@@ -90,7 +93,7 @@ known(
 
 @known("always-at-the-limit")
 @with_clamp
-def at_the_limit(total: float, wanted: float, limit: float) -> float:
+def always_at_the_limit(total: float, wanted: float, limit: float) -> float:
     if abs(wanted) < 1e-9:
         raise Undecided  # either way
     return math.copysign(limit, wanted)
@@ -130,7 +133,7 @@ known("twice-the-limit", with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1]) * jn
 
 
 @known("limit-grows-with-the-slip")
-def limit_by_the_slip(mu: Pair, k: float, closing: float, slip: float) -> float:
+def limit_grows_with_the_slip(mu: Pair, k: float, closing: float, slip: float) -> float:
     if not (mu[0] and mu[1]):
         raise Undecided
     total, limit = 0.0, math.sqrt(mu[0] * mu[1]) * max(closing / k, 0.0)

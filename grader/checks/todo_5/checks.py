@@ -71,7 +71,7 @@ def say(share: float, decimals: int = 2) -> str:
 
 
 def decimals(right: Sequence[float], answer: Sequence[float]) -> int:
-    """So many decimals that percentages look different."""
+    """Return how many decimals make percentages look different."""
     return decimals_to_tell((100 * s for s in right), (100 * s for s in answer), 2)
 
 
@@ -113,7 +113,7 @@ def speed_and_spin_have_a_rate_of_their_own(lab: Lab) -> None:
 
 
 def want_shares(lab: Lab, got: Shares, rates: Pair, seconds: float) -> None:
-    """About as exp says; a straight line is near enough where steps are short."""
+    """Insist on about what exp says; a straight line is near enough where steps are short."""
     right = exact.damped(rates[0], seconds), exact.damped(rates[1], seconds)
     n = decimals(right, got)
     lab.want(
@@ -162,7 +162,7 @@ def one_long_step_or_many_short_ones_damp_alike(
 
 
 def want_both(lab: Lab, damped: Damped, rates: Pair, dt: float, parts: int) -> None:
-    """The same is left after one step and after the same time in parts."""
+    """Insist that the same is left after one step and after the same time in parts."""
     linear, angular = rates
     lab.ran(
         f"linear_damping = {linear:g}, angular_damping = {angular:g}: "
@@ -240,7 +240,7 @@ def damping_keeps_the_direction_and_leaves_statics_alone(
 
 
 def want_unmoved(lab: Lab, still: Thing, belt: Thing) -> None:
-    """The static box where it was, and the belt as fast as it was."""
+    """Insist on the static box where it was, and on the belt as fast as it was."""
     for each, vel, omega in ((still, (0.0, 0.0), 0.0), (belt, (50.0, -20.0), 2.0)):
         body = lab.state(each)
         lab.want(
@@ -253,7 +253,7 @@ def want_unmoved(lab: Lab, still: Thing, belt: Thing) -> None:
 
 
 def a_fleet(lab: Lab) -> tuple[list[Thing], list[Thing]]:
-    """Four balls on two rods, far from all else, and the rods.
+    """Return four balls on two rods, far from all else, and the rods.
 
     All have one velocity, so that no rod has anything to do.
     """
@@ -275,7 +275,7 @@ def moment(body: BodyValue) -> Moment:
 
 
 def want_moment(lab: Lab, answer: Moment, right: Moment, dt: float, times: float) -> None:
-    """After a step of dt: its speeds up to `times` what SINGLE allows, and where these lead."""
+    """Insist on the right motion after a step, up to `times` what SINGLE allows of its speeds."""
     turns = right.angle + math.remainder(answer.angle - right.angle, math.tau)
     got, meant = astuple(replace(answer, angle=turns)), astuple(right)
     n = decimals_to_tell(meant, got, 4)

@@ -30,7 +30,7 @@ known_damping = known_in("5", "damping")
 
 
 def known(name: str, *models: Model) -> None:
-    """Each model also in a world that leaves the damping out where both rates are 0."""
+    """Register each model, also for a world that leaves damping out where both rates are 0."""
     for model in models:
         known_damping(name, left_out_at_zero(model), model)
 

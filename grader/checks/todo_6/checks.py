@@ -104,7 +104,7 @@ def the_remainder_waits_for_the_next_frame(lab: Lab) -> None:
 
 
 def want_in_step(lab: Lab, paced: Pace, frame: int | None) -> None:
-    """There must be no frame that is out of step."""
+    """Insist that no frame is out of step."""
     upto = slice(0 if frame is None else frame + 1)
     lab.want(
         frame is None,
@@ -128,7 +128,7 @@ def a_slow_frame_runs_eight_steps(lab: Lab) -> None:
 
 
 def want_eight_in_turn(lab: Lab) -> None:
-    """Frames just below the cap lose next to nothing: they owe nearly eight steps each.
+    """Insist that frames just below the cap lose next to nothing: they owe nearly eight steps each.
 
     A program that cuts its accumulator instead of the frame may lose a part of a step.
     """

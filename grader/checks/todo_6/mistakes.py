@@ -20,7 +20,7 @@ known = known_in("6 7d", "frames")  # of both programs
 
 
 def counted(steps: list[int]) -> Answer:
-    """Steps of the right size."""
+    """Return the answer with steps of the right size."""
     return steps, [STEP_SECONDS] if any(steps) else []
 
 
@@ -123,7 +123,7 @@ known(
 
 
 @known("accumulator-never-shrinks")
-def never_shrinks(frames: Frames) -> Answer:
+def accumulator_never_shrinks(frames: Frames) -> Answer:
     steps: list[int] = []
     for number in range(1, len(frames)):
         if whole_steps(sum(map(capped, frames[:number]))):
@@ -133,7 +133,7 @@ def never_shrinks(frames: Frames) -> Answer:
 
 
 @known("steps-of-another-size")
-def steps_of_a_sixtieth(frames: Frames) -> Answer:
+def steps_of_another_size(frames: Frames) -> Answer:
     steps, sizes = right(frames)
     return steps, [2 * size for size in sizes]
 
@@ -168,7 +168,7 @@ def different(sizes: list[int]) -> list[float]:
 
 
 @known("emptied-by-a-step")
-def emptied(frames: Frames) -> Answer:
+def emptied_by_a_step(frames: Frames) -> Answer:
     steps, held = [], 0
     for frame in frames[:-1]:
         held += capped(frame)
@@ -184,8 +184,8 @@ known(
 
 
 @known("sixtieths-for-steps")
-def sixtieths(frames: Frames) -> Answer:
-    """Whole sixtieths, as two steps of the right size would be."""
+def sixtieths_for_steps(frames: Frames) -> Answer:
+    """Run whole sixtieths, as two steps of the right size would be."""
     steps, held = [], 0
     for frame in frames[:-1]:
         held += capped(frame)
@@ -209,14 +209,14 @@ def steps_with_the_accumulator(frames: Frames) -> Answer:
 
 
 @known("steps-with-the-frame-in-the-loop")
-def steps_with_the_frame(frames: Frames) -> Answer:
+def steps_with_the_frame_in_the_loop(frames: Frames) -> Answer:
     steps, _ = right(frames)
     pairs = zip(steps, frames, strict=False)
     return steps, different([uncapped(frame) for count, frame in pairs if count])
 
 
 @known("pair-the-wrong-way-round")
-def pair_swapped(frames: Frames) -> Answer:
+def pair_the_wrong_way_round(frames: Frames) -> Answer:
     """Return the number of steps as the seconds that wait: the mistake swaps the two."""
     steps = [0]
     for frame in frames[:-1]:
@@ -227,7 +227,7 @@ def pair_swapped(frames: Frames) -> Answer:
 
 
 @known("a-step-more-each-frame")
-def one_more(frames: Frames) -> Answer:
+def a_step_more_each_frame(frames: Frames) -> Answer:
     if max(frames) <= 34:
         raise Undecided  # steps may be slow there: more of them make the last frames longer
     return counted([1 + steps for steps in accumulated(frames, capped)])
@@ -240,7 +240,7 @@ known(
 
 
 def second_taken_out(frames: Frames) -> Answer:
-    """Of a loop that takes 1 s out of the accumulator for each step."""
+    """Take 1 s out of the accumulator for each step."""
     steps: list[int] = []
     held = 0
     for frame in frames[:-1]:

@@ -208,7 +208,7 @@ def every_ball_has_the_moment_of_its_own_size(lab: Lab, seed: int, x: float, y: 
 
 
 def floor_in(lab: Lab, space: Thing) -> None:
-    """A level floor at y = 560 of our own, however the submission makes its floors."""
+    """Add a level floor at y = 560, however the submission makes its floors."""
     body = lab.space(lab.get(space, "")).bodies[0]
     segment = lab.call("pymunk:Segment", lab.thing(body), (-900.0, 580.0), (1800.0, 580.0), 20.0)
     floor = lab.thing(segment, "a floor")

@@ -56,7 +56,7 @@ def want_steps(
     other: Polynomial,
     elsewhere: float,
 ) -> None:
-    """Several questions, each like the one before but for a thing or two.
+    """Ask several questions, each like the one before but for a thing or two.
 
     So an answer that comes from what was asked before shows, be it kept for the place, the speed,
     the step or the end of the last one. In the third question no force acts where the step begins.
@@ -121,7 +121,7 @@ SAMPLES = 4  # of RK4
 
 
 def look_closely(lab: Lab, method: Method) -> None:
-    """Single steps that cost no points, asked only to tell what is wrong."""
+    """Ask for single steps that cost no points, only to tell what is wrong."""
     if not lab.surveys:
         return
     if method is RK4:
@@ -135,7 +135,7 @@ def look_closely(lab: Lab, method: Method) -> None:
 
 
 def want_a_swing(lab: Lab, method: Method) -> None:
-    """About the figures of the lesson's table: half as much, or half as much again, is let pass.
+    """Insist on about the figures of the lesson's table: from half as much to half as much again.
 
     A step of another body comes after it, on which nothing that was kept may decide.
     """
@@ -181,7 +181,7 @@ def want_every_step(
     other: Polynomial,
     elsewhere: float,
 ) -> None:
-    """Steps of every length, from where it moves and from rest, also where nothing but x falls."""
+    """Insist on steps of every length, from motion and from rest, also under gravity alone."""
     for n, dt in enumerate(TIME_STEPS):
         first = GRAVITY if n % 3 == 2 else force
         want_steps(lab, method, starts[n % 2], dt, first, other, elsewhere)

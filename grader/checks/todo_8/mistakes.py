@@ -69,7 +69,7 @@ for about, known in KNOWN.items():
 def semi_implicit_with(
     kick: Callable[[float, float], float], drift: Callable[[float, float], float]
 ) -> Step:
-    """v changes by kick(a, dt), then x by drift(v, dt)."""
+    """Return the step in which v changes by kick(a, dt), then x by drift(v, dt)."""
 
     def model(x: float, v: float, dt: float, force: Force) -> State:
         v += kick(polynomial(force)(x), dt)
@@ -81,7 +81,7 @@ def semi_implicit_with(
 def verlet_with(
     bend: Callable[[float, float], float], kick: Callable[[float, float, float], float]
 ) -> Step:
-    """x bends by bend(a, dt); v changes by kick(a at the start, a at the end, dt)."""
+    """Return the step in which x bends by bend(a, dt); v changes by kick(a, a at the end, dt)."""
 
     def model(x: float, v: float, dt: float, force: Force) -> State:
         accel = polynomial(force)
@@ -179,7 +179,7 @@ known_8a(
 
 
 @known_8a("velocity-is-replaced")
-def velocity_replaced(x: float, v: float, dt: float, force: Force) -> State:
+def velocity_is_replaced(x: float, v: float, dt: float, force: Force) -> State:
     v = polynomial(force)(x) * dt
     return x + v * dt, v
 
@@ -188,19 +188,19 @@ known_8a("pair-swapped-and-both-old", lambda x, v, dt, force: explicit_euler(x, 
 
 
 @known_8a("mean-of-both-velocities")
-def mean_velocity(x: float, v: float, dt: float, force: Force) -> State:
+def mean_of_both_velocities(x: float, v: float, dt: float, force: Force) -> State:
     new_v = v + polynomial(force)(x) * dt
     return x + (v + new_v) / 2 * dt, new_v
 
 
 @known_8a("acceleration-of-the-velocity")
-def acceleration_of_v(x: float, v: float, dt: float, force: Force) -> State:
+def acceleration_of_the_velocity(x: float, v: float, dt: float, force: Force) -> State:
     v += polynomial(force)(v) * dt
     return x + v * dt, v
 
 
 @known_8a("position-is-replaced")
-def moved_alone(x: float, v: float, dt: float, force: Force) -> State:
+def position_is_replaced(x: float, v: float, dt: float, force: Force) -> State:
     _, v = right_semi_implicit(x, v, dt, force)
     return v * dt, v
 
@@ -212,7 +212,7 @@ known_8a(
 
 
 @known_8a("parabola-with-the-new-velocity")
-def bent_as_well(x: float, v: float, dt: float, force: Force) -> State:
+def parabola_with_the_new_velocity(x: float, v: float, dt: float, force: Force) -> State:
     end, new_v = right_semi_implicit(x, v, dt, force)
     return end + polynomial(force)(x) * dt**2 / 2, new_v
 
@@ -299,7 +299,7 @@ known_8b(
 
 
 @known_8b("acceleration-for-velocity")
-def acceleration_returned(x: float, v: float, dt: float, force: Force) -> State:
+def acceleration_for_velocity(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     end = parabola(x, v, dt, accel)
     return end, accel(end)
@@ -316,7 +316,7 @@ def old_acceleration_of_v(x: float, v: float, dt: float, force: Force) -> State:
 
 
 @known_8c("samples-lead-on")
-def samples_that_lead_on(x: float, v: float, dt: float, force: Force) -> State:
+def samples_lead_on(x: float, v: float, dt: float, force: Force) -> State:
     accel, place, speed = polynomial(force), x, v
     for share, weight in ((0.5, 1), (0.5, 2), (1.0, 2), (0.0, 1)):
         dx, dv = speed, accel(place)
@@ -326,7 +326,7 @@ def samples_that_lead_on(x: float, v: float, dt: float, force: Force) -> State:
 
 
 @known_8c("new-velocity-in-x")
-def euler_in_x(x: float, v: float, dt: float, force: Force) -> State:
+def new_velocity_in_x(x: float, v: float, dt: float, force: Force) -> State:
     _, end = right_models[RK4](x, v, dt, force)
     return x + end * dt, end
 
@@ -396,7 +396,7 @@ for (bend_name, bend), (kick_name, kick) in product(BENDS.items(), KICKS.items()
 
 
 @known_8b("velocity-changes-twice")
-def changed_twice(x: float, v: float, dt: float, force: Force) -> State:
+def velocity_changes_twice(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     begin = accel(x)
     v += begin * dt
@@ -405,7 +405,7 @@ def changed_twice(x: float, v: float, dt: float, force: Force) -> State:
 
 
 @known_8b("speed-is-missing-in-x")
-def speed_left_out(x: float, v: float, dt: float, force: Force) -> State:
+def speed_is_missing_in_x(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     end = x + accel(x) * dt**2 / 2
     return end, v + (accel(x) + accel(end)) / 2 * dt
@@ -489,7 +489,7 @@ for number, (before, reach) in enumerate(USUAL, 1):
 
 
 @known_8c("pairs-are-joined")
-def pairs_joined(x: float, v: float, dt: float, force: Force) -> State:
+def pairs_are_joined(x: float, v: float, dt: float, force: Force) -> State:
     return x + dt / 6 * v, v + dt / 6 * polynomial(force)(x)
 
 
@@ -538,7 +538,7 @@ for name, words, factor in FACTORS:
 
 
 @known_8c("sum-without-the-step", apart=True)
-def sum_without_dt(x: float, v: float, dt: float, force: Force) -> State:
+def sum_without_the_step(x: float, v: float, dt: float, force: Force) -> State:
     samples = sampled(x, v, dt, force, USUAL)[0]
     for weight, (dx, dv) in zip(RIGHT_WEIGHTS, samples, strict=True):
         x, v = x + weight * dx, v + weight * dv

@@ -13,7 +13,7 @@ GRAVITY = 980.0  # px/s²
 RADIUS = 10.0  # px
 LYING = -RADIUS + 0.25  # px, the centre of a ball that lies on a floor whose top is at 0
 
-# When a body is looked at. Known mistakes are told by what is seen then: see mistakes_b1.py.
+# When a body is looked at. Known mistakes are told by what is seen then: see mistakes.py.
 AT_FIRST, AT_REST = "for the first half second", "after 0.75 s at rest"
 LONG_AT_REST = "when its timer is at 0.6 s"
 CREEPING = "after 0.75 s at 3 px/s"
@@ -139,7 +139,7 @@ def stays(lab: Lab, before: BodyValue, after: BodyValue) -> None:
 
 
 def the_lab_scene_falls_asleep(lab: Lab) -> None:
-    """Its balls must all turn grey; the pendulum's bob is not one of them: it hangs on a rod."""
+    """Insist that all balls turn grey; the pendulum's bob is none of them: it hangs on a rod."""
     lab.ran(f"the lab scene with S on, for {LAB_SCENE:g} s")
     made = lab.thing(lab.call("make_world", Rng(46)), "a World")
     bodies = [lab.thing(each) for each in lab.items(lab.get(made, "bodies"), "World.bodies")]
@@ -245,7 +245,7 @@ def a_sleeper_wakes_when_it_is_hit_or_loses_its_support(lab: Lab) -> None:
 
 
 def what_comes_to_rest_in_turn_sleeps(lab: Lab) -> None:
-    """A neighbour that lies still is not moving, though it is awake."""
+    """Insist that a neighbour that is awake but lies still wakes nobody."""
     lab.ran("three balls that lie side by side; the second comes 0.3 s after the first, and so on")
     row = [ball(lab, 2 * RADIUS * number - 0.1 * number) for number in range(3)]
     world = room(lab, floor(lab), row[0])
@@ -331,7 +331,7 @@ def what_has_lost_its_support_falls(lab: Lab) -> None:
 
 
 def want_a_fall(lab: Lab, world: Thing, body: Thing, when: str) -> None:
-    """It must fall for 0.15 s as all things do, by g t² / 2, or 11 px."""
+    """Insist that it falls for 0.15 s as all things do, by g t² / 2, or 11 px."""
     before = lab.state(body).pos.y
     run(lab, world, 0.15)
     fallen = lab.state(body).pos.y - before
@@ -340,7 +340,7 @@ def want_a_fall(lab: Lab, world: Thing, body: Thing, when: str) -> None:
 
 
 def going_to_sleep_changes_nothing_else(lab: Lab) -> None:
-    """What update_sleep leaves as it is: all that has nothing to do with sleep."""
+    """Insist that update_sleep leaves alone all that has nothing to do with sleep."""
     lab.ran("update_sleep, for balls that have been at rest for 0, 0.3, 0.495 and 0.6 s")
     times = (0.0, 0.3, 0.495, 0.6, 0.6)  # s
     bodies = [ball(lab, 40.3 * number, angle=7.0) for number in range(len(times))]

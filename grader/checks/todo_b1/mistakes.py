@@ -39,7 +39,7 @@ known = known_in("B1", "sleep")
 
 
 def wrong_at(*moments: str, unsure: Collection[str] = ()) -> Callable[[str], bool]:
-    """Asleep for awake or the other way round at these moments, and perhaps at the unsure ones."""
+    """Return the wrong answer at these moments, and perhaps at the unsure ones."""
 
     def model(when: str) -> bool:
         if when in unsure:

@@ -49,7 +49,7 @@ def want_exact(lab: Lab, spring: Spring, *later: Rod, setting: Setting = USUAL) 
 
 
 def want_about(lab: Lab, spring: Spring) -> None:
-    """The same for a spring on a rod like this one."""
+    """Insist on the same for a spring on a rod like this one."""
     stiffness, damping = lab.about(spring.stiffness), lab.about(spring.damping)
     want_exact(lab, Spring(like(lab, spring.rod), stiffness, damping))
 
@@ -77,7 +77,7 @@ def apply_once(
 
 
 def close(spring: Spring, answer: Ends, right: Ends, far: float) -> bool:
-    """Equal but for the rounding of what is added up, each by a share of 1e-16.
+    """Return whether two answers are equal up to rounding, a share of 1e-16 of each term.
 
     Of ends that are `far` px away the distance is known less well, and so is the direction.
     """
@@ -103,7 +103,7 @@ def say(ends: Ends, digits: int) -> str:
 
 
 def springs(seed: int) -> list[tuple[Spring, Rod, Setting]]:
-    """Springs of every kind, always the same; each with its ends elsewhere later on.
+    """Return springs of every kind, always the same; each with its ends elsewhere later on.
 
     They are soft and stiff, long and short, between light and heavy ends, of which one may be
     static, in steps of any length.
@@ -157,7 +157,7 @@ def a_stretched_spring_pulls_and_a_squeezed_one_pushes(lab: Lab) -> None:
 
 
 def ends_in_one_place_are_pushed_apart(lab: Lab) -> None:
-    """Whichever way they go, each gets its share."""
+    """Insist that each end gets its share, whichever way they go."""
     stiffness, rest = lab.about(90.0), lab.about(30.0)
     lab.ran(f"apply for 1/120 s: both ends in one place, {stiffness:g} kg/s², length {rest:g} px")
     a, b = lab.circle((5.0, 7.0), 10.0, 2.0), lab.circle((5.0, 7.0), 10.0, 3.0)

@@ -15,7 +15,7 @@ known = known_in("B2", "spring")
 
 
 def pulled(spring: Spring, force: float) -> Ends:
-    """After a step of a force that draws the ends together, kg px/s²."""
+    """Return the velocities after a step of a force that draws the ends together, kg px/s²."""
     return exact.pushed(spring.rod, -force * spring.rod.dt)
 
 
@@ -39,7 +39,7 @@ known(
 
 
 @known("damps-sideways-as-well")
-def brakes_all(spring: Spring) -> Ends:
+def damps_sideways_as_well(spring: Spring) -> Ends:
     """Return the velocity of B as seen from A is braked, and not its part along the spring."""
     rod = spring.rod
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
@@ -57,7 +57,7 @@ known(
 
 
 @known("forgets-the-masses")
-def without_masses(spring: Spring) -> Ends:
+def forgets_the_masses(spring: Spring) -> Ends:
     rod = spring.rod
     change = (spring.stiffness * spring.stretch + brake(spring)) * rod.dt  # px/s
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
@@ -65,7 +65,7 @@ def without_masses(spring: Spring) -> Ends:
 
 
 @known("divides-by-the-inverse-mass")
-def times_masses(spring: Spring) -> Ends:
+def divides_by_the_inverse_mass(spring: Spring) -> Ends:
     rod = spring.rod
     change = (spring.stiffness * spring.stretch + brake(spring)) * rod.dt  # kg px/s
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis

@@ -220,7 +220,7 @@ def work(lab: Lab, balls: list[Disc]) -> int:
 
 
 def row(balls: int, down: float, x: float) -> list[Disc]:
-    """Balls two and two, each pair 60 px further to the right than the one before, and one more."""
+    """Return balls two and two, each pair 60 px to the right of the one before, and one more."""
     pairs = [
         Disc(x + 60.0 * pair + 15.0 * which, down * pair + 6.0 * which, 8.5 + (pair + which) % 3)
         for pair in range(-balls // 4, balls // 4)

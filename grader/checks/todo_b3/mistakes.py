@@ -32,7 +32,7 @@ def grid(cells_of: Callable[[Bounds], Cells]) -> Model:
 
 
 def all_bounds(balls: Sequence[Disc], boxes: Sequence[Rect]) -> list[Bounds]:
-    """Around each body, the balls first."""
+    """Return the bounds of each body, the balls first."""
     halves = [(x, y, r, r) for x, y, r in balls] + [tuple(each) for each in boxes]
     return [(x - hx, y - hy, x + hx, y + hy) for x, y, hx, hy in halves]
 
@@ -72,13 +72,13 @@ known("only-the-cells-of-the-corners", grid(cells_of_the_corners), grid(cells_of
 
 
 @known("a-pair-once-per-cell")
-def once_per_cell(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
+def a_pair_once_per_cell(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
     within = [cells(each) for each in all_bounds(balls, boxes)]
     return [(a, b) for a, b in touching for _ in within[a] & within[b]]
 
 
 @known("only-the-nearest")
-def nearest(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
+def only_the_nearest(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
     places = [(each[0], each[1]) for each in (*balls, *boxes)]
     numbers = range(len(places))
     nearest_of = [

@@ -72,14 +72,14 @@ def step_on(lab: Lab, course: Course, body: Thing) -> Moment:
 
 
 def throw(lab: Lab, course: Course, body: Thing, target: Pair, way: int = 1) -> Moment:
-    """Throw a body from 100 px away straight down (way 1) or up (-1); how it moves in the end."""
+    """Throw a body from 100 px away straight down (way 1) or up (-1); return its last motion."""
     x, y = target
     lab.put(body, position=(x, y - 100.0 * way), velocity=(0.0, course.speed * way))
     return step_on(lab, course, body)
 
 
 def want_hits(lab: Lab, found: list[int], right: list[int]) -> None:
-    """The hits counted so far, after one thing and the other."""
+    """Insist on the hits counted so far, after one thing and the other."""
     lab.want(
         found == right,
         f"hits {', '.join(map(str, right))} in turn",

@@ -26,7 +26,7 @@ known_hits("counts-nothing", always(0))
 
 
 @known_hits("counts-every-step")
-def every_step(what: str, steps: int) -> int:
+def counts_every_step(what: str, steps: int) -> int:
     if what == "throw":  # the touch may last a step or two
         raise Undecided
     return steps if what == "touch" else 0

@@ -50,7 +50,7 @@ def a_body_is_drawn_on_its_way_through_the_step(lab: Lab) -> None:
 
 
 def want_all_shares(lab: Lab, body: Thing, before: Place, now: Place) -> None:
-    """All that between says of a body on its way, and that it leaves the body alone."""
+    """Insist on right answers of between about a body, which it must leave alone."""
     asked = [share for share in SHARES for _ in range(2)]  # the window may ask twice
     answers = [drawn(lab, body, share) for share in asked]
     for share, answer in zip(asked, answers, strict=True):
@@ -78,7 +78,10 @@ def want_all_shares(lab: Lab, body: Thing, before: Place, now: Place) -> None:
 
 
 def want_part_of_the_way(lab: Lab, found: Place, before: Place, now: Place, share: float) -> None:
-    """The right place. The angle may also be the one before or now: only the spoke shows it."""
+    """Insist on the right position.
+
+    The angle may also be the one before or now: only the spoke shows it.
+    """
     right = exact.part_of_the_way(before, now, share)
     near = math.dist(found[:2], right[:2]) < CLOSE
     way = math.dist(before[:2], found[:2]) + math.dist(found[:2], now[:2])

@@ -8,7 +8,7 @@ from grader.judge.misconceptions import truth
 
 
 def place(before: Place, now: Place, share: float) -> Pair:
-    """So much of the way from one place to the other."""
+    """Return the position at this share of the way from one to the other."""
     x, y, _ = exact.part_of_the_way(before, now, share)
     return x, y
 

@@ -67,7 +67,7 @@ def usual_mass(ball: BodyValue) -> float:
 
 
 def turning(ball: BodyValue) -> float:
-    """Its moment of inertia, as a multiple of a disc's, mass · r² / 2."""
+    """Return its moment of inertia, as a multiple of a disc's, mass · r² / 2."""
     return ball.inv_mass / (ball.inv_inertia * ball.radius**2 / 2)
 
 

@@ -275,7 +275,7 @@ def the_picture_shows_where_the_balls_are(lab: Lab) -> None:
 
 
 def want_all_inside(lab: Lab, played: Played) -> None:
-    """Nothing sinks or escapes, and static bodies stay where they are."""
+    """Insist that nothing sinks or escapes, and that static bodies stay where they are."""
     for body in movers(played):
         for moment in body.trail:
             lab.want(
@@ -505,7 +505,7 @@ UPRIGHT = 0.5  # rad; boxes that are tied together turn by more than 1
 
 
 def want_a_free_box(lab: Lab, level: int) -> None:
-    """A ball hits one box of the stack: that one moves, and leaves the lowest or the top one."""
+    """Hit one box of the stack: it must move and leave the lowest or the top one behind."""
     speed = lab.about(3000.0, 400.0)
     lab.ran(f"make_space, and a ball at {speed:g} px/s against box {level} of the stack")
     space, stack = pymunk_scene(lab, SEED)

@@ -77,7 +77,7 @@ def first_radius(seed: int) -> int:
 
 
 def turning_as_a_disc(part: Part) -> Part:
-    """With the moment of a full disc, where the engine and not the student gives it."""
+    """Add the moment of a full disc, where the engine and not the student gives it."""
     return part._replace(moment=part.mass * part.shape[0] ** 2 / 2) if part.mass else part
 
 

@@ -56,7 +56,7 @@ def other_rules(impact: Impact) -> set[float]:
 
 
 def want_impact(lab: Lab, impact: Impact) -> None:
-    """One step with one contact, straight from above."""
+    """Insist on the right speed after one step with one contact, straight from above."""
     first, second = impact.restitution
     lab.ran(
         f"a disc {impact.depth:g} px deep in a static one, closing at {impact.closing:g} px/s, "
@@ -81,7 +81,7 @@ def want_impact(lab: Lab, impact: Impact) -> None:
 
 
 def want_pressed_and_rubbed(lab: Lab) -> None:
-    """The pressure, and the friction that it limits; both turn both bodies."""
+    """Insist on the pressure and the friction that it limits; both turn both bodies."""
     lab.ran(
         f"two discs of {lab.factor:g} kg, friction 0.9 on 0.4, sliding at 300 px/s and closing at "
         "20 px/s, one step"
@@ -125,7 +125,7 @@ def want_a_total_that_is_clamped(lab: Lab) -> None:
 
 
 def want_friction_after_pressure(lab: Lab) -> None:
-    """Friction of the last pass is limited by what presses in the last pass."""
+    """Insist that friction of the last pass is limited by the last pass's pressure."""
     lab.ran("a disc pushed under a slanting rod along a rough static one at 100 px/s, one step")
     world, disc, _ = leaning_disc(lab, lab.about(100.0), 0.001)
     done = lab.simulate(world, [disc], 1, contacts=True)
@@ -140,7 +140,7 @@ def want_friction_after_pressure(lab: Lab) -> None:
 
 
 def want_a_way_out_for_coincident_discs(lab: Lab) -> None:
-    """There is no direction from one centre to the other, so the lesson gives one."""
+    """Insist on the lesson's normal where no direction leads from one centre to the other."""
     lab.ran("circle_circle of two discs with one centre")
     centre = lab.about(3.0), lab.about(4.0)
     discs = lab.circle(centre, 10), lab.circle(centre, 6)
@@ -159,7 +159,7 @@ def want_a_way_out_for_coincident_discs(lab: Lab) -> None:
 
 
 def want_gravity_then_damping(lab: Lab) -> None:
-    """And then a move with the new velocity."""
+    """Insist on gravity, then damping, then a move with the new velocity."""
     lab.ran("a disc that falls from rest, damped at 5 per second, one step of 0.1 s")
     disc = lab.circle((0, 0), mass=lab.factor)
     world = lab.world(disc, gravity=(0, 980), linear_damping=5.0)
@@ -185,7 +185,7 @@ def want_state(lab: Lab, got: Moment, expected: tuple[float, float, float, float
 
 
 def want_fresh_contacts(lab: Lab) -> None:
-    """Contacts are those of where the bodies are, not of where they were."""
+    """Insist on contacts where the bodies are, not where they were."""
     lab.ran("a disc on a static one for a step; then it is put far away, and another step")
     anchor, disc = lab.circle((0, 0), 50, 0), lab.circle((0, -59))
     world = lab.world(anchor, disc)
@@ -232,7 +232,7 @@ def leaning_disc(lab: Lab, push: float, friction: float) -> tuple[Thing, Thing, 
 
 
 def want_the_same_pile(lab: Lab) -> None:
-    """Bit for bit: on one machine and build nothing may hang on chance."""
+    """Insist on the same run twice, bit for bit, on one machine and build."""
     lab.ran("a pile of 9 discs between three large ones for a quarter of a second, twice")
     runs = []
     for _ in range(2):
@@ -247,7 +247,7 @@ def want_the_same_pile(lab: Lab) -> None:
 
 
 def want_a_rod_put_right(lab: Lab) -> None:
-    """A fifth of its error in a step, however long the step is."""
+    """Insist that a step takes away a fifth of a rod's error, however long the step is."""
     off = lab.about(10.0)  # px
     lab.ran(f"a disc on a rod {off:g} px too long, at rest, one step of 1/60 s")
     hook, disc = lab.circle((0, 0), mass=0), lab.circle((0, 100))
