@@ -96,7 +96,7 @@ def pace(lab: Lab, frames: list[int], step_ms: float = 0.0) -> Pace:
     number of steps, it needs no accumulator. So it is run again with frames that are longer than
     its wait.
     """
-    paced, waits = played_at(lab, frames, step_ms)
+    paced, waits = play_at(lab, frames, step_ms)
     if not waits:
         return paced
     lab.want(
@@ -105,7 +105,7 @@ def pace(lab: Lab, frames: list[int], step_ms: float = 0.0) -> Pace:
         "program waits by itself",
         f"one of {waits:.0f} ms",
     )
-    paced, waits = played_at(lab, [beyond(waits, each) for each in frames], step_ms)
+    paced, waits = play_at(lab, [beyond(waits, each) for each in frames], step_ms)
     lab.want(
         not waits,
         "a program that waits for no longer where its frames are longer",
@@ -124,7 +124,7 @@ def beyond(waits: float, frame: int) -> int:
     return max(least + math.ceil(room * min(frame / LONGEST_FRAME, 1.0)), frame)
 
 
-def played_at(lab: Lab, asked: list[int], step_ms: float) -> tuple[Pace, float]:
+def play_at(lab: Lab, asked: list[int], step_ms: float) -> tuple[Pace, float]:
     """Return what the program makes of these frames; and the longest that it has made longer, ms,
     or 0.
     """
@@ -149,12 +149,12 @@ def played_at(lab: Lab, asked: list[int], step_ms: float) -> tuple[Pace, float]:
     return paced, max(longer, default=0.0)
 
 
-def fixed(sizes: list[float]) -> bool:
+def are_fixed(sizes: list[float]) -> bool:
     """Return whether all steps are STEP long."""
     return all(math.isclose(size, STEP, rel_tol=1e-9) for size in sizes)
 
 
-def standing_still(lab: Lab) -> Thing:
+def make_still_world(lab: Lab) -> Thing:
     """Return a world or space in the middle of something, with a body far below the window."""
     if lab.module == "pymunk_scene":
         space = lab.thing(lab.call("pymunk:Space"), "a Space")
@@ -200,7 +200,7 @@ def want_whole_steps(lab: Lab, world: Thing, accumulator: float, seconds: float)
     )
     rest, steps, sizes, said = lab.advance(world, accumulator, seconds)
     lab.want(
-        fixed(sizes),
+        are_fixed(sizes),
         f"steps of STEP = {STEP:.9f} s",
         f"steps of {', '.join(f'{size:.9f}' for size in sizes[:4])} s",
     )

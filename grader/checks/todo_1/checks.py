@@ -22,18 +22,18 @@ MOVING: dict[str, Any] = {"vel": (1.5, -300.0), "omega": 4.0, "angle": 1.0}
 Fields = dict[str, Any]
 
 
-def pair(
+def make_pair(
     lab: Lab, disc: Disc, rect: Rect, circle: Fields | None = None, box: Fields | None = None
 ) -> tuple[Thing, Thing]:
     """Return a circle and a box, each with further fields, for the experiment that begins here."""
-    lab.ran(asked(disc, rect))
+    lab.ran(describe_question(disc, rect))
     return (
         lab.circle((disc.x, disc.y), disc.r, **(circle or {})),
         lab.box((rect.x, rect.y), (rect.hx, rect.hy), **(box or {})),
     )
 
 
-def asked(disc: Disc, rect: Rect) -> str:
+def describe_question(disc: Disc, rect: Rect) -> str:
     return (
         f"circle_box of a circle r {disc.r:g} at ({disc.x:g}, {disc.y:g}) and a box with half "
         f"extents ({rect.hx:g}, {rect.hy:g}) at ({rect.x:g}, {rect.y:g})"
@@ -53,8 +53,8 @@ def touch(
 
     An answer that is not `noted` is not held against the known mistakes.
     """
-    if lab.running != asked(disc, rect):
-        lab.ran(asked(disc, rect))  # the two are elsewhere now
+    if lab.running != describe_question(disc, rect):
+        lab.ran(describe_question(disc, rect))  # the two are elsewhere now
     try:
         contact = lab.contact_or_none(
             lab.call("circle_box", circle, box, changes=NOTHING, twice=twice)
@@ -112,7 +112,7 @@ def say(answer: Touch | None, digits: int = 3) -> str:
 
 def want(lab: Lab, answer: Touch | None, right: list[Touch | None], of: str = "") -> None:
     """Insist on one of the right answers."""
-    good = any(same(answer, each) for each in right)
+    good = any(is_same(answer, each) for each in right)
     want_told(lab, good, say, right[0], answer, expected=of + "{}")
 
 
@@ -122,11 +122,11 @@ def want_exact(lab: Lab, discs: Iterable[Disc], at: Pair = (0.0, 0.0), **circle:
     box = Rect(x, y, size * BOX.hx, size * BOX.hy)
     for each in discs:
         disc = Disc(x + size * each.x, y + size * each.y, size * each.r)
-        things = pair(lab, disc, box, circle)
+        things = make_pair(lab, disc, box, circle)
         want(lab, touch(lab, *things, disc, box), exact.circle_box(disc, box))
 
 
-def same(answer: Touch | None, right: Touch | None) -> bool:
+def is_same(answer: Touch | None, right: Touch | None) -> bool:
     """Return whether two answers are equal up to rounding, which grows with the numbers."""
     if answer is None or right is None:
         return answer is right
@@ -152,7 +152,7 @@ def overlap_from_outside_points_into_the_box(lab: Lab) -> None:
     want_exact(lab, discs)
     want_exact(lab, discs[:4], at=(100.0, 50.0))
     for n, (disc, rect) in enumerate(near_round_numbers(lab.about(1 / 8))):
-        things = pair(lab, disc, rect, {"mass": MASSES[n % len(MASSES)]})
+        things = make_pair(lab, disc, rect, {"mass": MASSES[n % len(MASSES)]})
         answer = touch(lab, *things, disc, rect, twice=False, noted=False)
         want(lab, answer, exact.circle_box(disc, rect))
 
@@ -188,7 +188,7 @@ def a_centre_inside_leaves_by_the_nearest_face(lab: Lab) -> None:
     )
     want_exact(lab, discs)
     middle = Disc(BOX.x, BOX.y, 8)  # two faces are equally near, and either will do
-    answer = touch(lab, *pair(lab, middle, BOX), middle, BOX, noted=False)
+    answer = touch(lab, *make_pair(lab, middle, BOX), middle, BOX, noted=False)
     want(lab, answer, exact.circle_box(middle, BOX))
     edges = Disc(7, -20, 8), Disc(-40, 3, 8), Disc(9, 20, 8), Disc(40, -6, 8), Disc(40, 20, 8)
     want_exact(lab, edges, **MOVING)
@@ -274,7 +274,9 @@ def any_circle_and_box_agree_with_the_geometry(
     shapes = wide, tall, speck, (4 * r + long, 4 * r + long - 1.0, r)  # last, a large square
     for n, scale in enumerate(SCALES):
         size = Size(*(scale * each for each in shapes[n]))
-        one = pair(lab, Disc(0, 0, size.r), Rect(*PLACES[0], size.hx, size.hy), moving[n % 2], box)
+        one = make_pair(
+            lab, Disc(0, 0, size.r), Rect(*PLACES[0], size.hx, size.hy), moving[n % 2], box
+        )
         for number, (dx, dy) in enumerate(regions(size, share)):
             x, y = PLACES[number % 2]
             disc, rect = Disc(x + dx, y + dy, size.r), Rect(x, y, size.hx, size.hy)

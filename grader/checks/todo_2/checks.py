@@ -77,10 +77,10 @@ def want_exact(
 
 
 def want_about(lab: Lab, a: Lever, b: Lever, axis: Pair) -> None:
-    want_exact(lab, like(lab, a), like(lab, b), axis, framed=False)
+    want_exact(lab, make_similar(lab, a), make_similar(lab, b), axis, framed=False)
 
 
-def like(lab: Lab, lever: Lever) -> Lever:
+def make_similar(lab: Lab, lever: Lever) -> Lever:
     """Return a lever as heavy and as large, with the arm in the same direction."""
     size = lab.about(1.0)
     return Lever(lab.about(lever.mass), *(size * each for each in lever[1:]))
@@ -106,7 +106,10 @@ def the_second_body_adds_its_spin_term(lab: Lab) -> None:
 
 def only_the_part_of_an_arm_across_the_axis_counts(lab: Lab) -> None:
     """An arm along the axis adds nothing, and one across it the most"""
-    a, b = like(lab, Lever(2.0, 20.0, 0.0, 0.0)), like(lab, Lever(3.0, 25.0, 15.0, 20.0))
+    a, b = (
+        make_similar(lab, Lever(2.0, 20.0, 0.0, 0.0)),
+        make_similar(lab, Lever(3.0, 25.0, 15.0, 20.0)),
+    )
     both, size = discs(lab, a, b), a.radius / 20.0
     for x, y in ((12.0, 16.0), (16.0, -12.0), *ALL_ROUND):  # along, across, in between
         want_exact(lab, a._replace(rx=size * x, ry=size * y), b, DIAGONAL, both)

@@ -11,7 +11,7 @@ from grader.judge.misconceptions import Undecided, truth
 Sum = Callable[[Lever, Lever, Pair], float]
 
 
-def like(a: Lever, b: Lever, axis: Pair) -> dict[str, str]:
+def describe_turning(a: Lever, b: Lever, axis: Pair) -> dict[str, str]:
     """Return which body can turn, and how it is pushed, in words."""
     moving = [name for name, each in (("A", a), ("B", b)) if each.mass]
     turns = {"A": "only A can turn", "B": "only B can turn", "AB": "both can turn"}
@@ -31,7 +31,7 @@ def turning_way(lever: Lever, axis: Pair) -> str:
     return f"has a cross product {'above' if turns > 0 else 'below'} 0"
 
 
-truth("effective_mass", exact.effective_mass, like, {"the sum": [0]})
+truth("effective_mass", exact.effective_mass, describe_turning, {"the sum": [0]})
 
 known = known_in("2", "effective_mass")
 

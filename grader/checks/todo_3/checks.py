@@ -23,7 +23,7 @@ MANY = 55  # rods on either side: enough that one call in a hundred shows
 STILL, SLOW, FAST = (0.0, 0.0), (20.0, -10.0), (100.0, 60.0)  # px/s
 
 
-def joined(
+def join(
     lab: Lab,
     rod: Rod,
     spins: Pair = STILL,
@@ -50,7 +50,7 @@ def solve(lab: Lab, rod: Rod, spins: Pair = STILL, at: Pair = STILL) -> tuple[Bo
         f"A {weight(rod.mass_a)}, {rod.vel_a} px/s; B {weight(rod.mass_b)}, {rod.vel_b} px/s, "
         f"{in_px(rod.offset)} from A"
     )
-    joint, a, b = joined(lab, rod, spins, at)
+    joint, a, b = join(lab, rod, spins, at)
     return tell_solve(lab, joint, a, b, rod)
 
 
@@ -125,7 +125,7 @@ def rounding(rod: Rod, far: float = 0.0) -> float:
     return 1e-12 * (1000.0 + measured + speed * (1.0 + far / distance))
 
 
-def like(lab: Lab, rod: Rod) -> Rod:
+def make_similar(lab: Lab, rod: Rod) -> Rod:
     """Return a rod as long and off by the same share, its ends as heavy and as fast."""
     size, fast, x, y = lab.about(1.0), lab.about(1.0), *rod.offset
     return Rod(
@@ -141,27 +141,29 @@ def like(lab: Lab, rod: Rod) -> Rod:
 
 def a_stretched_rod_pulls_its_ends_together(lab: Lab) -> None:
     """A stretched rod pulls its ends together"""
-    want_exact(lab, like(lab, Rod(3.0, 1.0, 50.0, (60.0, 0.0), STILL, STILL, STEP)))
-    want_exact(lab, like(lab, Rod(1.0, 4.0, 80.0, (-60.0, 80.0), SLOW, FAST, STEP)), at=FAR_AWAY)
-    want_exact(lab, like(lab, Rod(1.0, 4.0, 0.0, (-3.0, 4.0), SLOW, FAST, STEP)))
-    want_exact(lab, like(lab, Rod(3.0, 1.0, 50.0, (0.0, A_HAIR + 50.0), SLOW, FAST, STEP)))
+    want_exact(lab, make_similar(lab, Rod(3.0, 1.0, 50.0, (60.0, 0.0), STILL, STILL, STEP)))
+    want_exact(
+        lab, make_similar(lab, Rod(1.0, 4.0, 80.0, (-60.0, 80.0), SLOW, FAST, STEP)), at=FAR_AWAY
+    )
+    want_exact(lab, make_similar(lab, Rod(1.0, 4.0, 0.0, (-3.0, 4.0), SLOW, FAST, STEP)))
+    want_exact(lab, make_similar(lab, Rod(3.0, 1.0, 50.0, (0.0, A_HAIR + 50.0), SLOW, FAST, STEP)))
     # A static end that is carried along has a speed for all that.
-    want_exact(lab, like(lab, Rod(0.0, 2.0, 50.0, (60.0, 0.0), SLOW, FAST, STEP)))
+    want_exact(lab, make_similar(lab, Rod(0.0, 2.0, 50.0, (60.0, 0.0), SLOW, FAST, STEP)))
 
 
 def a_squeezed_rod_pushes_its_ends_apart(lab: Lab) -> None:
     """A squeezed rod pushes its ends apart"""
-    want_exact(lab, like(lab, Rod(3.0, 1.0, 50.0, (40.0, 0.0), STILL, STILL, STEP)))
-    want_exact(lab, like(lab, Rod(1.0, 4.0, 120.0, (60.0, -80.0), SLOW, FAST, STEP)))
-    want_exact(lab, like(lab, Rod(3.0, 1.0, 50.0, (0.0, A_HAIR - 50.0), SLOW, FAST, STEP)))
+    want_exact(lab, make_similar(lab, Rod(3.0, 1.0, 50.0, (40.0, 0.0), STILL, STILL, STEP)))
+    want_exact(lab, make_similar(lab, Rod(1.0, 4.0, 120.0, (60.0, -80.0), SLOW, FAST, STEP)))
+    want_exact(lab, make_similar(lab, Rod(3.0, 1.0, 50.0, (0.0, A_HAIR - 50.0), SLOW, FAST, STEP)))
     ends_in_one_place_part(lab)
 
 
 def ends_in_one_place_part(lab: Lab) -> None:
     """Insist that the ends part, whichever way; `prepare` has given the rod an axis."""
-    rod = like(lab, Rod(3.0, 1.0, 50.0, STILL, SLOW, SLOW, STEP))
+    rod = make_similar(lab, Rod(3.0, 1.0, 50.0, STILL, SLOW, SLOW, STEP))
     lab.ran(f"solve on a rod {rod.length:g} px long whose ends are in one place, both {SLOW} px/s")
-    joint, a, b = joined(lab, rod)
+    joint, a, b = join(lab, rod)
     lab.tell(joint, "solve", changes={a: "vel", b: "vel"}, sees=(a, b))
     vel_a, vel_b = velocities((lab.state(a), lab.state(b)))
     after, right = rod._replace(vel_a=vel_a, vel_b=vel_b), BETA / rod.dt * rod.length
@@ -178,9 +180,11 @@ def a_rod_of_the_right_length_stops_only_the_speed_along_it(lab: Lab) -> None:
     """A rod of the right length stops the speed along it and no other"""
     for vel_a, vel_b in ((SLOW, FAST), (FAST, SLOW), (STILL, (0.5, 0.25))):
         for mass_a, mass_b in ((3.0, 1.0), (2.0, 2.0)):
-            want_exact(lab, like(lab, Rod(mass_a, mass_b, 50.0, (30.0, 40.0), vel_a, vel_b, STEP)))
-    rod = like(lab, Rod(3.0, 1.0, 50.0, (30.0, 40.0), FAST, FAST, STEP))
-    joint, a, b = joined(lab, rod)
+            want_exact(
+                lab, make_similar(lab, Rod(mass_a, mass_b, 50.0, (30.0, 40.0), vel_a, vel_b, STEP))
+            )
+    rod = make_similar(lab, Rod(3.0, 1.0, 50.0, (30.0, 40.0), FAST, FAST, STEP))
+    joint, a, b = join(lab, rod)
     tell_solve(lab, joint, a, b, rod)
     lab.ran("solve on a rod whose ends move alike, then a second under gravity (0, 60)")
     world = lab.world(a, b, joints=[joint], gravity=(0.0, 60.0))
@@ -250,7 +254,7 @@ def want_passes(lab: Lab, rod: Rod, spins: Pair, surfaces: tuple[Surface, Surfac
     """Insist on the speed, the momentum and a static end at rest after each of two passes."""
     lab.ran(f"2 x solve at 1/{1 / rod.dt:g} s on a rod, {described(rod)}")
     still = (spins[0] * (rod.mass_a > 0), spins[1] * (rod.mass_b > 0))
-    joint, a, b = joined(lab, rod, still, surfaces=surfaces)
+    joint, a, b = join(lab, rod, still, surfaces=surfaces)
     for _ in range(2):
         ends = tell_solve(lab, joint, a, b, rod)
         vel_a, vel_b = velocities(ends)
@@ -267,7 +271,7 @@ def want_passes(lab: Lab, rod: Rod, spins: Pair, surfaces: tuple[Surface, Surfac
 def want_both_rods(lab: Lab, rod: Rod, other: Rod, turned: bool) -> None:
     """Insist on the right speeds in three passes over two rods that share a ball."""
     lab.ran(f"3 x solve on two rods that share a ball: {described(rod)}; {described(other)}")
-    joint, a, b = joined(lab, rod)
+    joint, a, b = join(lab, rod)
     x, y = rod.offset
     c = lab.circle((x + other.length, y), 10.0, other.mass_b, vel=other.vel_b)
     made = lab.call("DistanceJoint", *((c, b) if turned else (b, c)))
@@ -315,8 +319,8 @@ def in_px_a_second(speed: float, digits: int) -> str:
 def nothing_happens_where_no_end_can_move(lab: Lab) -> None:
     """solve does nothing where neither end can move, and its work where one can"""
     lab.ran("solve on a stretched rod after inv_mass and inv_inertia of both ends were set to 0")
-    rod = like(lab, Rod(3.0, 1.0, 50.0, (60.0, 0.0), (5.0, 0.0), (0.0, 7.0), STEP))
-    joint, a, b = joined(lab, rod, (2.0, -3.0))
+    rod = make_similar(lab, Rod(3.0, 1.0, 50.0, (60.0, 0.0), (5.0, 0.0), (0.0, 7.0), STEP))
+    joint, a, b = join(lab, rod, (2.0, -3.0))
     for end in (a, b):
         lab.put(end, inv_mass=0.0, inv_inertia=0.0)
     lab.tell(joint, "prepare", STEP)
@@ -325,7 +329,7 @@ def nothing_happens_where_no_end_can_move(lab: Lab) -> None:
     want_told(lab, left == before, say_both, before, left)
     for n in range(-MANY, MANY):  # and where they can, something does; k near 0.5, the usual one
         heavy = 4.0 + (n + 0.5) / 128
-        want_exact(lab, like(lab, Rod(4.0, heavy, 50.0, (n / 8, 40.0), SLOW, FAST, STEP)))
+        want_exact(lab, make_similar(lab, Rod(4.0, heavy, 50.0, (n / 8, 40.0), SLOW, FAST, STEP)))
 
 
 # ---------------------------------------------------------------- what a player sees

@@ -17,12 +17,12 @@ Model = Callable[[Rod], Ends]
 Answer = tuple[Pair, Pair, Pair]  # velocities of A and B, px/s; B as seen from A, px
 
 
-def right(rod: Rod) -> Answer:
+def solve_rod(rod: Rod) -> Answer:
     ends = exact.rod_solved(rod) if rod.k else (rod.vel_a, rod.vel_b)
     return (*ends, rod.offset)
 
 
-def like(rod: Rod) -> dict[str, str]:
+def describe_rod(rod: Rod) -> dict[str, str]:
     """Return what moves, and what the rod has to do, in words."""
     names = [name for name, mass in (("A", rod.mass_a), ("B", rod.mass_b)) if mass]
     moves = {"": "no end can move", "A": "only A can move", "B": "only B can move"}
@@ -47,7 +47,7 @@ def like(rod: Rod) -> dict[str, str]:
 
 PARTS = {"the velocity of A": [0, 1], "the velocity of B": [2, 3], "the position of B": [4, 5]}
 
-truth("rod", right, like, PARTS, apart=True)
+truth("rod", solve_rod, describe_rod, PARTS, apart=True)
 
 known = known_in("3", "rod")
 
@@ -63,14 +63,14 @@ def velocities(model: Model) -> Callable[[Rod], Answer]:
     return answer
 
 
-known("divides-by-a-k-of-0", lambda rod: right(rod) if rod.k else "ZeroDivisionError")
+known("divides-by-a-k-of-0", lambda rod: solve_rod(rod) if rod.k else "ZeroDivisionError")
 
 
 def right_impulse(rod: Rod) -> float:
     return (rod.bias - rod.speed) / rod.k
 
 
-def moved(vel: Pair, axis: Pair, by: float) -> Pair:
+def add_along(vel: Pair, axis: Pair, by: float) -> Pair:
     return vel[0] + by * axis[0], vel[1] + by * axis[1]
 
 
@@ -80,13 +80,17 @@ known("ignores-the-bias", velocities(lambda rod: exact.pushed(rod, -rod.speed / 
 known("ignores-the-speed", velocities(lambda rod: exact.pushed(rod, rod.bias / rod.k)))
 
 
-def as_seen(rod: Rod, seen: Rod) -> Ends:
+def push_for_speed(rod: Rod, seen: Rod) -> Ends:
     """Return the velocities after the impulse for another rod's speed, of which one end rests."""
     return exact.pushed(rod, (rod.bias - seen.speed) / rod.k)
 
 
-known("speed-of-b-alone", velocities(lambda rod: as_seen(rod, rod._replace(vel_a=(0.0, 0.0)))))
-known("speed-of-a-alone", velocities(lambda rod: as_seen(rod, rod._replace(vel_b=(0.0, 0.0)))))
+known(
+    "speed-of-b-alone", velocities(lambda rod: push_for_speed(rod, rod._replace(vel_a=(0.0, 0.0))))
+)
+known(
+    "speed-of-a-alone", velocities(lambda rod: push_for_speed(rod, rod._replace(vel_b=(0.0, 0.0))))
+)
 known("adds-the-speed", velocities(lambda rod: exact.pushed(rod, (rod.bias + rod.speed) / rod.k)))
 known("pushes-the-wrong-way", velocities(lambda rod: exact.pushed(rod, -right_impulse(rod))))
 known("multiplies-by-k", velocities(lambda rod: exact.pushed(rod, (rod.bias - rod.speed) * rod.k)))
@@ -100,7 +104,7 @@ known("moves-only-a", velocities(lambda rod: (exact.pushed(rod, right_impulse(ro
 known("moves-only-b", velocities(lambda rod: (rod.vel_a, exact.pushed(rod, right_impulse(rod))[1])))
 known(
     "b-does-it-all",
-    velocities(lambda rod: (rod.vel_a, moved(rod.vel_b, rod.axis, rod.bias - rod.speed))),
+    velocities(lambda rod: (rod.vel_a, add_along(rod.vel_b, rod.axis, rod.bias - rod.speed))),
 )
 
 
@@ -160,7 +164,7 @@ def velocity_changed_in_place(rod: Rod) -> Ends:
 @velocities
 def pushes_both_the_same_way(rod: Rod) -> Ends:
     by = right_impulse(rod) * exact.inverse(rod.mass_a)
-    return moved(rod.vel_a, rod.axis, by), exact.pushed(rod, right_impulse(rod))[1]
+    return add_along(rod.vel_a, rod.axis, by), exact.pushed(rod, right_impulse(rod))[1]
 
 
 @known("static-end-first")
@@ -169,12 +173,12 @@ def static_end_first(rod: Rod) -> Ends:
     if rod.mass_b:
         return exact.pushed(rod, right_impulse(rod))
     by = right_impulse(rod) * exact.inverse(rod.mass_a)
-    return moved(rod.vel_a, rod.axis, by), rod.vel_b
+    return add_along(rod.vel_a, rod.axis, by), rod.vel_b
 
 
 def without_masses(rod: Rod) -> Ends:
     by = right_impulse(rod)
-    return moved(rod.vel_a, rod.axis, -by), moved(rod.vel_b, rod.axis, by)
+    return add_along(rod.vel_a, rod.axis, -by), add_along(rod.vel_b, rod.axis, by)
 
 
 known("forgets-the-masses", velocities(without_masses))
@@ -194,7 +198,7 @@ known("half-of-the-impulse", velocities(lambda rod: exact.pushed(rod, right_impu
 def masses_crossed(rod: Rod) -> Ends:
     by = right_impulse(rod)
     a, b = by * exact.inverse(rod.mass_b), by * exact.inverse(rod.mass_a)
-    return moved(rod.vel_a, rod.axis, -a), moved(rod.vel_b, rod.axis, b)
+    return add_along(rod.vel_a, rod.axis, -a), add_along(rod.vel_b, rod.axis, b)
 
 
 @known("axis-is-not-a-unit-vector")
@@ -203,7 +207,7 @@ def axis_is_not_a_unit_vector(rod: Rod) -> Ends:
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.offset
     impulse = (rod.bias - ((bx - ax) * x + (by - ay) * y)) / rod.k
     a, b = (impulse * exact.inverse(mass) for mass in (rod.mass_a, rod.mass_b))
-    return moved(rod.vel_a, rod.offset, -a), moved(rod.vel_b, rod.offset, b)
+    return add_along(rod.vel_a, rod.offset, -a), add_along(rod.vel_b, rod.offset, b)
 
 
 @known("velocities-are-replaced")
@@ -217,7 +221,7 @@ def velocities_are_replaced(rod: Rod) -> Ends:
 @velocities
 def shares_equally(rod: Rod) -> Ends:
     by = (rod.bias - rod.speed) / 2
-    return moved(rod.vel_a, rod.axis, -by), moved(rod.vel_b, rod.axis, by)
+    return add_along(rod.vel_a, rod.axis, -by), add_along(rod.vel_b, rod.axis, by)
 
 
 @known("stops-the-sideways-speed")
@@ -230,7 +234,7 @@ def stops_the_sideways_speed(rod: Rod) -> Ends:
         return rod.vel_a, rod.vel_b
     direction = wanted[0] / size, wanted[1] / size
     a, b = (size / rod.k * exact.inverse(mass) for mass in (rod.mass_a, rod.mass_b))
-    return moved(rod.vel_a, direction, -a), moved(rod.vel_b, direction, b)
+    return add_along(rod.vel_a, direction, -a), add_along(rod.vel_b, direction, b)
 
 
 @known("moves-positions-instead")

@@ -59,9 +59,9 @@ def rub(
         f"slips at {slip:g} px/s"
     )
     rims = sum(radius for radius, mass in zip(discs.radius, discs.mass, strict=True) if mass)
-    first = at_first(discs, closing, slip + spin * rims)
+    first = make_velocities(discs, closing, slip + spin * rims)
     for rate in RATES:
-        a, b = touching(lab, discs, first, spin)
+        a, b = place_discs(lab, discs, first, spin)
         free = lab.circle(FAR, vel=(FREE, 0.0), omega=spin)
         world = lab.world(a, b, free, linear_damping=rate, angular_damping=rate)
         moving = [free, *(each for each, mass in zip((a, b), discs.mass, strict=True) if mass)]
@@ -74,7 +74,7 @@ def rub(
     first = tuple(kept * each for each in first)
     closing, slip = kept * closing, kept * slip
     last = motion(lab.state(a), lab.state(b))
-    rubbing = rubbed(discs, first, last)
+    rubbing = measure_friction(discs, first, last)
     want_opposite(lab, discs, first, last, max(closing / discs.k, 0.0), rubbing)
     if not spin:
         lab.saw("friction", (discs.mu, discs.k, closing, slip), rubbing)
@@ -86,7 +86,7 @@ def rub(
     return rubbing, kept
 
 
-def touching(lab: Lab, discs: Discs, first: Motion, spin: float) -> tuple[Thing, Thing]:
+def place_discs(lab: Lab, discs: Discs, first: Motion, spin: float) -> tuple[Thing, Thing]:
     """Return two discs that overlap by DEPTH, with these velocities; what moves spins."""
     (x, y), reach = discs.normal, sum(discs.radius) - DEPTH
     places = STILL, (reach * x, reach * y)
@@ -108,14 +108,14 @@ def touching(lab: Lab, discs: Discs, first: Motion, spin: float) -> tuple[Thing,
     return a, b
 
 
-def at_first(discs: Discs, closing: float, slip: float) -> Motion:
+def make_velocities(discs: Discs, closing: float, slip: float) -> Motion:
     """Return the velocities with which B closes in on A and slips along it; statics rest."""
     (x, y), (dx, dy) = discs.normal, discs.drift if all(discs.mass) else STILL
     vx, vy = -closing * x - slip * y, -closing * y + slip * x
     return (dx, dy, dx + vx, dy + vy) if discs.mass[1] else (-vx, -vy, 0.0, 0.0)
 
 
-def rubbed(discs: Discs, first: Motion, last: Motion) -> float:
+def measure_friction(discs: Discs, first: Motion, last: Motion) -> float:
     """Return the friction impulse on B between two motions, told by the lighter one of those that
     move.
     """

@@ -15,7 +15,7 @@ PASSES = 8  # of the solver in a step
 DEPTH = 0.265625  # px, the overlap of all that is rubbed
 
 
-def like(mu: Pair, k: float, closing: float, slip: float) -> dict[str, str]:
+def describe_slip(mu: Pair, k: float, closing: float, slip: float) -> dict[str, str]:
     """Return how the two rub, in words."""
     limit = math.sqrt(mu[0] * mu[1]) * max(closing / k, 0.0)
     return {
@@ -26,7 +26,7 @@ def like(mu: Pair, k: float, closing: float, slip: float) -> dict[str, str]:
     }
 
 
-truth("friction", exact.friction, like, {"the friction": []})
+truth("friction", exact.friction, describe_slip, {"the friction": []})
 
 known = known_in("4", "friction")
 

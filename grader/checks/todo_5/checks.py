@@ -75,7 +75,7 @@ def decimals(right: Sequence[float], answer: Sequence[float]) -> int:
     return decimals_to_tell((100 * s for s in right), (100 * s for s in answer), 2)
 
 
-def alike(answer: Iterable[float], right: Iterable[float], within: float) -> bool:
+def are_close(answer: Iterable[float], right: Iterable[float], within: float) -> bool:
     return all(math.isclose(a, b, rel_tol=within) for a, b in zip(answer, right, strict=True))
 
 
@@ -88,7 +88,7 @@ def one_second_keeps_the_same_share_at_every_step_size(lab: Lab) -> None:
     right = exact.damped(rate, 1.0)
     # A straight line instead of exp is near enough here, and not in the properties below.
     lab.want(
-        alike(kept.values(), [right] * 3, within=0.01),
+        are_close(kept.values(), [right] * 3, within=0.01),
         f"{say(right)} of its speed left at every step size (e^-{rate:g})",
         ", ".join(f"{say(share)} at 1/{n} s" for n, share in kept.items()),
     )
@@ -117,7 +117,7 @@ def want_shares(lab: Lab, got: Shares, rates: Pair, seconds: float) -> None:
     right = exact.damped(rates[0], seconds), exact.damped(rates[1], seconds)
     n = decimals(right, got)
     lab.want(
-        alike(got, right, within=0.01),
+        are_close(got, right, within=0.01),
         f"{say(right[0], n)} of the speed and {say(right[1], n)} of the spin left",
         f"{say(got[0], n)} and {say(got[1], n)}",
     )
@@ -174,7 +174,7 @@ def want_both(lab: Lab, damped: Damped, rates: Pair, dt: float, parts: int) -> N
     within = SINGLE * (1 + max(rates) * dt)  # the exponent is rounded as well
     n = decimals((*right, *right), (*once, *often))
     lab.want(
-        alike(once, right, within) and alike(often, right, parts * within),
+        are_close(once, right, within) and are_close(often, right, parts * within),
         f"{say(right[0], n)} of the speed, {say(right[1], n)} of the spin, both times",
         f"{say(once[0], n)} and {say(once[1], n)} in one step, "
         f"{say(often[0], n)} and {say(often[1], n)} in many",
@@ -232,7 +232,7 @@ def damping_keeps_the_direction_and_leaves_statics_alone(
             lab.tell(world, "step", step, changes=may, sees=[*may, still])
             keep = exact.damped(linear, step), exact.damped(angular, step)
             times = 1 + max(linear, angular) * step  # the exponent is rounded as well
-            meant = [stepped(each, pull, keep, step) for each in meant]
+            meant = [step_moment(each, pull, keep, step) for each in meant]
             for ball, right in zip(balls, meant, strict=True):
                 want_moment(lab, moment(lab.state(ball)), right, step, times)
             meant = [moment(lab.state(ball)) for ball in balls]
@@ -263,7 +263,7 @@ def a_fleet(lab: Lab) -> tuple[list[Thing], list[Thing]]:
     return balls, [lab.thing(lab.call("DistanceJoint", *each), "a rod") for each in ends]
 
 
-def stepped(each: Moment, pull: Pair, keep: Shares, dt: float) -> Moment:
+def step_moment(each: Moment, pull: Pair, keep: Shares, dt: float) -> Moment:
     """Return a body a step later that touches nothing: gravity, then damping, then it moves."""
     vx, vy = keep[0] * (each.vx + pull[0] * dt), keep[0] * (each.vy + pull[1] * dt)
     omega = keep[1] * each.omega

@@ -12,11 +12,11 @@ Model = Callable[[float, float, float, int], Shares]  # both rates, dt, the numb
 Factor = Callable[[float, float], float]  # what one step keeps, from a rate and dt
 
 
-def right(linear: float, angular: float, dt: float, steps: int) -> Shares:
+def keep_shares(linear: float, angular: float, dt: float, steps: int) -> Shares:
     return exact.damped(linear, dt * steps), exact.damped(angular, dt * steps)
 
 
-def like(linear: float, angular: float, dt: float, steps: int) -> dict[str, str]:
+def describe_rates(linear: float, angular: float, dt: float, steps: int) -> dict[str, str]:
     """Return the rates and the steps, in words."""
     words = {}
     words["_rates"] = f"the rates are {'equal' if linear == angular else 'different'}"
@@ -24,7 +24,7 @@ def like(linear: float, angular: float, dt: float, steps: int) -> dict[str, str]
     return words
 
 
-truth("damping", right, like, {"the speed": [0], "the spin": [1]}, apart=True)
+truth("damping", keep_shares, describe_rates, {"the speed": [0], "the spin": [1]}, apart=True)
 
 known_damping = known_in("5", "damping")
 
@@ -61,7 +61,7 @@ known("a-step-length-of-its-own", per_step(lambda rate, dt: math.exp(-rate / 120
 known("a-sixtieth-for-every-step", per_step(lambda rate, dt: math.exp(-rate / 60)))
 known("sixty-for-the-step", per_step(lambda rate, dt: math.exp(-rate * 60)))
 known("rate-left-out", per_step(lambda rate, dt: math.exp(-dt)))
-known("rates-typed-in", lambda linear, angular, dt, steps: right(0.05, 0.3, dt, steps))
+known("rates-typed-in", lambda linear, angular, dt, steps: keep_shares(0.05, 0.3, dt, steps))
 known("damped-twice", per_step(lambda rate, dt: math.exp(-2 * rate * dt)))
 known("step-times-the-share", per_step(lambda rate, dt: math.exp(-rate) * dt))
 known("straight-line-instead-of-exp", per_step(lambda rate, dt: 1 - rate * dt))
@@ -83,7 +83,9 @@ known(
 )
 known(
     "one-rate-for-both",
-    lambda linear, angular, dt, steps: right(linear, linear, dt, steps),
-    lambda linear, angular, dt, steps: right(angular, angular, dt, steps),
+    lambda linear, angular, dt, steps: keep_shares(linear, linear, dt, steps),
+    lambda linear, angular, dt, steps: keep_shares(angular, angular, dt, steps),
 )
-known("rates-are-swapped", lambda linear, angular, dt, steps: right(angular, linear, dt, steps))
+known(
+    "rates-are-swapped", lambda linear, angular, dt, steps: keep_shares(angular, linear, dt, steps)
+)

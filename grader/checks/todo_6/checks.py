@@ -8,11 +8,11 @@ from grader.checks.pacing import (
     STEP_MS,
     STEP_TAKES,
     Pace,
+    are_fixed,
     ever_longer_frames,
-    fixed,
     frames_at,
+    make_still_world,
     pace,
-    standing_still,
     want_a_proper_end,
     want_whole_steps,
 )
@@ -68,7 +68,7 @@ def as_much_is_simulated_at_30_60_and_144_frames_a_second(lab: Lab) -> None:
 
 def explain_too_much(paces: dict[int, Pace]) -> str:
     """Say what follows where more time is simulated than passes, by the frames a second."""
-    if any(each.sizes and not fixed(each.sizes) for each in paces.values()):
+    if any(each.sizes and not are_fixed(each.sizes) for each in paces.values()):
         return OTHER_STEPS
     shares = {rate: each.done / each.time for rate, each in paces.items()}
     if max(shares.values()) <= 1.05:
@@ -90,7 +90,7 @@ def every_step_is_one_step_long(lab: Lab) -> None:
     lab.ran(f"the lab scene with frames of {', '.join(map(str, frames))} ms")
     sizes = pace(lab, frames).sizes
     lab.want(
-        bool(sizes) and fixed(sizes),
+        bool(sizes) and are_fixed(sizes),
         f"steps of STEP = {STEP:.9f} s, and no others",
         f"steps of {', '.join(f'{size:.9f}' for size in sizes[:4])} s" if sizes else "no step",
     )
@@ -213,12 +213,12 @@ def any_frames_lose_nothing_but_what_the_cap_cuts(
         f"{sum(paced.steps)} steps, and up to {max(paced.steps)} a frame",
     )
     lab.want(
-        fixed(paced.sizes),
+        are_fixed(paced.sizes),
         f"steps of STEP = {STEP:.9f} s, and no others",
         f"steps of {', '.join(f'{size:.9f}' for size in paced.sizes[:4])} s",
     )
     if paced.by_advance:
         lab.start_anew()
-        world = standing_still(lab)
+        world = make_still_world(lab)
         for accumulator, seconds in asked:
             want_whole_steps(lab, world, accumulator, seconds)

@@ -19,20 +19,20 @@ Answer = tuple[list[int], list[float]]  # steps after each frame but the last, s
 known = known_in("6 7d", "frames")  # of both programs
 
 
-def counted(steps: list[int]) -> Answer:
+def answer_with(steps: list[int]) -> Answer:
     """Return the answer with steps of the right size."""
     return steps, [STEP_SECONDS] if any(steps) else []
 
 
-def capped(frame: int) -> int:
+def cap_frame(frame: int) -> int:
     return min(3 * frame, CAP)
 
 
-def uncapped(frame: int) -> int:
+def count_thirds(frame: int) -> int:
     return 3 * frame
 
 
-def whole_steps(held: int | Fraction) -> int:
+def count_whole_steps(held: int | Fraction) -> int:
     """Return how many steps are due; undecided where rounding may put the last one off."""
     steps, rest = divmod(held, STEP)
     if steps and not rest and held != CAP:  # 8 * STEP does hold 8 steps
@@ -40,7 +40,7 @@ def whole_steps(held: int | Fraction) -> int:
     return int(steps)
 
 
-def accumulated(
+def run_accumulator(
     frames: Frames, added: Callable[[int], int | Fraction], most: int = RUNAWAY
 ) -> list[int]:
     """Return the steps of a loop that adds `added(frame)` and runs whole steps, `most` of them."""
@@ -48,35 +48,38 @@ def accumulated(
     held: int | Fraction = 0
     for frame in frames[:-1]:
         held += added(frame)
-        steps.append(min(whole_steps(held), most))
+        steps.append(min(count_whole_steps(held), most))
         held -= steps[-1] * STEP
     return steps
 
 
-def right(frames: Frames) -> Answer:
-    return counted(accumulated(frames, capped))
+def run_frames(frames: Frames) -> Answer:
+    return answer_with(run_accumulator(frames, cap_frame))
 
 
-truth("frames", right)
-known("one-step-per-frame", lambda frames: counted([1 for _ in frames[:-1]]))
-known("one-step-per-frame-at-most", lambda frames: counted(accumulated(frames, capped, most=1)))
-known("assumes-sixty-frames", lambda frames: counted([2 for _ in frames[:-1]]))
+truth("frames", run_frames)
+known("one-step-per-frame", lambda frames: answer_with([1 for _ in frames[:-1]]))
+known(
+    "one-step-per-frame-at-most",
+    lambda frames: answer_with(run_accumulator(frames, cap_frame, most=1)),
+)
+known("assumes-sixty-frames", lambda frames: answer_with([2 for _ in frames[:-1]]))
 known(
     "drops-the-remainder",
-    lambda frames: counted([whole_steps(capped(frame)) for frame in frames[:-1]]),
+    lambda frames: answer_with([count_whole_steps(cap_frame(frame)) for frame in frames[:-1]]),
 )
 known(
     "rounds-each-frame",
-    lambda frames: counted([round(capped(frame) / STEP) for frame in frames[:-1]]),
+    lambda frames: answer_with([round(cap_frame(frame) / STEP) for frame in frames[:-1]]),
 )
 
 
-def taken_out(frames: Frames, due: Callable[[int], int], price: int) -> Answer:
+def run_at_price(frames: Frames, due: Callable[[int], int], price: int) -> Answer:
     """Return the steps of a loop that runs due(held) of them and takes `price` out for each."""
     steps: list[int] = []
     held = 0
     for frame in frames[:-1]:
-        held += capped(frame)
+        held += cap_frame(frame)
         if held % STEP == 0:
             raise Undecided
         count = due(held)
@@ -84,40 +87,43 @@ def taken_out(frames: Frames, due: Callable[[int], int], price: int) -> Answer:
         if steps[-1] == RUNAWAY:
             break
         held -= count * price
-    return counted(steps)
+    return answer_with(steps)
 
 
 known(
     "steps-before-it-is-due",
-    lambda frames: taken_out(frames, lambda held: max(0, -(-held // STEP)), STEP),
+    lambda frames: run_at_price(frames, lambda held: max(0, -(-held // STEP)), STEP),
 )
-known("no-cap", lambda frames: counted(accumulated(frames, uncapped)))
+known("no-cap", lambda frames: answer_with(run_accumulator(frames, count_thirds)))
 known(
     "cap-is-in-seconds",
-    lambda frames: counted(accumulated(frames, lambda frame: min(3 * frame, 8 * SECOND))),
+    lambda frames: answer_with(run_accumulator(frames, lambda frame: min(3 * frame, 8 * SECOND))),
 )
 known(
     "cap-is-a-quarter-second",
-    lambda frames: counted(accumulated(frames, lambda frame: min(3 * frame, SECOND // 4))),
+    lambda frames: answer_with(run_accumulator(frames, lambda frame: min(3 * frame, SECOND // 4))),
 )
 known(
     "cap-counts-frames",
-    lambda frames: counted(accumulated(frames, lambda frame: min(3 * frame, 2 * CAP))),
+    lambda frames: answer_with(run_accumulator(frames, lambda frame: min(3 * frame, 2 * CAP))),
 )
 known(
     "cap-is-one-step",
-    lambda frames: counted(accumulated(frames, lambda frame: min(3 * frame, STEP))),
+    lambda frames: answer_with(run_accumulator(frames, lambda frame: min(3 * frame, STEP))),
 )
 known(
     "cap-is-turned-round",
-    lambda frames: counted(accumulated(frames, lambda frame: max(3 * frame, CAP))),
+    lambda frames: answer_with(run_accumulator(frames, lambda frame: max(3 * frame, CAP))),
 )
-known("keeps-the-backlog", lambda frames: counted(accumulated(frames, uncapped, most=CAP // STEP)))
-known("counts-milliseconds", lambda frames: counted([CAP // STEP for _ in frames[:-1]]))
+known(
+    "keeps-the-backlog",
+    lambda frames: answer_with(run_accumulator(frames, count_thirds, most=CAP // STEP)),
+)
+known("counts-milliseconds", lambda frames: answer_with([CAP // STEP for _ in frames[:-1]]))
 known(
     "takes-seconds-for-milliseconds",
-    lambda frames: counted(
-        accumulated(frames, lambda frame: min(Fraction(3 * frame, 1000), Fraction(CAP)))
+    lambda frames: answer_with(
+        run_accumulator(frames, lambda frame: min(Fraction(3 * frame, 1000), Fraction(CAP)))
     ),
 )
 
@@ -126,25 +132,28 @@ known(
 def accumulator_never_shrinks(frames: Frames) -> Answer:
     steps: list[int] = []
     for number in range(1, len(frames)):
-        if whole_steps(sum(map(capped, frames[:number]))):
-            return counted([*steps, RUNAWAY])
+        if count_whole_steps(sum(map(cap_frame, frames[:number]))):
+            return answer_with([*steps, RUNAWAY])
         steps.append(0)
-    return counted(steps)
+    return answer_with(steps)
 
 
 @known("steps-of-another-size")
 def steps_of_another_size(frames: Frames) -> Answer:
-    steps, sizes = right(frames)
+    steps, sizes = run_frames(frames)
     return steps, [2 * size for size in sizes]
 
 
 known(
     "steps-with-the-frame-time",
-    lambda frames: ([1 for _ in frames[:-1]], different([capped(frame) for frame in frames])),
+    lambda frames: ([1 for _ in frames[:-1]], list_sizes([cap_frame(frame) for frame in frames])),
 )
 known(
     "steps-with-all-of-the-frame-time",
-    lambda frames: ([1 for _ in frames[:-1]], different([uncapped(frame) for frame in frames])),
+    lambda frames: (
+        [1 for _ in frames[:-1]],
+        list_sizes([count_thirds(frame) for frame in frames]),
+    ),
 )
 
 
@@ -154,15 +163,15 @@ def steps_with_all_that_is_left(frames: Frames) -> Answer:
     sizes: list[int] = []
     held = 0
     for frame in frames[:-1]:
-        held += capped(frame)
-        steps.append(min(whole_steps(held), 1))
+        held += cap_frame(frame)
+        steps.append(min(count_whole_steps(held), 1))
         if steps[-1]:
             sizes.append(held)
             held = 0
-    return steps, different(sizes)
+    return steps, list_sizes(sizes)
 
 
-def different(sizes: list[int]) -> list[float]:
+def list_sizes(sizes: list[int]) -> list[float]:
     """Return each size once, in seconds."""
     return [size / SECOND for size in dict.fromkeys(sizes)][:MAX_STEP_SIZES]
 
@@ -171,15 +180,15 @@ def different(sizes: list[int]) -> list[float]:
 def emptied_by_a_step(frames: Frames) -> Answer:
     steps, held = [], 0
     for frame in frames[:-1]:
-        held += capped(frame)
-        steps.append(min(whole_steps(held), 1))
+        held += cap_frame(frame)
+        steps.append(min(count_whole_steps(held), 1))
         held *= not steps[-1]
-    return counted(steps)
+    return answer_with(steps)
 
 
 known(
     "drops-the-remainder+no-cap",
-    lambda frames: counted([whole_steps(uncapped(frame)) for frame in frames[:-1]]),
+    lambda frames: answer_with([count_whole_steps(count_thirds(frame)) for frame in frames[:-1]]),
 )
 
 
@@ -188,7 +197,7 @@ def sixtieths_for_steps(frames: Frames) -> Answer:
     """Run whole sixtieths, as two steps of the right size would be."""
     steps, held = [], 0
     for frame in frames[:-1]:
-        held += capped(frame)
+        held += cap_frame(frame)
         if held and held % (2 * STEP) == 0 and held != CAP:
             raise Undecided
         steps.append(held // (2 * STEP))
@@ -200,19 +209,19 @@ def sixtieths_for_steps(frames: Frames) -> Answer:
 def steps_with_the_accumulator(frames: Frames) -> Answer:
     steps, sizes, held = [], [], 0
     for frame in frames[:-1]:
-        held += capped(frame)
-        steps.append(whole_steps(held))
+        held += cap_frame(frame)
+        steps.append(count_whole_steps(held))
         for _ in range(steps[-1]):
             sizes.append(held)
             held -= STEP
-    return steps, different(sizes)
+    return steps, list_sizes(sizes)
 
 
 @known("steps-with-the-frame-in-the-loop")
 def steps_with_the_frame_in_the_loop(frames: Frames) -> Answer:
-    steps, _ = right(frames)
+    steps, _ = run_frames(frames)
     pairs = zip(steps, frames, strict=False)
-    return steps, different([uncapped(frame) for count, frame in pairs if count])
+    return steps, list_sizes([count_thirds(frame) for count, frame in pairs if count])
 
 
 @known("pair-the-wrong-way-round")
@@ -220,22 +229,22 @@ def pair_the_wrong_way_round(frames: Frames) -> Answer:
     """Return the number of steps as the seconds that wait: the mistake swaps the two."""
     steps = [0]
     for frame in frames[:-1]:
-        steps.append(min(whole_steps(capped(frame) + SECOND * steps[-1]), RUNAWAY))
+        steps.append(min(count_whole_steps(cap_frame(frame) + SECOND * steps[-1]), RUNAWAY))
         if steps[-1] == RUNAWAY:
             break
-    return counted(steps[1:])
+    return answer_with(steps[1:])
 
 
 @known("a-step-more-each-frame")
 def a_step_more_each_frame(frames: Frames) -> Answer:
     if max(frames) <= 34:
         raise Undecided  # steps may be slow there: more of them make the last frames longer
-    return counted([1 + steps for steps in accumulated(frames, capped)])
+    return answer_with([1 + steps for steps in run_accumulator(frames, cap_frame)])
 
 
 known(
     "a-step-less-each-frame",
-    lambda frames: counted([max(steps - 1, 0) for steps in accumulated(frames, capped)]),
+    lambda frames: answer_with([max(steps - 1, 0) for steps in run_accumulator(frames, cap_frame)]),
 )
 
 
@@ -244,20 +253,20 @@ def second_taken_out(frames: Frames) -> Answer:
     steps: list[int] = []
     held = 0
     for frame in frames[:-1]:
-        held += capped(frame)
+        held += cap_frame(frame)
         steps.append(0)
-        while held > 0 and whole_steps(held):
+        while held > 0 and count_whole_steps(held):
             steps[-1] += 1
             held -= SECOND
-    return counted(steps)
+    return answer_with(steps)
 
 
 known(
     "count-taken-out",
-    lambda frames: taken_out(frames, lambda held: int(held / STEP), SECOND),  # towards 0
+    lambda frames: run_at_price(frames, lambda held: int(held / STEP), SECOND),  # towards 0
     second_taken_out,
 )
-known("no-step-runs", lambda frames: counted([0 for _ in frames[:-1]]))
+known("no-step-runs", lambda frames: answer_with([0 for _ in frames[:-1]]))
 truth("said", lambda ran: ran)
 known_in("6 7d", "said")("steps-are-not-counted", lambda ran: 0)
 known_in("6 7d", "said")("steps-are-counted-down", lambda ran: -ran)

@@ -41,7 +41,7 @@ def the_space_pulls_like_the_mini_engine(lab: Lab) -> None:
         gravity = lab.pair(scene(lab).gravity, "the gravity")
         lab.saw("gravity", (), gravity)
         lab.want(
-            near(gravity, GRAVITY, 1e-9),
+            is_near(gravity, GRAVITY, 1e-9),
             "gravity (0, 980) px/s², as in the mini engine",
             f"gravity ({gravity[0]:g}, {gravity[1]:g})",
         )
@@ -101,7 +101,7 @@ def a_free_ball_falls_in_the_scene(lab: Lab) -> None:
     )
 
 
-def near(first: Pair | None, second: Pair, distance: float) -> bool:
+def is_near(first: Pair | None, second: Pair, distance: float) -> bool:
     return first is not None and math.dist(first, second) <= distance
 
 
@@ -139,7 +139,7 @@ def drop(lab: Lab, space: Thing, rng: Rng | Thing, pos: Pair, changes: Frame | N
     ball = Ball(lab.thing(new[0], "a ball"), shape.radius, new[0].mass, moment, surface, pos)
     lab.saw("moment", (ball.radius, ball.mass), moment)
     lab.want(
-        near(pair(new[0].pos), pos, 1e-9) and not any((*new[0].vel, new[0].omega)),
+        is_near(pair(new[0].pos), pos, 1e-9) and not any((*new[0].vel, new[0].omega)),
         f"a ball at rest at ({pos[0]:g}, {pos[1]:g})",
         f"one at ({new[0].pos.x:g}, {new[0].pos.y:g}), {tuple(new[0].vel)} px/s",
     )
@@ -255,17 +255,17 @@ def pendulum(lab: Lab) -> tuple[Thing, Thing, list[Rod]]:
     """Return the space of the lab scene, its bob, and what holds the bob."""
     space = scene(lab)
     moving = [body for body in space.bodies if body.kind == "dynamic"]
-    found = [body for body in moving if near(pair(body.pos), BOB, 1.0)]
+    found = [body for body in moving if is_near(pair(body.pos), BOB, 1.0)]
     lab.want(len(found) == 1, "the bob at (840, 90)", f"{len(found)} bodies there")
     rods = rods_of(space, found[0].ref, {body.ref for body in moving})
     lab.saw("rods", (), rods)
     for joint in space.joints:
         if joint.distance is not None and found[0].ref in (joint.a, joint.b):
-            lab.saw("length", (rods,), off(joint.distance))
+            lab.saw("length", (rods,), compare_length(joint.distance))
     return lab.thing(space), lab.thing(found[0]), rods
 
 
-def off(length: float) -> int:
+def compare_length(length: float) -> int:
     """Return whether a rod is too short (-1), too long (1), or neither (0)."""
     return 0 if math.isclose(length, LENGTH, abs_tol=AT_REST) else 1 if length > LENGTH else -1
 
@@ -315,7 +315,7 @@ def a_joint_holds_the_bob_by_its_centre(lab: Lab) -> None:
     rods = pendulum(lab)[2]
     lab.want(
         any(
-            near(rod.far_end, PIVOT, 1e-6) and near(rod.bob_end, BOB, 1e-6) and not rod.moves
+            is_near(rod.far_end, PIVOT, 1e-6) and is_near(rod.bob_end, BOB, 1e-6) and not rod.moves
             for rod in rods
         ),
         "a joint from (700, 90), on a body that stays put, to the bob's centre at (840, 90)",
@@ -345,7 +345,7 @@ def the_bob_hangs_in_the_space_as_it_was_given(lab: Lab) -> None:
 
 def of_bob(body: SpaceBody) -> bool:
     """Return whether a body is a disc of 24 px at the bob's place, at rest."""
-    at_rest = near(pair(body.pos), BOB, 1e-6) and not any((*body.vel, body.omega, body.angle))
+    at_rest = is_near(pair(body.pos), BOB, 1e-6) and not any((*body.vel, body.omega, body.angle))
     return at_rest and [each.radius for each in body.shapes] == [24.0]
 
 

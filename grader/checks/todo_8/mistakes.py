@@ -28,7 +28,7 @@ def right_semi_implicit(x: float, v: float, dt: float, force: Force) -> State:
 XV = {"x": [0], "v": [1]}
 
 
-def like(x: float, v: float, dt: float, force: Force) -> dict[str, str]:
+def describe_step(x: float, v: float, dt: float, force: Force) -> dict[str, str]:
     """Return where a step begins, in words."""
     return {
         "_speed": f"v is {'0' if not v else 'not 0'} at the start",
@@ -42,15 +42,21 @@ def formula(force: Force) -> str:
     return " ".join(f"{c:+g}{power}" for c, power in powers if c) or "0"
 
 
-truth(SEMI_IMPLICIT, right_semi_implicit, like, XV, apart=True)
+truth(SEMI_IMPLICIT, right_semi_implicit, describe_step, XV, apart=True)
 truth(
     VERLET,
     lambda x, v, dt, force: exact.velocity_verlet(x, v, dt, polynomial(force)),
-    like,
+    describe_step,
     XV,
     apart=True,
 )
-truth(RK4, lambda x, v, dt, force: exact.rk4(x, v, dt, polynomial(force)), like, XV, apart=True)
+truth(
+    RK4,
+    lambda x, v, dt, force: exact.rk4(x, v, dt, polynomial(force)),
+    describe_step,
+    XV,
+    apart=True,
+)
 
 
 SPRING = (0.0, -((2 * math.pi) ** 2))  # the lesson's
@@ -91,15 +97,15 @@ def verlet_with(
     return model
 
 
-def times(factor: float) -> Callable[[float, float], float]:
+def drift_by(factor: float) -> Callable[[float, float], float]:
     return lambda v, dt: factor * v * dt
 
 
-def bent(factor: float) -> Callable[[float, float], float]:
+def bend_by(factor: float) -> Callable[[float, float], float]:
     return lambda a, dt: factor * a * dt**2 / 2
 
 
-def mean_times(factor: float) -> Callable[[float, float, float], float]:
+def kick_by(factor: float) -> Callable[[float, float, float], float]:
     return lambda old, new, dt: factor * (old + new) / 2 * dt
 
 
@@ -109,7 +115,7 @@ RIGHT_WEIGHTS = (1 / 6, 2 / 6, 2 / 6, 1 / 6)
 WHOLE_STEPS: tuple[Source, ...] = ((0, 1.0), (1, 1.0), (2, 1.0))
 
 
-def sampled(
+def take_samples(
     x: float,
     v: float,
     dt: float,
@@ -131,21 +137,21 @@ def sampled(
     return samples, places
 
 
-def places_of(
+def find_places(
     sources: Sequence[Source], speeds: Sequence[Source] | None = None
 ) -> Callable[..., tuple[float, ...]]:
     return lambda x, v, dt, force: tuple(
-        dict.fromkeys(sampled(x, v, dt, force, sources, speeds)[1])
+        dict.fromkeys(take_samples(x, v, dt, force, sources, speeds)[1])
     )
 
 
-def weighed(
+def weigh_samples(
     sources: Sequence[Source], weights: Sequence[float], speeds: Sequence[Source] | None = None
 ) -> Step:
     """Return the step that adds up such samples with such weights."""
 
     def model(x: float, v: float, dt: float, force: Force) -> State:
-        samples = sampled(x, v, dt, force, sources, speeds)[0]
+        samples = take_samples(x, v, dt, force, sources, speeds)[0]
         for weight, (dx, dv) in zip(weights, samples, strict=True):
             x, v = x + dt * weight * dx, v + dt * weight * dv
         return x, v
@@ -172,7 +178,7 @@ def position_first(x: float, v: float, dt: float, force: Force) -> State:
 
 
 known_8b("position-first", position_first)
-known_8a("velocity-without-the-step", semi_implicit_with(lambda a, dt: a, times(1.0)))
+known_8a("velocity-without-the-step", semi_implicit_with(lambda a, dt: a, drift_by(1.0)))
 known_8a(
     "old-velocity-returned", lambda x, v, dt, force: (right_semi_implicit(x, v, dt, force)[0], v)
 )
@@ -218,7 +224,7 @@ def parabola_with_the_new_velocity(x: float, v: float, dt: float, force: Force) 
 
 
 known_8a(
-    "velocity-by-the-square-of-the-step", semi_implicit_with(lambda a, dt: a * dt**2, times(1.0))
+    "velocity-by-the-square-of-the-step", semi_implicit_with(lambda a, dt: a * dt**2, drift_by(1.0))
 )
 
 
@@ -243,11 +249,11 @@ KICKS: dict[str, Callable[[float, float, float], float]] = {
 
 
 def known_bend(name: str) -> None:
-    known_8b(name, verlet_with(BENDS[name], mean_times(1.0)))
+    known_8b(name, verlet_with(BENDS[name], kick_by(1.0)))
 
 
 def known_kick(name: str) -> None:
-    known_8b(name, verlet_with(bent(1.0), KICKS[name]))
+    known_8b(name, verlet_with(bend_by(1.0), KICKS[name]))
 
 
 known_kick("old-acceleration-twice")
@@ -276,25 +282,25 @@ def end_on_a_straight_line(x: float, v: float, dt: float, force: Force) -> State
 known_8b("force-at-the-mean-place", acceleration_at_the_mean_place)
 
 
-midpoint = weighed(USUAL, (0, 1, 0, 0))
+midpoint = weigh_samples(USUAL, (0, 1, 0, 0))
 
 
 known_8b("midpoint-method", midpoint)
 known_8c("midpoint-method", midpoint)
-known_8b("old-half-alone", verlet_with(bent(1.0), lambda old, new, dt: old * dt / 2))
-known_8b("new-half-alone", verlet_with(bent(1.0), lambda old, new, dt: new * dt / 2))
+known_8b("old-half-alone", verlet_with(bend_by(1.0), lambda old, new, dt: old * dt / 2))
+known_8b("new-half-alone", verlet_with(bend_by(1.0), lambda old, new, dt: new * dt / 2))
 known_8b(
     "mean-without-brackets",
-    verlet_with(bent(1.0), lambda old, new, dt: old + new / 2 * dt),
-    verlet_with(bent(1.0), lambda old, new, dt: (old + new / 2) * dt),
-    verlet_with(bent(1.0), lambda old, new, dt: old + new * dt / 2),
-    verlet_with(bent(1.0), lambda old, new, dt: old / 2 + new * dt),
-    verlet_with(bent(1.0), lambda old, new, dt: old / 2 + new * dt / 2),
-    verlet_with(bent(1.0), lambda old, new, dt: (old / 2 + new) * dt),
+    verlet_with(bend_by(1.0), lambda old, new, dt: old + new / 2 * dt),
+    verlet_with(bend_by(1.0), lambda old, new, dt: (old + new / 2) * dt),
+    verlet_with(bend_by(1.0), lambda old, new, dt: old + new * dt / 2),
+    verlet_with(bend_by(1.0), lambda old, new, dt: old / 2 + new * dt),
+    verlet_with(bend_by(1.0), lambda old, new, dt: old / 2 + new * dt / 2),
+    verlet_with(bend_by(1.0), lambda old, new, dt: (old / 2 + new) * dt),
 )
 known_8b(
     "mean-by-the-square-of-the-step",
-    verlet_with(bent(1.0), lambda old, new, dt: (old + new) / 2 * dt**2),
+    verlet_with(bend_by(1.0), lambda old, new, dt: (old + new) / 2 * dt**2),
 )
 
 
@@ -331,15 +337,15 @@ def new_velocity_in_x(x: float, v: float, dt: float, force: Force) -> State:
     return x + end * dt, end
 
 
-known_8c("weights-are-swapped", weighed(USUAL, (2 / 6, 1 / 6, 1 / 6, 2 / 6)), apart=True)
-known_8c("mean-of-both-ends", weighed(WHOLE_STEPS, (1 / 2, 1 / 2, 0, 0)))
+known_8c("weights-are-swapped", weigh_samples(USUAL, (2 / 6, 1 / 6, 1 / 6, 2 / 6)), apart=True)
+known_8c("mean-of-both-ends", weigh_samples(WHOLE_STEPS, (1 / 2, 1 / 2, 0, 0)))
 known_8c(
     "velocity-is-not-sampled",
-    weighed(USUAL, RIGHT_WEIGHTS, tuple((before, 0.0) for before, _ in USUAL)),
+    weigh_samples(USUAL, RIGHT_WEIGHTS, tuple((before, 0.0) for before, _ in USUAL)),
 )
 known_8c(
     "step-stays-halved",
-    lambda x, v, dt, force: weighed(WHOLE_STEPS, RIGHT_WEIGHTS)(x, v, dt / 2, force),
+    lambda x, v, dt, force: weigh_samples(WHOLE_STEPS, RIGHT_WEIGHTS)(x, v, dt / 2, force),
 )
 
 
@@ -424,8 +430,8 @@ def second_at_v(x: float, v: float, dt: float, force: Force) -> State:
 
 truth(
     SAMPLES,
-    places_of(USUAL),
-    like,
+    find_places(USUAL),
+    describe_step,
     {f"the position of k{n + 1}": [n] for n in range(4)},
 )
 OTHER_SAMPLES: dict[str, tuple[Source, ...]] = {
@@ -451,10 +457,10 @@ OTHER_WEIGHTS: dict[str, tuple[tuple[float, ...], ...]] = {
     ),
 }
 for sample_name, sources in OTHER_SAMPLES.items():
-    known_samples(sample_name, places_of(sources))
-    known_8c(sample_name, weighed(sources, RIGHT_WEIGHTS))
+    known_samples(sample_name, find_places(sources))
+    known_8c(sample_name, weigh_samples(sources, RIGHT_WEIGHTS))
 for weight_name, many in OTHER_WEIGHTS.items():
-    known_8c(weight_name, *(weighed(USUAL, weights) for weights in many), apart=True)
+    known_8c(weight_name, *(weigh_samples(USUAL, weights) for weights in many), apart=True)
 
 
 PLACES = ("first", "second", "third", "fourth")
@@ -474,15 +480,17 @@ for number, (before, reach) in enumerate(USUAL, 1):
         name = f"k{number + 1}-from-k{source + 1}-at-{share:g}"
         for part, places, speeds in (("position", other, USUAL), ("velocity", USUAL, other)):
             words = f"The {part} {told}"
-            known_samples(f"{part}-of-{name}", places_of(places, speeds), meaning=words)
-            known_8c(f"{part}-of-{name}", weighed(places, RIGHT_WEIGHTS, speeds), meaning=words)
+            known_samples(f"{part}-of-{name}", find_places(places, speeds), meaning=words)
+            known_8c(
+                f"{part}-of-{name}", weigh_samples(places, RIGHT_WEIGHTS, speeds), meaning=words
+            )
 
 
 for number, (before, reach) in enumerate(USUAL, 1):
     other = (*USUAL[: number - 1], (number, reach), *USUAL[number:])
     known_8c(
         f"position-of-k{number + 1}-by-its-own-velocity",
-        weighed(other, RIGHT_WEIGHTS, USUAL),
+        weigh_samples(other, RIGHT_WEIGHTS, USUAL),
         meaning=f"The position of the {PLACES[number]} sample, k{number + 1}, is moved by its own "
         f"velocity; it must be moved by that of the {PLACES[before]} one.",
     )
@@ -520,18 +528,18 @@ FACTORS = (("half", "half of", 0.5), ("twice", "twice", 2.0), ("opposite", "the 
 for name, words, factor in FACTORS:
     known_8a(
         f"{name}-the-way",
-        semi_implicit_with(times(1.0), times(factor)),
+        semi_implicit_with(drift_by(1.0), drift_by(factor)),
         meaning=f"x moves by {words} v * dt; it moves by v * dt, with the new v.",
     )
     if factor != 2.0:  # twice as much is half too little
         known_8b(
             f"{name}-the-bend",
-            verlet_with(bent(factor), mean_times(1.0)),
+            verlet_with(bend_by(factor), kick_by(1.0)),
             meaning=f"x bends by {words} a * dt² / 2; it bends by a * dt² / 2, with the old a.",
         )
         known_8b(
             f"{name}-the-mean",
-            verlet_with(bent(1.0), mean_times(factor)),
+            verlet_with(bend_by(1.0), kick_by(factor)),
             meaning=f"v changes by {words} the mean of both accelerations * dt; it is that mean "
             "* dt.",
         )
@@ -539,7 +547,7 @@ for name, words, factor in FACTORS:
 
 @known_8c("sum-without-the-step", apart=True)
 def sum_without_the_step(x: float, v: float, dt: float, force: Force) -> State:
-    samples = sampled(x, v, dt, force, USUAL)[0]
+    samples = take_samples(x, v, dt, force, USUAL)[0]
     for weight, (dx, dv) in zip(RIGHT_WEIGHTS, samples, strict=True):
         x, v = x + weight * dx, v + weight * dv
     return x, v

@@ -64,7 +64,7 @@ def room(
     return world
 
 
-def asleep(lab: Lab, body: Thing) -> bool:
+def is_asleep(lab: Lab, body: Thing) -> bool:
     value = lab.get(body, "asleep")
     lab.want(isinstance(value, bool), "True or False as Body.asleep", lab.describe(value))
     return bool(value)
@@ -72,7 +72,7 @@ def asleep(lab: Lab, body: Thing) -> bool:
 
 def want(lab: Lab, sleeps: bool, body: Thing, when: str) -> None:
     words = ("awake", "asleep")
-    found = asleep(lab, body)
+    found = is_asleep(lab, body)
     lab.saw("sleep", (when,), found)
     lab.want(found == sleeps, f"{words[sleeps]} {when}", words[found])
 
@@ -99,7 +99,7 @@ def a_ball_at_rest_sleeps_after_half_a_second(lab: Lab) -> None:
         want(lab, False, lying, AT_FIRST)
         run(lab, world, lab.about(0.3, 0.05), dt)
         want(lab, True, lying, AT_REST)
-        static = not asleep(lab, ground)
+        static = not is_asleep(lab, ground)
         lab.saw("sleep", (STATIC,), not static)
         lab.want(static, "a floor that is static and never asleep", "a floor asleep")
         before = lab.state(lying)
@@ -109,7 +109,7 @@ def a_ball_at_rest_sleeps_after_half_a_second(lab: Lab) -> None:
             f"it moved by {math.dist(start.pos, before.pos):.3g} px",
         )
         run(lab, world, lab.about(0.5), dt)
-        stays(lab, before, lab.state(lying))
+        want_still(lab, before, lab.state(lying))
     lab.ran("a ball that creeps over the floor at 3 px/s")
     creeping = ball(lab, vel=(3.0, 0.0), omega=3.0 / RADIUS)
     world = room(lab, floor(lab), creeping)
@@ -130,7 +130,7 @@ def a_ball_at_rest_sleeps_after_half_a_second(lab: Lab) -> None:
     the_lab_scene_falls_asleep(lab)
 
 
-def stays(lab: Lab, before: BodyValue, after: BodyValue) -> None:
+def want_still(lab: Lab, before: BodyValue, after: BodyValue) -> None:
     lab.want(
         (after.pos, after.angle) == (before.pos, before.angle),
         "a sleeper exactly where it fell asleep half a second ago",
@@ -157,7 +157,7 @@ def the_lab_scene_falls_asleep(lab: Lab) -> None:
     left = len(balls)
     for second in range(round(LAB_SCENE)):
         run(lab, world, 1.0)
-        left = sum(not asleep(lab, each) for each in balls)
+        left = sum(not is_asleep(lab, each) for each in balls)
         if not left or (second > LAB_SCENE / 8 and left == len(balls)):
             break
     lab.want(not left, f"all its {len(balls)} balls asleep", f"{left} awake")
@@ -231,7 +231,7 @@ def time_at_rest_begins_anew(lab: Lab) -> None:
 def stay_awake(lab: Lab, world: Thing, body: Thing, why: str) -> None:
     for _ in range(4):
         run(lab, world, lab.about(0.25, 0.03))
-        if asleep(lab, body):
+        if is_asleep(lab, body):
             break
     want(lab, False, body, why)
 
@@ -282,11 +282,12 @@ def a_hit_wakes(lab: Lab) -> None:
     woke = False
     for _ in range(30):
         run(lab, world, STEP)
-        woke = woke or not asleep(lab, sleeper)
+        woke = woke or not is_asleep(lab, sleeper)
     lab.saw("sleep", (AFTER_A_HIT,), not woke)
     lab.want(woke, f"awake {AFTER_A_HIT}", "asleep")
     lab.want(
-        abs(lab.state(sleeper).inv_mass * lab.factor * 50.0 - 1.0) < 1e-9 or asleep(lab, sleeper),
+        abs(lab.state(sleeper).inv_mass * lab.factor * 50.0 - 1.0) < 1e-9
+        or is_asleep(lab, sleeper),
         "a ball that has its 50 kg again",
         "another mass",
     )

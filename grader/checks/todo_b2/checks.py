@@ -8,7 +8,7 @@ from typing import NamedTuple
 from grader.checks import exact
 from grader.checks.exact import Rod, Spring
 from grader.checks.telling import want_told
-from grader.checks.todo_3.checks import FAST, SLOW, STILL, like, velocities, weight
+from grader.checks.todo_3.checks import FAST, SLOW, STILL, make_similar, velocities, weight
 from grader.judge.lab import STEP, Lab, Moment, Pair, Thing
 
 Ends = tuple[Pair, Pair]  # velocities of A and B, px/s
@@ -51,7 +51,7 @@ def want_exact(lab: Lab, spring: Spring, *later: Rod, setting: Setting = USUAL) 
 def want_about(lab: Lab, spring: Spring) -> None:
     """Insist on the same for a spring on a rod like this one."""
     stiffness, damping = lab.about(spring.stiffness), lab.about(spring.damping)
-    want_exact(lab, Spring(like(lab, spring.rod), stiffness, damping))
+    want_exact(lab, Spring(make_similar(lab, spring.rod), stiffness, damping))
 
 
 def apply_once(
@@ -72,11 +72,11 @@ def apply_once(
     answer = velocities((lab.state(a), lab.state(b)))
     lab.saw("spring", (spring,), answer)
     right = exact.spring_applied(spring)
-    good = close(spring, answer, right, math.hypot(*place))
+    good = are_close(spring, answer, right, math.hypot(*place))
     want_told(lab, good, say, right, answer)
 
 
-def close(spring: Spring, answer: Ends, right: Ends, far: float) -> bool:
+def are_close(spring: Spring, answer: Ends, right: Ends, far: float) -> bool:
     """Return whether two answers are equal up to rounding, a share of 1e-16 of each term.
 
     Of ends that are `far` px away the distance is known less well, and so is the direction.

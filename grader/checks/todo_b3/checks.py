@@ -37,7 +37,7 @@ def crowd(
     return lab.world(*bodies, bonus=True), bodies
 
 
-def touching(lab: Lab, world: Thing, bodies: list[Thing], grid: bool) -> Contacts:
+def count_contacts(lab: Lab, world: Thing, bodies: list[Thing], grid: bool) -> Contacts:
     """Return how many contacts each two bodies have; -1 is a body of another world."""
     numbers = {body.ref: number for number, body in enumerate(bodies)}
     lab.put(world, grid=grid)
@@ -59,14 +59,16 @@ def want_the_same_contacts(lab: Lab, balls: list[Disc], boxes: list[Rect]) -> No
 def compare(
     lab: Lab, world: Thing, bodies: list[Thing], balls: list[Disc], boxes: list[Rect]
 ) -> None:
-    right, found = without_and_with(lab, world, bodies)
+    right, found = count_both_ways(lab, world, bodies)
     lab.saw("contacts", (balls, boxes, sorted(right)), sorted(found.elements()))
     want_no_other(lab, right, found)
 
 
-def without_and_with(lab: Lab, world: Thing, bodies: list[Thing]) -> tuple[Contacts, Contacts]:
+def count_both_ways(lab: Lab, world: Thing, bodies: list[Thing]) -> tuple[Contacts, Contacts]:
     """Return the contacts of all pairs, and those that the grid leaves."""
-    return touching(lab, world, bodies, grid=False), touching(lab, world, bodies, grid=True)
+    return count_contacts(lab, world, bodies, grid=False), count_contacts(
+        lab, world, bodies, grid=True
+    )
 
 
 def want_no_other(lab: Lab, right: Contacts, found: Contacts) -> None:
@@ -169,20 +171,20 @@ def contacts_follow_the_bodies(lab: Lab) -> None:
     lab.ran("find_contacts with two balls far apart, and again after one moved to the other")
     x, y = lab.about(0.0, 256.0), lab.about(0.0, 256.0)
     world, bodies = crowd(lab, [Disc(x, y, 10.0), Disc(x + 500.0, y, 10.0)], [])
-    want_no_other(lab, *without_and_with(lab, world, bodies))
+    want_no_other(lab, *count_both_ways(lab, world, bodies))
     lab.put(bodies[1], pos=(x + 15.0, y))
-    want_no_other(lab, *without_and_with(lab, world, bodies))
+    want_no_other(lab, *count_both_ways(lab, world, bodies))
     lab.ran(f"{lab.running}, and a third time when that one is asleep")
     lab.put(bodies[1], asleep=True)
-    want_no_other(lab, *without_and_with(lab, world, bodies))
+    want_no_other(lab, *count_both_ways(lab, world, bodies))
     creep = 4 * A_HAIR
     lab.ran(f"find_contacts with balls nearly touching, and again after half crept {creep:g} px")
     world, bodies = crowd(lab, ON_BOTH_SIDES, [])
-    want_no_other(lab, *without_and_with(lab, world, bodies))
+    want_no_other(lab, *count_both_ways(lab, world, bodies))
     for number, (body, each) in enumerate(zip(bodies, ON_BOTH_SIDES, strict=True)):
         if number % 2:
             lab.put(body, pos=(each.x - creep, each.y - creep))
-    want_no_other(lab, *without_and_with(lab, world, bodies))
+    want_no_other(lab, *count_both_ways(lab, world, bodies))
 
 
 def two_hundred_balls_are_not_compared_pair_by_pair(lab: Lab) -> None:
@@ -213,7 +215,7 @@ def work(lab: Lab, balls: list[Disc]) -> int:
     for _ in range(101):  # as in a scene that has run for a while
         lab.tell(few, "find_contacts")
     world, bodies = crowd(lab, balls, [])
-    found = touching(lab, world, bodies, grid=True)
+    found = count_contacts(lab, world, bodies, grid=True)
     touched, right = len(found), len(balls) // 2
     lab.want(2 * touched >= right, f"contacts of {right} pairs of balls", f"of {touched}")
     return lab.work(world, "find_contacts")

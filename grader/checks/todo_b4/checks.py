@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from itertools import pairwise
 
-from grader.checks.todo_7.checks import BOB, near, pair, scene
+from grader.checks.todo_7.checks import BOB, is_near, pair, scene
 from grader.judge.lab import NOTHING, Lab, Moment, Pair, Thing
 from grader.protocol import ShapeValue, SpaceValue
 
@@ -34,7 +34,7 @@ def course(lab: Lab) -> Course:
     space = lab.thing(found)
     lab.put(space, gravity=(0.0, 0.0), damping=1.0)
     moving = [body for body in found.bodies if body.kind == "dynamic" and body.shapes]
-    moving = [body for body in moving if not near(pair(body.pos), BOB, 1.0)]
+    moving = [body for body in moving if not is_near(pair(body.pos), BOB, 1.0)]
     balls = [each for each in moving if each.shapes[0].kind == "Circle"]
     boxes = [each for each in moving if each.shapes[0].kind == "Poly"]
     lab.want(len(balls) > 1 and bool(boxes), "balls and boxes in the scene", "none")

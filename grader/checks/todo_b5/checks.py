@@ -42,7 +42,9 @@ def a_body_is_drawn_on_its_way_through_the_step(lab: Lab) -> None:
         before = begin[0] + x, begin[1] + y, begin[2] + angle
         now = end[0] + x, end[1] + y, end[2] + angle
         vel, omega, mass, restitution, friction = STATES[number % len(STATES)]
-        body = moved(lab, before, now, dt, mass, restitution=restitution, friction=friction)
+        body = make_moved_body(
+            lab, before, now, dt, mass, restitution=restitution, friction=friction
+        )
         lab.put(body, vel=vel, omega=omega)
         want_all_shares(lab, body, before, now)
     lab.put(body, pos=BY_HAND)
@@ -52,7 +54,7 @@ def a_body_is_drawn_on_its_way_through_the_step(lab: Lab) -> None:
 def want_all_shares(lab: Lab, body: Thing, before: Place, now: Place) -> None:
     """Insist on right answers of between about a body, which it must leave alone."""
     asked = [share for share in SHARES for _ in range(2)]  # the window may ask twice
-    answers = [drawn(lab, body, share) for share in asked]
+    answers = [ask_between(lab, body, share) for share in asked]
     for share, answer in zip(asked, answers, strict=True):
         lab.saw("between", (before, now, share), answer[:2])
     lab.ran(f"between(body, {asked[0]:g}) after a step from {before[:2]} to {now[:2]}")
@@ -95,11 +97,11 @@ def want_part_of_the_way(lab: Lab, found: Place, before: Place, now: Place, shar
         expected="the place {}",
         meaning=OFF_THE_WAY * off,
     )
-    good = any(abs(turned(found[2] - each[2])) < CLOSE for each in (before, right, now))
+    good = any(abs(without_turns(found[2] - each[2])) < CLOSE for each in (before, right, now))
     want_told(lab, good, say_angle, right[2], found[2], digits=4, expected="the angle {}")
 
 
-def turned(angle: float) -> float:
+def without_turns(angle: float) -> float:
     """Return an angle as it is seen: without whole turns."""
     return math.remainder(angle, 2 * math.pi)
 
@@ -112,7 +114,9 @@ def say_angle(angle: float, digits: int) -> str:
     return f"{angle:.{digits}f} rad"
 
 
-def moved(lab: Lab, before: Place, now: Place, dt: float, mass: float, **surface: float) -> Thing:
+def make_moved_body(
+    lab: Lab, before: Place, now: Place, dt: float, mass: float, **surface: float
+) -> Thing:
     """Return a body that a step of its world has brought from one place and angle to another."""
     vx, vy, omega = ((end - begin) / dt for begin, end in zip(before, now, strict=True))
     body = lab.circle(before[:2], 10.0, mass, angle=before[2], vel=(vx, vy), omega=omega, **surface)
@@ -120,7 +124,7 @@ def moved(lab: Lab, before: Place, now: Place, dt: float, mass: float, **surface
     return body
 
 
-def drawn(lab: Lab, body: Thing, share: float) -> Place:
+def ask_between(lab: Lab, body: Thing, share: float) -> Place:
     """Return what between says: a place and an angle."""
     parts = lab.items(
         lab.call("between", body, share, changes=NOTHING, twice=True), "what between returns"

@@ -20,9 +20,9 @@ from grader.checks.whole.lab_scene import (
     ROD,
     SEED,
     STACK,
-    close,
     first_radius,
     is_a_ball,
+    is_close,
     moving_parts,
     pymunk_scene,
     space_parts,
@@ -114,13 +114,13 @@ def want_the_first_scene(lab: Lab, played: Played, when: str) -> None:
     expected = {(*p.pos, p.shape[0], p.mass) for p in world_parts(lab, SEED) if p.mass}
     found = moving_parts(played)
     lab.want(
-        {rounded(row) for row in expected} == {rounded(row) for row in found},
+        {round_row(row) for row in expected} == {round_row(row) for row in found},
         f"{when} the moving bodies of make_world(random.Random({SEED}))",
         f"{len(found)} moving bodies, not all with the place, size and mass of those",
     )
 
 
-def rounded(row: tuple[float, ...]) -> tuple[float, ...]:
+def round_row(row: tuple[float, ...]) -> tuple[float, ...]:
     return tuple(round(number, 6) for number in row)
 
 
@@ -361,15 +361,17 @@ def want_the_scene_again(lab: Lab, found: set[tuple[float, ...]]) -> bool:
     """
     first = {(*p.pos, p.shape[0], p.mass) for p in world_parts(lab, SEED) if p.mass}
     bob = (*BOB.pos, *BOB.shape, BOB.mass)
-    balls = {row for row in found if rounded(row) != rounded(bob)}
+    balls = {row for row in found if round_row(row) != round_row(bob)}
     lab.want(
         len(balls) == len(BALLS)
         and len(found) == len(first)
-        and all(is_a_ball(*row[2:]) and any(close(row[:2], at) for at in BALLS) for row in balls),
+        and all(
+            is_a_ball(*row[2:]) and any(is_close(row[:2], at) for at in BALLS) for row in balls
+        ),
         "after R the bob, and 8 balls where they began, of 10 to 22 px and with a mass of r²/100",
         f"{len(found)} moving bodies, not all with such a place, size and mass",
     )
-    return {rounded(row) for row in first} == {rounded(row) for row in found}
+    return {round_row(row) for row in first} == {round_row(row) for row in found}
 
 
 def want_a_first_ball(lab: Lab, rows: list[list[Moment]], place: tuple[int, int]) -> None:

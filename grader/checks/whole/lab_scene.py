@@ -88,7 +88,9 @@ def want_parts(lab: Lab, found: list[Part], expected: list[Part], seed: int) -> 
         want_part(lab, found, part)
     own_moments = any(part.moment for part in expected if len(part.shape) == 1)
     for number, pos in enumerate(BALLS):
-        radius = next((p.shape[0] for p in found if len(p.shape) == 1 and close(p.pos, pos)), 0.0)
+        radius = next(
+            (p.shape[0] for p in found if len(p.shape) == 1 and is_close(p.pos, pos)), 0.0
+        )
         allowed = [first] if number == 0 else RADII
         lab.want(
             radius in allowed,
@@ -105,7 +107,7 @@ def want_parts(lab: Lab, found: list[Part], expected: list[Part], seed: int) -> 
 
 def want_part(lab: Lab, found: list[Part], part: Part) -> None:
     """Insist on one part, and say in which number the one in its place differs."""
-    here = [p for p in found if close(p.pos, part.pos) and len(p.shape) == len(part.shape)]
+    here = [p for p in found if is_close(p.pos, part.pos) and len(p.shape) == len(part.shape)]
     lab.want(bool(here), part.named, "nothing there")
     pairs = [
         *((name, getattr(part, name), getattr(here[0], name)) for name in NUMBERS),
@@ -122,7 +124,7 @@ def want_part(lab: Lab, found: list[Part], part: Part) -> None:
 NUMBERS = ("mass", "restitution", "friction", "moment")
 
 
-def close(first: Sequence[float], second: Sequence[float]) -> bool:
+def is_close(first: Sequence[float], second: Sequence[float]) -> bool:
     return math.dist(first, second) <= 1e-6
 
 
@@ -162,7 +164,7 @@ def pymunk_scene(lab: Lab, seed: int) -> tuple[SpaceValue, list[Thing]]:
 def space_parts(space: SpaceValue) -> list[Part]:
     """Return each moving body with its shape, and each static shape but a disc at the hook."""
     parts = [part for body in space.bodies for part in shapes_of(body)]
-    return [part for part in parts if part.mass or not close(part.pos, HOOK)]
+    return [part for part in parts if part.mass or not is_close(part.pos, HOOK)]
 
 
 def shapes_of(body: SpaceBody) -> list[Part]:
