@@ -1,6 +1,6 @@
-"""Store what got the marks, or was told the words, that it must, in build/verify.
+"""Store members and half-way states that are graded as they must be, in build/verify.
 
-Each file says what it was made from. It is ignored if any of that changed, or if it was damaged.
+Each file has a key of all that it was made from, and is ignored once any of that changes.
 """
 
 import hashlib
@@ -26,60 +26,42 @@ DECIDING = ("halfway.py", "members.py", "traces.py", "verify.py")  # of this fol
 
 
 class Record(Struct, frozen=True):
-    """One member, graded."""
+    """One member with its marks, or one half-way state without."""
 
     key: str
-    seconds: float
-    result: Result
+    seconds: float = 0.0
+    result: Result | None = None
 
 
-class StoredResults:
-    """The results in a folder; a new version of a member replaces the older ones."""
+class Store:
+    """The records in a folder; a new version of a member replaces the older ones."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.keys: dict[Member, str] = {}
+        self.keys: dict[Path, str] = {}
 
-    def key(self, member: Member) -> str:
+    def key(self, item: Member | Halfway) -> str:
         """Return the key as it was when first asked for: files may change while it is graded."""
-        if member not in self.keys:
-            self.keys[member] = make_key(member)
-        return self.keys[member]
+        path = self.file(item)
+        if path not in self.keys:
+            self.keys[path] = make_key(item) if isinstance(item, Member) else make_state_key(item)
+        return self.keys[path]
 
-    def read(self, member: Member) -> tuple[Result, float] | None:
-        with suppress(OSError, ValueError, msgspec.MsgspecError):
-            digest, _, content = self.file(member).read_bytes().partition(b"\n")
-            if digest.decode() == hashlib.sha256(content).hexdigest():
-                record = msgspec.json.decode(content, type=Record)
-                if record.key == self.key(member):
-                    return record.result, record.seconds
+    def read(self, item: Member | Halfway) -> Record | None:
+        with suppress(OSError, msgspec.DecodeError):
+            record = msgspec.json.decode(self.file(item).read_bytes(), type=Record)
+            return record if record.key == self.key(item) else None
         return None
 
-    def write(self, member: Member, result: Result, seconds: float) -> None:
-        content = msgspec.json.encode(Record(self.key(member), seconds, result))
-        digest = hashlib.sha256(content).hexdigest().encode()
-        write_whole(digest + b"\n" + content, self.file(member))
+    def write(
+        self, item: Member | Halfway, seconds: float = 0.0, result: Result | None = None
+    ) -> None:
+        write_whole(msgspec.json.encode(Record(self.key(item), seconds, result)), self.file(item))
 
-    def file(self, member: Member) -> Path:
-        return self.folder / member.kind / f"{member.name} as {member.form}.json"
-
-
-class StoredStates:
-    """The half-way states in a folder that were told what they must be."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder / "halfway"
-
-    def holds(self, state: Halfway) -> bool:
-        with suppress(OSError, ValueError):
-            return self.file(state).read_text("ascii") == make_state_key(state)
-        return False
-
-    def add(self, state: Halfway) -> None:
-        write_whole(make_state_key(state).encode("ascii"), self.file(state))
-
-    def file(self, state: Halfway) -> Path:
-        return self.folder / f"{state.name}.txt"
+    def file(self, item: Member | Halfway) -> Path:
+        if isinstance(item, Member):
+            return self.folder / item.kind / f"{item.name} as {item.form}.json"
+        return self.folder / "halfway" / f"{item.name}.json"
 
 
 def make_state_key(state: Halfway) -> str:

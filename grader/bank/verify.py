@@ -20,7 +20,7 @@ from rich.console import Console
 from rich.table import Table
 
 from grader.bank.halfway import Halfway, graded, halfway
-from grader.bank.kept import StoredResults, StoredStates
+from grader.bank.kept import Store
 from grader.bank.ladders import Ladder, ladders
 from grader.bank.members import Entry, Member, members
 from grader.bank.sync import sync
@@ -132,9 +132,9 @@ def verify(
     if not chosen and not states:
         example = "wrong/4-against-the-slip"
         raise Stop(f"nothing in the bank has {only!r} in its kind/name, such as {example}")
-    verdicts = judge_members(chosen, jobs, StoredResults(RESULTS), fresh)
+    verdicts = judge_members(chosen, jobs, Store(RESULTS), fresh)
     report.verdicts = collect("grading the bank", verdicts, len(chosen), console)
-    judged = judge_states(states, jobs, StoredStates(RESULTS), fresh)
+    judged = judge_states(states, jobs, Store(RESULTS), fresh)
     report.halfway = collect("grading half-way states", judged, len(states), console)
     order = {(m.kind, m.name, m.form): number for number, m in enumerate(chosen)}
     report.verdicts.sort(key=lambda v: order[v.member.kind, v.member.name, v.member.form])
@@ -147,7 +147,7 @@ def count_unproven(course: Course) -> int:
 
     It grades by the whole rubric, so one `verify` serves every course.
     """
-    results = StoredResults(RESULTS)
+    results = Store(RESULTS)
     all_of_them = [*list_trees(course.as_rated), *members(KIT, course.as_rated)]
     return sum(results.read(replace(each, course=FULL)) is None for each in all_of_them)
 
@@ -164,35 +164,35 @@ def collect(what: str, judged: Iterable[Judged], total: int, console: Console) -
     return found
 
 
-def judge_members(
-    chosen: list[Member], jobs: int, results: StoredResults, fresh: bool
-) -> Iterator[Verdict]:
+def judge_members(chosen: list[Member], jobs: int, store: Store, fresh: bool) -> Iterator[Verdict]:
     """Yield a verdict on each member, earlier ones first; store the sound ones."""
     to_grade = []
     for member in chosen:
-        results.key(member)  # before anything is graded
-        found = None if fresh else results.read(member)
-        if found is None or find_complaint(member, *found):
+        store.key(member)  # before anything is graded
+        found = None if fresh else store.read(member)
+        if not found or not found.result or find_complaint(member, found.result, found.seconds):
             to_grade.append(member)
         else:
-            yield Verdict(member, *found, "", earlier=True)
+            yield Verdict(member, found.result, found.seconds, "", earlier=True)
     for verdict in grade_all(to_grade, jobs, None if fresh else PASSED):
         if verdict.result is not None and not verdict.complaint:
-            results.write(verdict.member, verdict.result, verdict.seconds)
+            store.write(verdict.member, verdict.seconds, verdict.result)
         yield verdict
 
 
 def judge_states(
-    states: list[Halfway], jobs: int, told: StoredStates, fresh: bool
+    states: list[Halfway], jobs: int, store: Store, fresh: bool
 ) -> Iterator[HalfwayVerdict]:
-    """Yield a verdict on each half-way state, earlier ones first; note those that were told."""
-    earlier = [] if fresh else [state for state in states if told.holds(state)]
-    yield from (HalfwayVerdict(state, "", earlier=True) for state in earlier)
-    names = {state.name for state in earlier}
-    left = [state for state in states if state.name not in names]
-    for verdict in run_in_processes(judge_halfway, left, jobs):
+    """Yield a verdict on each half-way state, earlier ones first; store the sound ones."""
+    to_grade = []
+    for state in states:
+        if fresh or store.read(state) is None:
+            to_grade.append(state)
+        else:
+            yield HalfwayVerdict(state, "", earlier=True)
+    for verdict in run_in_processes(judge_halfway, to_grade, jobs):
         if not verdict.complaint:
-            told.add(verdict.state)
+            store.write(verdict.state)
         yield verdict
 
 

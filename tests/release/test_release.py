@@ -417,9 +417,7 @@ def test_one_verify_serves_every_course(tmp_path: Path, monkeypatch):
     few = Course(todos=("8c",), points={"8c": 7})
     asked: dict[str, list[Member]] = {"full": [], "few": []}
     for name, course in (("full", FULL), ("few", few)):
-        monkeypatch.setattr(
-            verify.StoredResults, "read", lambda _, member, n=name: asked[n].append(member)
-        )
+        monkeypatch.setattr(verify.Store, "read", lambda _, member, n=name: asked[n].append(member))
         assert verify.count_unproven(course) == len(asked[name])
     assert 20 < len(asked["few"]) < len(asked["full"]) / 2
     assert {*asked["few"]} <= {*asked["full"]}
