@@ -1,4 +1,4 @@
-"""Text for people: no table of the kit begins a formula, wherever a spreadsheet takes it apart."""
+"""Test text for people: no table has a formula, whatever separator a spreadsheet uses."""
 
 import csv
 import io
@@ -19,7 +19,7 @@ CELLS = st.text(st.sampled_from("=+-@;|,\t\r\n\u00a0 \"'a1\uff1d"), max_size=8)
 
 
 def formulas(text: str, delimiter: str) -> list[str]:
-    """Return the cells of a table that a spreadsheet would run, if it parts lines there."""
+    """Return the cells that a spreadsheet would run if it splits lines at this delimiter."""
     rows = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter)
     cells = (unicodedata.normalize("NFKC", cell).strip() for row in rows for cell in row)
     return [cell for cell in cells if cell.startswith(("=", "+", "-", "@")) and cell != "-"]
@@ -65,7 +65,7 @@ def test_honest_words_stay(cell: str):
 
 @pytest.mark.parametrize("part", ["\t", "; ", ";", '"', " "])
 def test_a_long_cell_is_read_once(part: str):
-    """By a reader that goes back, a cell this long takes hours."""
+    """A pattern that goes back takes hours for such a cell."""
     assert escape_inside(part * 500_000 + "a") == part * 500_000 + "a"
 
 

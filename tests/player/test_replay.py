@@ -63,7 +63,7 @@ DISC = BodyLook(0, [ShapeLook([(0.0, 0.0)], 10.0)], 1.0, 50.0)
 
 
 def grade_mistakes(once: Once, name: str, todos: set[str]) -> Path:
-    """Make the solution with mistakes in several TODOs, and beside it what grading some finds.
+    """Make the solution with mistakes in several TODOs, grade some, and write the result beside it.
 
     One of the processes that run the tests grades it for all.
     """
@@ -98,19 +98,19 @@ def pages(mistaken: Path) -> Path:
 
 @pytest.fixture(scope="session")
 def more_pages(once: Once) -> Path:
-    """Two more TODOs, for the soak."""
+    """Make the replays of two more TODOs, for the soak."""
     return grade_mistakes(once, "more-replays", {"6", "7b"}).parent / "pages"
 
 
 def read_replay(path: Path) -> dict[str, Any]:
-    """The data in a page."""
+    """Return the data in a page."""
     text = path.read_text(encoding="utf-8")
     (found,) = re.findall(r'id="replay">(.*?)</script>', text, re.DOTALL)
     return json.loads(found)
 
 
 def line_of_parting(data: dict[str, Any]) -> tuple[int, dict[str, Any]]:
-    """The request after which the runs part: which one it is, and the line."""
+    """Return the number and the line of the request at which the runs differ."""
     lines = data["scenes"][data["parting"]["scene"]]["lines"]
     last = max(n for n, line in enumerate(lines) if line["at"] <= data["parting"]["moment"])
     return last, lines[last]
@@ -178,7 +178,7 @@ def test_runs_part_at_the_wrong_call(
 
 @pytest.mark.soak
 def test_a_missing_cap_parts_in_the_slow_frame(more_pages: Path):
-    """The frames are 2 ms, six of 0.1 s, then the slow one: the ninth moment with its own."""
+    """The frames are 2 ms, six of 0.1 s, then the slow one."""
     data = read_replay(more_pages / "6-a_slow_frame_runs_eight_steps.html")
     steps = [moment[1] for moment in data["scenes"][0]["yours"]]
     jumps = [n for n in range(1, len(steps)) if steps[n] - steps[n - 1] > 8]
@@ -248,7 +248,7 @@ def test_runs_part_by_half_a_pixel(change: dict[str, float], words: str):
         assert (found.moment, found.words) == (2, words)
 
 
-def test_what_nobody_sees_parts_where_nothing_else_does():
+def test_an_invisible_difference_counts_if_there_is_no_other():
     tiny, more = (msgspec.structs.replace(AT_REST, x=x) for x in (0.001, 0.6))
     still = runs(AT_REST, AT_REST)
     found = pair_runs(runs(tiny, AT_REST), still).parting
@@ -341,7 +341,7 @@ def test_the_script_shows_the_mistake_in_the_tree_as_it_is(
 
 
 def test_names_begin_at_one_and_agree_with_the_picture(pages: Path):
-    """Whatever a check has made before: what a script makes, its replay has under the same name."""
+    """A replay has the same names as its script, whatever the check has made before."""
     bodies = 0
     for path in pages.glob("*.py"):
         made = re.findall(r"^(ball|box)(\d*) = Body", path.read_text("utf-8"), re.MULTILINE)
@@ -365,7 +365,7 @@ def test_the_same_line_many_times_over_is_a_loop():
 
 
 def test_scripts_are_short(pages: Path):
-    """What builds the scene and asks: imports, comments and the way to the tree aside."""
+    """Imports, comments and the path do not count."""
     for path in pages.glob("*.py"):
         lines = path.read_text(encoding="utf-8").splitlines()
         own = [line for line in lines if line and not re.match(r"#|import |from |sys\.path", line)]
@@ -433,7 +433,7 @@ def test_recorded_runs_are_of_fixed_checks_and_compact(expected_runs: bytes):
 
 
 class Liar:
-    """Stands in for a child: answers every recording with the same thing."""
+    """Replaces a child: it answers every recording with the same message."""
 
     cpu = rested = 0.0
     heard = 0
@@ -513,7 +513,7 @@ def test_an_object_that_has_everything_is_looked_at_for_a_moment_only(tmp_path: 
 
 
 def test_children_that_die_while_recorded_end_the_replays(graded: Result, tmp_path: Path):
-    """Marks and reasons stand; after a few deaths no more replays are tried."""
+    """Marks and reasons stay; after a few deaths no more replays are made."""
     opened_children = []
 
     def open_child(seconds: int) -> Any:
@@ -575,14 +575,14 @@ def opened_page(browser: Any, pages: Path) -> Iterator[Screen]:
 
 @pytest.fixture
 def screen(opened_page: Screen) -> Screen:
-    """The page where it opens, with nothing in focus."""
+    """Show the page as it opens, with nothing in focus."""
     opened_page.page.evaluate("document.activeElement.blur()")
     opened_page.page.keyboard.press("p")
     return opened_page
 
 
 def gaps(scene: dict[str, Any]) -> list[float]:
-    """How far apart bodies of the two runs are, moment by moment, px."""
+    """Return the largest distance of bodies of both runs in each moment, px."""
     found: list[float] = []
     here: dict[int, list[float]] = {}
     there: dict[int, list[float]] = {}
@@ -646,7 +646,7 @@ def test_the_player_steps_and_scrubs(screen: Screen, pages: Path):
 
 
 def test_the_player_plays_and_stops_by_a_key(screen: Screen):
-    """The page's clock is ours: no moment can be missed, however busy the machine is."""
+    """The test sets the page's clock, so a busy machine misses no moment."""
     keys, clock = screen.page.keyboard, screen.page.clock
     clock.install()
     clock.pause_at("2030-01-01")

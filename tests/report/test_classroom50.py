@@ -1,4 +1,4 @@
-"""The bundle for Classroom 50, run as its runner runs it: in a checkout, with its variables."""
+"""Test the bundle for Classroom 50 as its runner runs it: in a checkout, with its variables."""
 
 import hashlib
 import json
@@ -32,7 +32,7 @@ sys.exit(autograder.main())
 
 @dataclass
 class Run:
-    """A run of the autograder in a checkout, and what the runner takes from there."""
+    """A run of the autograder in a checkout, and the files that the runner takes."""
 
     checkout: Path
     status: int
@@ -41,7 +41,7 @@ class Run:
 
     @property
     def marks(self) -> Any:
-        """The marks after the runner has stamped them with what it knows for certain."""
+        """Return the marks with the fields that the runner adds."""
         marks = json.loads((self.checkout / "result.json").read_text(encoding="utf-8"))
         marks |= {"owner": "anna", "assignment_type": "individual"}
         ci_readers.classroom50_marks(marks)
@@ -53,7 +53,7 @@ class Run:
 
 
 def run_in(checkout: Path, runner: Path, *command: str, **more: str) -> Run:
-    """As the runner does it: old results out of the way, then Python in the checkout."""
+    """Do as the runner does: remove old results, then start Python in the checkout."""
     for name in ("result.json", "release-body.md"):
         if (checkout / name).exists():
             (checkout / name).unlink()
@@ -93,7 +93,7 @@ def run_in(checkout: Path, runner: Path, *command: str, **more: str) -> Run:
 
 
 def without_download(checkout: Path, **more: str) -> Run:
-    """All of autograder.py but that the packages are there already."""
+    """Run autograder.py with the packages that are installed here."""
     script = checkout.parent / "bundle" / "started_by_the_runner.py"
     script.parent.mkdir()
     script.write_text(ALL_BUT_THE_DOWNLOAD.format(bundle=str(BUNDLE)), encoding="utf-8")
@@ -214,7 +214,7 @@ def test_the_bundle_has_what_it_needs_and_nothing_else(tmp_path: Path):
 
 @pytest.mark.soak
 def test_the_bundle_installs_itself_and_grades(tmp_path: Path):
-    """With a download of the locked packages."""
+    """Download the locked packages."""
     source = shutil.copytree(
         KIT, tmp_path / "kit", ignore=shutil.ignore_patterns(".*", "build", "tests", "solution")
     )

@@ -16,7 +16,7 @@ from grader.report.html import render, write_report
 
 
 def result(name: str = "ada", words: str = "words", replay: str | None = None) -> Result:
-    """One TODO of every state."""
+    """Make a result with a TODO of every state."""
     where = Where(words, 12)
     checks = {
         "passed": CheckResult("a", "A title", "unit", "passed", 3, 3),

@@ -1,4 +1,4 @@
-"""The first screen of `check`: sixteen lines, on one TODO, with the cause before all else."""
+"""Test the first screen of `check`: 16 lines on one TODO, the cause first."""
 
 import io
 import os

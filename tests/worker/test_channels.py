@@ -1,4 +1,4 @@
-"""Nothing that one child leaves is there for the next: each channel there could be, tried.
+"""Test that no child finds anything that another child left: try each possible channel.
 
 The first child leaves a word in a way, and lives on; the second one looks for it. A world is what
 their worker has of the layers: all of them, all but the filter, the filter alone.
@@ -29,7 +29,7 @@ ADD_KEY, KEYCTL, REQUEST_KEY = {"x86_64": (248, 250, 249)}.get(os.uname().machin
 held = []
 
 def places(work):
-    """Files and folders that a later child may meet."""
+    """Return files and folders that a later child may see."""
     here = os.path.dirname(os.path.abspath(__file__))
     return [work, work + "/tree", work + "/tree/channels.py", work + "/bytecode", here, __file__,
             here + "/__pycache__", os.path.realpath(here + "/__pycache__"), os.__file__,
@@ -195,7 +195,7 @@ def world(request: pytest.FixtureRequest) -> str:
 
 @pytest.fixture(scope="module")
 def sandbox(world: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Sandbox]:
-    """As a grade has it: a tree that is read-only, a folder beside it."""
+    """Make a sandbox as for a grade: a read-only tree, and a folder beside it."""
     work = tmp_path_factory.mktemp("channels")
     tree = work / "tree"
     tree.mkdir()
@@ -237,7 +237,7 @@ def test_nothing_is_carried_to_the_next_child(name: str, sandbox: Sandbox, world
 
 
 def found(sandbox: Sandbox, name: str) -> bool:
-    """Whether a new child finds the word."""
+    """Return whether a new child finds the word."""
     child = sandbox.open_child(10)
     try:
         return ask(child, "find", name, str(sandbox.work))
@@ -252,7 +252,7 @@ libc.sbrk.restype = ctypes.c_void_p
 WORD = b"-of-" + b"the-first"
 
 def find():
-    """How often a word stands in the memory that this process was forked with."""
+    """Count a word in the memory that this process was forked with."""
     top, size = libc.sbrk(0), 1 << 20
     heap = range(top // size - 64, top // size + 1)
     objects = {id(each) // size for each in gc.get_objects()}
@@ -269,7 +269,7 @@ def find():
 
 
 def test_the_files_of_one_submission_are_in_no_memory_of_the_next(tmp_path: Path):
-    """All children of a class are forked from one process: it must have read none of them."""
+    """The process that forks all children of a class must not have read any submission."""
     worker = start_worker()
     counts = []
     for name in ("the-first", "the-second"):

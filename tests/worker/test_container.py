@@ -1,4 +1,4 @@
-"""Where a machine has no walls: it refuses, and a container grades instead."""
+"""Test machines without layers: the grader refuses there, and a container grades instead."""
 
 import json
 import os
@@ -22,7 +22,7 @@ BARE = ["processes", "process-group", "rlimits"]  # as on macOS
 INSTRUCTIONS = (KIT / "Containerfile").read_text(encoding="utf-8")
 
 
-def test_somebody_elses_work_is_refused_where_files_are_open():
+def test_other_peoples_work_is_refused_where_files_are_open():
     assert "--isolation none" in find_refusal("auto", [*BARE, "system-calls"], trusted=False)
     assert find_refusal("auto", BARE, trusted=True) == ""
     assert find_refusal("none", ["processes"], trusted=False) == ""
@@ -65,7 +65,7 @@ def test_without_isolation_all_of_the_judge_is_loaded_before_a_submission_runs()
 
 # ---------------------------------------------------------------- the container
 
-posix = pytest.mark.skipif(os.name == "nt", reason="the stand-in is a script for a shell")
+posix = pytest.mark.skipif(os.name == "nt", reason="the script needs a shell")
 
 
 def copied() -> list[str]:
@@ -78,8 +78,8 @@ def test_what_is_copied_is_not_ignored():
     assert all((KIT / name).exists() for name in copied())
 
 
-class Asked:
-    """What `make contained` asks of the engine, which is stood in for by a script."""
+class EngineCall:
+    """The arguments that `make contained` gives to the engine; a script replaces the engine."""
 
     def __init__(self, folder: Path, *settings: str) -> None:
         engine = folder / "engine"
@@ -87,7 +87,7 @@ class Asked:
         engine.chmod(0o755)
         command = ["make", "contained", f"ENGINE='{engine}'", *settings]
         subprocess.run(command, cwd=KIT, check=True, stdout=subprocess.DEVNULL)
-        self.build, run = (each.split("\n") for each in self.asked(folder))
+        self.build, run = (each.split("\n") for each in self.read_calls(folder))
         image = run.index("physics-grader")
         self.options, self.arguments = run[:image], run[image + 1 :]
         self.read, self.written = {}, {}
@@ -96,7 +96,7 @@ class Asked:
                 outside, inside, *only = volume.split(":")
                 (self.read if only else self.written)[inside] = Path(outside)
 
-    def asked(self, folder: Path) -> list[str]:
+    def read_calls(self, folder: Path) -> list[str]:
         return (folder / "asked").read_text().removesuffix("\n\n").split("\n\n")
 
 
@@ -106,17 +106,17 @@ def test_one_command_grades_a_folder_in_it(tmp_path: Path, results: str):
     folder = tmp_path / "a class"
     folder.mkdir()
     settings = [f"RESULTS={tmp_path}/given back/{results}"] if results else []
-    asked = Asked(tmp_path, f"SUBMISSIONS={folder}/", "SEED=7", *settings)
-    assert asked.build == ["build", "--tag", "physics-grader", "--file", "Containerfile", "."]
-    assert ("--network", "none") in pairwise(asked.options) and "--read-only" in asked.options
-    assert asked.read["/instructor/submissions"] == folder
-    assert asked.written == {"/instructor/beside": tmp_path / "given back" if results else tmp_path}
+    call = EngineCall(tmp_path, f"SUBMISSIONS={folder}/", "SEED=7", *settings)
+    assert call.build == ["build", "--tag", "physics-grader", "--file", "Containerfile", "."]
+    assert ("--network", "none") in pairwise(call.options) and "--read-only" in call.options
+    assert call.read["/instructor/submissions"] == folder
+    assert call.written == {"/instructor/beside": tmp_path / "given back" if results else tmp_path}
     out = f"/instructor/beside/{results or 'a class-results'}"
-    assert asked.arguments == ["--out", out, "--seed", "7"]
+    assert call.arguments == ["--out", out, "--seed", "7"]
 
 
 @posix
-def test_who_names_no_folder_is_told(tmp_path: Path):
+def test_a_missing_folder_is_named(tmp_path: Path):
     for more, said in ((), "needs SUBMISSIONS=folder"), (("SUBMISSIONS=none",), "is no folder of"):
         command = ["make", "contained", "ENGINE=false", *more]
         done = subprocess.run(command, cwd=KIT, capture_output=True, text=True)
@@ -126,7 +126,7 @@ def test_who_names_no_folder_is_told(tmp_path: Path):
 @posix
 @pytest.mark.soak
 def test_what_is_copied_grades_a_class_and_writes_nowhere_else(tmp_path: Path):
-    """The entry point as it stands, on what the container holds, in another folder."""
+    """Run the entry point on the container's files, in another folder."""
     kit = tmp_path / "kit"
     kit.mkdir()
     for name in copied():
@@ -135,10 +135,10 @@ def test_what_is_copied_grades_a_class_and_writes_nowhere_else(tmp_path: Path):
     ann = tmp_path / "submissions" / "ann"
     ann.mkdir(parents=True)
     shutil.copy(KIT / "solution" / "integrators.py", ann)
-    asked = Asked(tmp_path, f"SUBMISSIONS={ann.parent}", f"RESULTS={tmp_path}/class")
-    (beside,) = asked.written
+    call = EngineCall(tmp_path, f"SUBMISSIONS={ann.parent}", f"RESULTS={tmp_path}/class")
+    (beside,) = call.written
     (line,) = re.findall(r"^ENTRYPOINT (.+)$", INSTRUCTIONS, re.MULTILINE)
-    command = [*json.loads(line), *asked.arguments, "--jobs", "1", "--todo", "8a"]
+    command = [*json.loads(line), *call.arguments, "--jobs", "1", "--todo", "8a"]
     command = [each.replace("/instructor", str(tmp_path)) for each in command]
     before = set(tmp_path.rglob("*"))
     subprocess.run(

@@ -1,4 +1,4 @@
-"""What a child finds of its submission: a copy of its own, and folders as they were handed out."""
+"""Test the files of a child: its own copy of the submission, and shared unchanged folders."""
 
 import os
 import sys
@@ -28,7 +28,7 @@ def write_into(folder):
 
 @pytest.fixture
 def trees(tmp_path: Path) -> tuple[Path, Path]:
-    """A submission and a reference. Only the folder stable_engine is alike in both."""
+    """Make a submission and a reference; only the folder stable_engine is equal in both."""
     for tree in ("submission", "reference"):
         for name, text in (
             ("mini_engine.py", PROGRAM),
@@ -44,7 +44,7 @@ def trees(tmp_path: Path) -> tuple[Path, Path]:
     return tmp_path / "submission", tmp_path / "reference"
 
 
-def test_a_folder_as_it_was_handed_out_is_known(trees):
+def test_an_unchanged_folder_is_recognised(trees):
     assert as_in_reference(*trees) == (["stable_engine"] if os.name == "posix" else [])
     assert as_in_reference(trees[0], None) == []
     (trees[0] / "stable_engine" / "deep" / "more.py").write_text("MORE = 2\n", encoding="utf-8")
@@ -53,7 +53,7 @@ def test_a_folder_as_it_was_handed_out_is_known(trees):
 
 @pytest.mark.skipif(os.name != "posix", reason="Windows may not allow links, so all is copied")
 @pytest.mark.parametrize("spawn", [False, True], ids=["fork", "spawn"])
-def test_it_is_read_where_it_lies_and_all_else_is_the_childs_own(trees, spawn):
+def test_an_unchanged_folder_is_read_only_and_all_else_is_the_childs_own(trees, spawn):
     submission, reference = trees
     worker = start_worker(spawn)
     try:
@@ -93,9 +93,9 @@ def test_a_scratch_folder_serves_again_only_where_no_child_can_see_it(trees, wit
                 child.end()
             covered = "mount-namespace" in sandbox.layers
             places = [path for path in work.iterdir() if path.name.startswith("tmp")]
-            # The one that compiles has a folder of its own: it is waited for by nobody's layers.
+            # The child that compiles has a folder of its own.
             assert len(places) == 2
-            # What an ended child wrote on the disk is gone when there is a next one.
+            # The next child removes what an ended one wrote on the disk.
             assert len(list(work.rglob("log.txt"))) == (0 if covered else 1)
     finally:
         worker.close()

@@ -115,7 +115,7 @@ NEEDS = {
 
 
 class Prober:
-    """Calls one of the probes in a fresh child of the worker."""
+    """Calls a probe in a new child of the worker."""
 
     def __init__(self, tmp_path: Path, worker: Worker) -> None:
         self.worker = worker
@@ -135,7 +135,7 @@ class Prober:
         return reply.value if isinstance(reply, Returned) else reply
 
     def open(self) -> Child:
-        """A child with a scratch folder of its own, as each has."""
+        """Open a child with a scratch folder of its own."""
         scratch = Path(self.setup.scratch).with_name(f"scratch{len(self.children)}")
         scratch.mkdir()
         self.setup = msgspec.structs.replace(self.setup, scratch=str(scratch))
@@ -150,7 +150,7 @@ class Prober:
 
 @pytest.fixture(scope="module")
 def workers() -> Iterator[dict[frozenset[str], Worker]]:
-    """By what their children go without; each is started when a test asks for it."""
+    """Workers by the layers that they leave out; each starts when a test asks for it."""
     started: dict[frozenset[str], Worker] = {}
     yield started
     for worker in started.values():
@@ -159,7 +159,7 @@ def workers() -> Iterator[dict[frozenset[str], Worker]]:
 
 @pytest.fixture
 def layer(request: pytest.FixtureRequest) -> str:
-    """The one layer that a test is about, or none; skips it where the machine has no such layer."""
+    """Return the layer of a test, or none; skip the test where the machine lacks that layer."""
     name: str = getattr(request, "param", "")
     if name and name not in expected_layers():
         pytest.skip(f"this kernel or account has no {name}, so none can fail")
@@ -168,7 +168,7 @@ def layer(request: pytest.FixtureRequest) -> str:
 
 @pytest.fixture
 def probe(tmp_path: Path, layer: str, workers: dict[frozenset[str], Worker]) -> Iterator[Prober]:
-    """Children with all layers; in a test of one layer with this one alone: it must hold."""
+    """Yield a prober of children with all layers, or with the layer of the test alone."""
     without = frozenset(SWITCHES - {layer, NEEDS.get(layer, layer)} if layer else ())
     if without not in workers:
         workers[without] = start_worker(without=without)
@@ -186,7 +186,7 @@ def refused(reply: object, *errors: str) -> bool:
 
 
 def can(flags: int) -> bool:
-    """Whether a process of this user may enter such namespaces, found out by another one."""
+    """Return whether a process of this user may enter such namespaces; a new process tries."""
     program = f"import ctypes; exit(ctypes.CDLL(None).unshare({flags}) != 0)"
     return subprocess.run([sys.executable, "-c", program]).returncode == 0
 
@@ -426,7 +426,7 @@ def read_memory(pid: int) -> bytes:
 
 
 def read_pages(memory: FileIO, first: int, last: int) -> Iterator[bytes]:
-    """Yield what can be read: newer C libraries guard a stack by pages within a mapping."""
+    """Yield the readable pages: newer C libraries guard a stack by pages within a mapping."""
     size = os.sysconf("SC_PAGE_SIZE")
     for start in range(first, last, size):
         with suppress(OSError):

@@ -1,4 +1,4 @@
-"""Putting a function in the place of another, whoever holds that one and by whatever name."""
+"""Test replacing a function, also where it is already imported or stored."""
 
 import functools
 from collections.abc import Callable
@@ -9,7 +9,7 @@ import pytest
 from grader.worker.standin import adapt, plain_function, replace_function
 
 
-def test_all_who_hold_a_function_reach_the_one_that_stands_in():
+def test_all_references_to_a_function_reach_the_replacement():
     def double(x: int, times: int = 2) -> int:
         return times * x
 
@@ -77,9 +77,9 @@ def positional(a: Any, b: Any, /) -> None: ...
         (positional, (1, 2), {}),
     ],
 )
-def test_a_function_that_is_called_alike_fits(original: Any, args: Any, kwargs: Any):
-    stand_in = adapt(lambda a, b: (a, b), ["a", "b"], original)
-    assert stand_in is not None and stand_in(*args, **kwargs) == (1, 2)
+def test_a_function_with_similar_parameters_is_adapted(original: Any, args: Any, kwargs: Any):
+    replacement = adapt(lambda a, b: (a, b), ["a", "b"], original)
+    assert replacement is not None and replacement(*args, **kwargs) == (1, 2)
 
 
 def too_few(a: Any) -> None: ...
@@ -87,5 +87,5 @@ def too_many(x: Any, y: Any, z: Any) -> None: ...
 
 
 @pytest.mark.parametrize("original", [too_few, too_many])
-def test_one_that_is_called_otherwise_is_left_alone(original: Any):
+def test_a_function_with_other_parameters_is_refused(original: Any):
     assert adapt(lambda a, b: (a, b), ["a", "b"], original) is None

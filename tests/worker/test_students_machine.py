@@ -1,4 +1,4 @@
-"""A submission runs as on its student's machine: in its folder, with what it may import."""
+"""Test that a submission runs as on its student's machine: in its folder, with its imports."""
 
 import re
 import subprocess
@@ -69,7 +69,7 @@ def test_any_other_import_in_a_todo_meets_the_rule(library: str, hand_in: HandIn
 
 @pytest.mark.parametrize("library", ["scipy", "grader.checks.exact"])
 def test_an_import_in_given_code_is_put_back(library: str, hand_in: HandIn):
-    """It stands in given code, so the TODO keeps its points: the whole loses them."""
+    """The import is in given code, so the TODO keeps its points."""
     result = graded(hand_in(integrators_py=f"import {library}\n{INTEGRATORS}"))
     check = checks(result)[0]
     assert f"`import {library}`, was not there" in check.meaning

@@ -33,7 +33,7 @@ INTEGRATORS = read_source(KIT / "solution" / "integrators.py")
 
 
 def watch(seconds: float | None) -> None:
-    """Interrupt what takes longer, in processor seconds, as the page does by a shared byte."""
+    """Interrupt a request that takes longer, as the page does; processor seconds."""
     signal.setitimer(signal.ITIMER_PROF, seconds or 0, 0.1 if seconds else 0)
 
 
@@ -56,7 +56,7 @@ def checks(result: Result) -> list[CheckResult]:
 
 
 def assert_same(folder: Path, tab: InlineWorker, *todos: str) -> Result:
-    """Both workers must give the same result, but for the name of the isolation."""
+    """Assert that both workers give the same result, but for the name of the isolation."""
     options = Options(only=frozenset(todos), trusted=True)
     here = grade(folder, options, tab)
     usual = grade(folder, options, shared_worker())

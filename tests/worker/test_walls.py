@@ -60,7 +60,7 @@ def workers() -> Iterator[dict[str, Worker]]:
 
 
 def goes_through(member: str, worker: Worker, work: Path) -> bool:
-    """Whether the attack does, in the second of two children: the first may leave a word."""
+    """Return whether the attack works in the second of two children: the first may leave data."""
     tree = work / "tree"
     tree.mkdir(parents=True)
     shutil.copy(KIT / "solution" / "integrators.py", tree)

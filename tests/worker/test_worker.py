@@ -105,7 +105,7 @@ class Asker:
 
 @pytest.fixture(scope="module")
 def workers() -> Iterator[dict[bool, WarmWorker | SpawnWorker]]:
-    """Both kinds of worker, by whether they spawn; each is started when a test asks for it."""
+    """Workers that fork or spawn; each starts when a test asks for it."""
     started: dict[bool, WarmWorker | SpawnWorker] = {}
     yield started
     for worker in started.values():
@@ -137,7 +137,7 @@ linux = pytest.mark.skipif(
 @linux
 @forked
 def test_what_sdl_looks_for_in_each_frame_is_there_before_the_fork(ask: Asker):
-    """Where a child may not ask for joysticks, it loaded this library 2,000 times in a grade."""
+    """Otherwise children load this library 2,000 times in a grade."""
     try:
         ctypes.CDLL("libudev.so.1")
     except OSError:
@@ -226,7 +226,7 @@ def test_a_process_left_behind_is_ended(ask: Asker):
 
 @linux
 def test_where_processes_are_numbered_with_all_others_none_is_left_behind(tmp_path: Path):
-    """As on macOS and in a bare container: strays are found by whose children they are."""
+    """On macOS and in a bare container, strays are found by their parents."""
     worker = start_worker(without=("pid-namespace", "system-calls"))
     asker = Asker(tmp_path, worker)
     server = psutil.Process(worker.process.pid)
