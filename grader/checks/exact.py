@@ -219,10 +219,7 @@ def clamped(value: float, limit: float) -> float:
 
 @recorded.oracle()
 def friction(mu: Pair, k: float, closing: float, slip: float) -> float:
-    """Return the friction impulse on B in a step, along the slip, kg px/s.
-
-    k is in 1/kg, the speeds in px/s.
-    """
+    """Return the friction impulse on B in a step, along its slip, kg px/s; k in 1/kg."""
     return clamped(-slip / k, math.sqrt(mu[0] * mu[1]) * max(closing / k, 0.0))
 
 
