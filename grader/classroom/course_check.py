@@ -6,6 +6,7 @@ with the students; what grading handles by itself is not mentioned.
 
 from collections import Counter
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -33,42 +34,39 @@ class Files:
     submissions: Path | None = None
 
 
-def find_problems(files: Files, path: Path | None = None) -> Iterator[str]:
-    """Return all problems, a sentence each; `path` is the course, or else it is the kit's."""
+def find_problems(files: Files, path: Path | None = None) -> list[str]:
+    """Return all problems, a sentence each; `path` is the course, by default the kit's."""
     course, roster, people, adjustments = FULL, None, ClassList(), Adjustments()
-    try:
+    found: list[str] = []
+    with collect_stop(found):
         course = read_course(path)
-    except Stop as error:
-        yield str(error)
-    if files.roster is not None:
-        try:
+    with collect_stop(found):
+        if files.roster is not None:
             roster = read_roster(files.roster)
             people = ClassList(roster, files.key)
-            yield from check_roster(roster, roster.choose_key(files.key))
-        except Stop as error:
-            yield str(error)
-    if files.marking is not None:
-        try:
-            marking = load_marking(files.marking, course)
-            if roster is not None:
-                yield from check_gradebook(roster, marking, files.marking)
-        except Stop as error:
-            yield str(error)
-    try:
+            found += check_roster(roster, roster.choose_key(files.key))
+    with collect_stop(found):
+        marking = load_marking(files.marking, course)
+        found += check_gradebook(roster, marking) if roster else ()
+    with collect_stop(found):
         adjustments = load_adjustments(files.adjust, course)
         people.chosen = adjustments.choices
-    except Stop as error:
-        yield str(error)
     names = people.names
-    if files.submissions is not None:
-        try:
+    with collect_stop(found):
+        if files.submissions is not None:
             with open_class(files.submissions, people) as intake:
                 names = [*intake.names, *people.list_absent(intake.names)]
-                yield from check_submissions(intake, people, adjustments, course)
-        except Stop as error:
-            yield str(error)
-            return
-    yield from check_names(adjustments, names, people, files.adjust)
+                found += check_submissions(intake, people, adjustments, course)
+    return [*found, *check_names(adjustments, names, people, files.adjust)]
+
+
+@contextmanager
+def collect_stop(found: list[str]) -> Iterator[None]:
+    """Add what stops a step to the problems found."""
+    try:
+        yield
+    except Stop as error:
+        found.append(str(error))
 
 
 def check_roster(roster: Roster, key: str) -> Iterator[str]:
@@ -98,13 +96,13 @@ def check_roster(roster: Roster, key: str) -> Iterator[str]:
         yield f"{roster.path}: the column {column!r} is empty: no group shares a mark"
 
 
-def check_gradebook(roster: Roster, marking: Marking, path: Path) -> Iterator[str]:
+def check_gradebook(roster: Roster, marking: Marking) -> Iterator[str]:
     """Yield differences between a gradebook and the settings of marks."""
     sign, title = find_system(roster).title_sign, marking.title
     if sign and not any(name.startswith(f"{title} {sign}") for name in roster.columns):
         yield (
-            f"{roster.path} has no column {title!r}, as {path} or the course calls it: make the "
-            "assignment and export again, or change the title"
+            f"{roster.path} has no column {title!r}: make the assignment there and export again, "
+            "or change the title in the course or marks.toml"
         )
     worth = read_total(roster, title)
     if worth is not None and worth != marking.total:

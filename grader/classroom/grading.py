@@ -73,7 +73,7 @@ def write_similar(run: Run, earlier: Sequence[Path]) -> None:
         found, prints = {each.name: each for each in run.intake.found}, list(run.prints)
         here = {each.name for each in prints}
         for folder in earlier:
-            others, more = read_prints(stack, folder, read_class_list(folder, None), folder.stem)
+            others, more = read_prints(stack, folder, read_class_list(folder, None))
             found |= others
             prints += more
         try:

@@ -131,14 +131,14 @@ def make_prints(package: Package, team: tuple[str, ...] = ()) -> Prints:
 
 
 def read_prints(
-    stack: ExitStack, folder: Path, people: ClassList, label: str = ""
+    stack: ExitStack, folder: Path, people: ClassList
 ) -> tuple[dict[str, Found], list[Prints]]:
-    """Read a class under its label; its files stay as long as `stack` is open."""
+    """Read an earlier class, named after its folder; its files stay while `stack` is open."""
     found, prints = {}, []
     for each in stack.enter_context(open_class(folder, people)).found:
         if each.handed_in_by:
             continue  # the work of a group is compared once
-        name = f"{label}/{each.name}" if label else each.name
+        name = f"{folder.stem}/{each.name}"
         with suppress(CannotTake, Exceeded, Failed, Lost):
             prints.append(replace(make_prints(pack(each), each.team), name=name))
             found[name] = each
@@ -238,9 +238,7 @@ def locate_pairs(results: Path, suffix: str) -> Path:
     return results.with_name(f"{results.name}.alike.{suffix}")
 
 
-def write_pairs(
-    results: Path, pairs: list[Pair], found: Mapping[str, Found], least: float = EXPECTED
-) -> Path:
+def write_pairs(results: Path, pairs: list[Pair], found: Mapping[str, Found]) -> Path:
     """Write the pairs as a page, a table and JSON; `found` has all submissions by name."""
     path = locate_pairs(results, "html")
     page = fill_template(
@@ -248,7 +246,7 @@ def write_pairs(
         "dashboard.css",
         title=results.name,
         pairs=[(pair, *show_pair(*(found[name] for name in pair.names))) for pair in pairs],
-        least=least,
+        least=EXPECTED,
         run=RUN,
         clean=printable,
     )

@@ -75,7 +75,7 @@ def new_command(
         named["earlier"] = [shorten_path(path, folder) for path in earlier]
     made = remember_class(folder, named, other_course)
     there = made.submissions if made.submissions.exists() else None
-    files = Files(made.roster, made.settings.key, made.decisions, None, there)
+    files = Files(made.roster, made.settings.key, made.decisions, made.marks, there)
     problems = list(find_problems(files, made.course_path))
     print_notes(describe_class(made))
     print_notes(problems or ["No problems found."])

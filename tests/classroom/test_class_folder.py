@@ -55,6 +55,12 @@ def test_bonus_tasks_are_named_too(place: Path):
     assert "4 points, TODO 8a, 8c; bonus B1, B4" in said
 
 
+def test_a_new_class_says_what_its_gradebook_lacks(place: Path):
+    (place / "list.csv").write_text('Student,ID,SIS Login ID,Section\n"Lee, A",1,ann,A\n')
+    words = ("--roster", place / "list.csv", "--course", place / "autumn.toml")
+    assert "has no column 'Lab 3'" in call_class("new", place / "lab", *words)
+
+
 def read_grades(lab: Path) -> list[str]:
     with open(lab / "marks.csv", encoding="utf-8") as table:
         return [row["Grade"] for row in csv.DictReader(table)]

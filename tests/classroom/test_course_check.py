@@ -75,13 +75,13 @@ def test_a_class_list_that_does_not_tell_people_apart(place, roster, words):
 
 
 def test_a_gradebook_without_the_assignments_column(place):
-    marking = 'title = "Physics engine"\nshares.engine = 1\n'
-    canvas = classes.canvas(place / "other", [])
-    assert not any("no column" in f for f in told(place, roster=canvas, marking=marking))
-    other = canvas.replace("Physics engine (77)", "Essay (78)")
-    assert any(
-        "no column 'Physics engine'" in f for f in told(place, roster=other, marking=marking)
-    )
+    """The title is the course's, or that of marks.toml."""
+    canvas = classes.canvas(place / "other", []).replace("(77)", "(77),Essay (78)")
+    for title, marking in (("Physics engine", {}), ("Essay", {"marking": "title = 'Essay'\n"})):
+        marking = {name: f"{text}shares.engine = 1\n" for name, text in marking.items()}
+        assert not any("no column" in f for f in told(place, roster=canvas, **marking))
+        other = canvas.replace(f"{title} (", "Other (")
+        assert any(f"no column {title!r}" in f for f in told(place, roster=other, **marking))
 
 
 @pytest.mark.parametrize("system", ["moodle", "blackboard", "brightspace"])

@@ -2,9 +2,6 @@
 
 import csv
 import io
-import subprocess
-import sys
-import time
 import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -19,7 +16,6 @@ from command_line import run_in_class
 from points_pool import Inline
 from rich.console import Console
 from samples import sample
-from whole_bank import bank
 
 from grader.classroom import grading
 from grader.classroom.batch import Run
@@ -27,11 +23,9 @@ from grader.classroom.book import compare_results
 from grader.classroom.grading import ClassOptions, run_class
 from grader.intake import archives, repack
 from grader.intake.systems import BY_NAME, read_class_list
-from grader.judge.children import start_worker
 from grader.judge.course import Course
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import Options
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.judge.submission import plain_files
 from grader.report.files import read_result
 
 QUIET = Console(quiet=True)
@@ -308,75 +302,6 @@ def test_a_column_of_ones_own_says_who_is_who(tmp_path, in_one_process):
     assert (marks["ann"], marks["ann2"]) == (3, 4)
 
 
-# ---------------------------------------------------------------- graded in earnest
-
-PACKED = {
-    ".zip": packed.as_zip,
-    ".7z": packed.as_7z,
-    ".rar": packed.as_rar,
-    ".tar.gz": packed.as_tar,
-}
-CHOSEN = ("whole-very-terse", "copies-beside", "single-file-dataclasses", "4-clamps-the-increment")
-TODOS = ("4", "8a")
-
-
-@pytest.fixture(scope="module")
-def archived(tmp_path_factory) -> list[Student]:
-    """Pack and grade submissions of the bank, each in another archive, and all that goes wrong."""
-    place = tmp_path_factory.mktemp("bank")
-    options = Options(shipped_reference(), only=frozenset(TODOS))
-    found, worker = [], start_worker()
-    chosen = [each for each in bank() if each.name in CHOSEN and each.form == "package"]
-    for number, member in enumerate(chosen):
-        member.build(KIT, place / member.name)
-        points = grade(place / member.name, options, worker).points
-        kind, make = list(PACKED.items())[number % len(PACKED)]
-        files = {
-            f"work/{path.relative_to(place / member.name).as_posix()}": path.read_bytes()
-            for path in plain_files(place / member.name)
-            if path.suffix == ".py"
-        }
-        upload = {f"work{kind}": make(files)}
-        found.append(Student(f"bank{number}", "Bank", f"No{number}", upload, points))
-    worker.close()
-    odd = [s for s in classes.students() if s.points is None]
-    return [*found, *odd]
-
-
-@pytest.mark.soak
-@pytest.mark.parametrize("system", SYSTEMS)
-def test_a_class_of_the_bank_is_graded_in_earnest_killed_twice(tmp_path, archived, system):
-    kept = []
-    for name, jobs, kills in (("once", 1, 0), ("again", 2, 2)):
-        folder = tmp_path / name / "class"
-        folder.mkdir(parents=True)
-        roster = folder / "roster.csv"
-        roster.write_text(classes.SYSTEMS[system](folder, archived), encoding="utf-8")
-        decisions = classes.decisions(archived, lambda each: name_in(system, each))
-        (folder / "adjustments.toml").write_text(decisions, encoding="utf-8")
-        todos = [word for todo in TODOS for word in ("--todo", todo)]
-        words = ["grade", "--class", str(folder), "--jobs", str(jobs)]
-        command = [sys.executable, "-m", "grader", *words, *todos]
-        results = folder.with_name("class-results")
-        for count in range(1, kills + 1):
-            process = subprocess.Popen(command, cwd=KIT, stdout=subprocess.DEVNULL)
-            while process.poll() is None and len(list(results.glob("[!.]*.json"))) < count:
-                time.sleep(0.02)
-            process.kill()
-            process.wait()
-        done = subprocess.run(command, cwd=KIT, capture_output=True, text=True)
-        assert done.returncode == 2, done.stderr  # some are for a person to look at
-        files = [folder.with_name("class-results.class.csv"), *sorted(results.iterdir())]
-        kept.append({path.name: path.read_bytes() for path in files})
-    assert kept[0] == kept[1]
-    told = kept[0]["class-results.class.csv"].decode("utf-8-sig").splitlines()
-    rows = {row["name"]: row for row in csv.DictReader(told)}
-    for student in archived:
-        if student.files or student.by_hand is not None:
-            mark = rows[name_in(system, student)]["points"]
-            assert mark == ("" if student.mark is None else str(student.mark)), student.login
-
-
 # ---------------------------------------------------------------- groups
 
 
@@ -440,22 +365,21 @@ def everybody_gets_a_page(graded: Class, names: list[str]) -> None:
         assert {name, moodles} & found or any(f"/feedback-{name}.html" in each for each in found)
 
 
-def test_a_group_with_different_work_is_for_a_person_where_one_has_none(tmp_path, in_one_process):
-    folder, roster, students = exported(tmp_path, "moodle")
+@pytest.mark.parametrize(
+    "system, group, marks, words",
+    [
+        ("moodle", ("kim", "joy", "hana"), [8, 12, None], "handed in different work"),
+        ("gradescope", ("eve", "hana"), [None, None], "broken"),
+    ],
+)
+def test_a_group_without_one_readable_work_is_for_a_person(
+    tmp_path, in_one_process, system, group, marks, words
+):
+    folder, roster, students = exported(tmp_path, system)
     by_login = {each.login: each for each in students}
-    grouped(roster, "moodle", [by_login[each] for each in ("kim", "joy", "hana")], students)
+    grouped(roster, system, [by_login[login] for login in group], students)
     run = run_class(folder, with_list(folder, roster), QUIET)
     outcomes = {each.name: each for each in run.outcomes}
-    assert [outcomes[f"{each}@x.edu"].mark for each in ("kim", "joy", "hana")] == [8, 12, None]
-    assert "handed in different work" in outcomes["hana@x.edu"].trouble
-
-
-def test_what_cannot_be_read_is_for_a_person_with_all_of_the_group(tmp_path, in_one_process):
-    folder, roster, students = exported(tmp_path, "gradescope")
-    by_login = {each.login: each for each in students}
-    grouped(roster, "gradescope", [by_login["eve"], by_login["hana"]], students)
-    run = run_class(folder, with_list(folder, roster), QUIET)
-    outcomes = {each.name: each for each in run.outcomes}
-    for login in ("eve", "hana"):
-        assert outcomes[f"{login}@x.edu"].mark is None and outcomes[f"{login}@x.edu"].group
-        assert "broken" in outcomes[f"{login}@x.edu"].trouble
+    found = [outcomes[f"{login}@x.edu"] for login in group]
+    assert [each.mark for each in found] == marks
+    assert words in found[-1].trouble
