@@ -89,9 +89,9 @@ class Budget:
     def why_little(self, todo: str) -> str:
         """Return why a check had less time than usual; empty if it had not."""
         if self.cpu[todo] >= TODO_CPU or self.rest[todo] >= TODO_REST:
-            return "; it had less than usual, because the checks of this TODO before it used much"
+            return "; it had less time than usual, because earlier checks of this TODO used much"
         if sum(self.cpu.values()) >= SUBMISSION_CPU or sum(self.rest.values()) >= SUBMISSION_REST:
-            return "; it had less than usual, because the checks before it used much"
+            return "; it had less time than usual, because earlier checks used much"
         return ""
 
 

@@ -168,8 +168,8 @@ def explain_debugger(match: Match, error: Error) -> str:
     last = next((n for n in range(len(lines), 0, -1) if DEBUGGER.search(lines[n - 1])), 0)
     there = f" in line {last}" if last else ""
     return (
-        f"The debugger{there} waits for somebody to type, and in a check nobody does: take "
-        "breakpoint() out first. It stops in what `Run it` names."
+        f"The debugger{there} waits for a command, and a check gives none: remove breakpoint() "
+        "first. It works in the program that `Run it` starts."
     )
 
 
@@ -499,7 +499,7 @@ PARTS = "The parts of this vector cannot be changed: give the whole a new pair, 
 CLAMP = "write max(low, min(number, high))"
 
 RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
-    (r"^EOFError", "input() waits for somebody to type, and here nobody does: use the arguments."),
+    (r"^EOFError", "input() waits for a line, and a check types none: use the arguments."),
     (r"^(\w+)\.(\w+) is of type \w+; expected", explain_field),
     (r"^ImportError: .*partially initialized", "Two files import each other: drop one import."),
     (r"^ImportError: cannot import name '(\w+)' from '[\w.]+' \((.+?)\)", explain_import),

@@ -7,15 +7,15 @@ from grader.judge.rubric import Check, Todo
 from grader.protocol import Piece, Raised
 
 REMEMBERS = (
-    "Asked alone, by a program that has just started, this comes out otherwise: it hangs on "
-    "earlier calls, or on chance. The answer must follow from what is given to this call alone."
+    "In a program that has just started, this gives another answer: it depends on earlier calls, "
+    "or on chance. It must depend on the arguments of this call alone."
 )
-TRESPASS = "{name} must leave everything as it is but what its docstring names."
+TRESPASS = "{name} must change only what its docstring names."
 ENDLESS = "it used up its"  # the first words about a check that ran out of processor time
 MOST_NAMES = 3  # in one sentence
 KEPT = (
-    "Something is kept from call to call in {names}: an answer that hangs on it is another one "
-    "each time."
+    "A value is kept from call to call in {names}: an answer that depends on it may change each "
+    "time."
 )
 
 

@@ -191,7 +191,7 @@ class Lab(Decoder):
                 self.running,
                 "the same answer when the same question is asked again",
                 f"first {self.describe(returned.value)}, then {self.describe(returned.again)}",
-                f"{name} may go by nothing but what it is given.",
+                f"{name} must depend on its arguments alone.",
             )
         return returned
 

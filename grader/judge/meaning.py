@@ -20,7 +20,7 @@ from grader.judge.submission import load_given
 from grader.source.suspects import Suspect
 from grader.text import join_words
 
-OUTSIDE = "No TODO is to blame for this: look at the code around them."
+OUTSIDE = "The reason is in none of the TODOs: look at the code around them."
 MISSING = "There is no {program} here, in a file or a folder: hand it in with the others."
 RESTORE = (
     "There is no {program}.py here. check --restore {program}.py puts the handed-out one back."

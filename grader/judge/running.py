@@ -211,7 +211,7 @@ class Runner:
                     lab.trespass = name_trespass(lab)
                     failure.got += f"; {lab.trespass}" if lab.trespass else ""
             except Flaky:  # the lab kept the first failure, if it saw one
-                lab.failure = lab.failure or Broke(lab.running, "another answer each time")
+                lab.failure = lab.failure or Broke(lab.running, "a different answer each time")
             except Exception as error:  # an answer that our own arithmetic cannot stand
                 name = type(error).__name__
                 lab.failure = Broke(lab.running, f"an answer that makes no sense ({name}: {error})")

@@ -322,8 +322,8 @@ def handed_out() -> HandedOut:
 def describe_unread(path: Path, folder: Path) -> str:
     size = math.ceil(path.stat().st_size / 1024)
     return (
-        f"{path.relative_to(folder).as_posix()} has {size} KB and was not looked into: "
-        f"a file may have {MAX_SOURCE // 1024} KB, and all together {MAX_READ // 1024}"
+        f"{path.relative_to(folder).as_posix()} has {size} KB and was not read: a file may have at "
+        f"most {MAX_SOURCE // 1024} KB, and all together {MAX_READ // 1024} KB"
     )
 
 

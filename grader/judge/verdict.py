@@ -14,7 +14,7 @@ from grader.source.flaws import Flaw
 
 # An import of a name that a file of theirs does not define.
 LACKING = re.compile(r"^ImportError: cannot import name .* from '[\w.]+' \((?P<file>[\w/]+\.py)\)")
-INSTEAD = "The handed-out code stood in for it, so that the rest could be checked."
+INSTEAD = "The handed-out code replaced it, so that the rest could be checked."
 MOST_UNREAD = 3  # files that are named as too long
 GIVEN_PRINTS = ("Fixed steps:", "Pendulum length", "Bodies:", "Box stack")  # as given code ends
 MOST_PRINTED, MAX_PRINTED = 3, 60  # printed lines that are shown, and letters of each
@@ -28,14 +28,14 @@ def make_result(job: Job, state: State, **words: Any) -> CheckResult:
 
 def refuse(job: Job, flaw: Flaw) -> CheckResult:
     """Return the result of a check whose code Python does not accept."""
-    part = f"This part of TODO {job.todo.id} is" if job.todo.function else "This code is"
+    part = f"this part of TODO {job.todo.id}" if job.todo.function else "this code"
     return make_result(
         job,
         "error",
         ran=f"reading {flaw.file}",
         expected="code that Python accepts",
         got=flaw.words,
-        meaning=f"{part} no Python, so none of it runs. {flaw.advice} {INSTEAD}",
+        meaning=f"Python does not accept {part}, so none of it runs. {flaw.advice} {INSTEAD}",
         where=Where(flaw.file, flaw.line),
     )
 

@@ -226,7 +226,7 @@ def test_a_file_that_is_too_long_is_named(tmp_path: Path):
     submission = Submission("x", tmp_path)
     find_todos(submission, load_rubric(), {})
     (said,) = submission.unread
-    assert said.startswith("integrators.py has 129 KB and was not looked into")
+    assert said.startswith("integrators.py has 129 KB and was not read")
 
 
 def test_similar_names_are_looked_for_among_some_of_them(tmp_path: Path):

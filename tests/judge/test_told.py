@@ -186,7 +186,7 @@ def test_words_of_a_result_are_none_that_a_screen_obeys(tmp_path: Path):
     error = "raise type('E\\u2066', (Exception,), {})('\\x1b[31m \\u202e \\u2028 \\x9b')"
     path.write_text("# x\n" * 60_000 + text.format(error), encoding="utf-8")
     result = grade(tree, ONLY_1, shared_worker())
-    assert result.todos[0].state == "error" and b"KB and was not looked" in as_json(result)
+    assert result.todos[0].state == "error" and b"KB and was not read" in as_json(result)
     told = msgspec.json.decode(as_json(result))
     texts = [told["submission"], *(str(v) for c in told["todos"][0]["checks"] for v in c.values())]
     assert all(each.replace("\\n", "").isprintable() for each in texts)
