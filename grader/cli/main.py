@@ -44,8 +44,8 @@ FOR_ONE = ("json", "ci", "at_least")  # options that count for one submission al
 ENDINGS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
 FOR_INSTRUCTORS = ("grade", "release", "gradescope")  # what --help lists beside the groups
 EPILOG = (
-    "A term is described in handouts/instructor/term.md. A course with nbgrader: grader nbgrader "
-    "--help. Students' commands work here too: check, hint, hand-in. All others: grader dev --help"
+    "handouts/instructor/term.md describes a term. With nbgrader: grader nbgrader --help. "
+    "Students' commands work here too: check, hint, hand-in. All others: grader dev --help"
 )
 
 
@@ -92,7 +92,7 @@ def grade_command(
         typer.Option("--class", hidden=True, help="PATH holds submissions: a folder or zip."),
     ] = False,
     out: Annotated[
-        Path | None, typer.Option(help="Write NAME.json into this folder; a class always does.")
+        Path | None, typer.Option(help="Write NAME.json and a report, NAME.html, into this folder.")
     ] = None,
     json: Annotated[
         Path | None, typer.Option(help="Write the result of one submission here as JSON.")
