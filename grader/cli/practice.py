@@ -16,7 +16,6 @@ from grader.cli.shared import (
     console,
     print_note,
     print_notes,
-    require_file_target,
 )
 from grader.cli.student import find_tree, make_options
 from grader.errors import Stop
@@ -35,12 +34,6 @@ app = typer.Typer()
 @app.command("questions")
 def questions_command(
     path: Annotated[Path, typer.Argument(help="A folder inside your tree.")] = Path("."),
-    out: Annotated[
-        Path | None, typer.Option(help="The page; build/questions.html if left out.")
-    ] = None,
-    seed: Annotated[
-        int | None, typer.Option(help="A number gives the same questions again.")
-    ] = None,
     course: CourseFile = None,
 ) -> None:
     """Make a page of practice questions about your own program.
@@ -48,28 +41,25 @@ def questions_command(
     It asks new questions each time, about TODOs that pass. Exit status 0: there are questions,
     1: no TODO passes yet, 2: the page could not be made.
     """
-    require_file_target(out, "--out")
     taken = read_course(course)
-    sheet, _ = make_questions(find_tree(path, taken), taken, out, seed)
+    sheet, _ = make_questions(find_tree(path, taken), taken)
     raise typer.Exit(0 if sheet.questions else 1)
 
 
-def make_questions(
-    folder: Path, course: Course, out: Path | None = None, seed: int | None = None
-) -> tuple[Sheet, Path]:
+def make_questions(folder: Path, course: Course) -> tuple[Sheet, Path]:
     """Make and describe the page of a tree; return the sheet and the page's path."""
     practice = load_practice()
     if practice is None:
         raise Stop("this copy has no cases for practice")
-    drawn = str(secrets.randbelow(10**6) if seed is None else seed)
+    seed = str(secrets.randbelow(10**6))
     try:
         with (
             console.status("looking at your program: ten seconds or so"),
             open_program(folder, make_options(list_askable(course), course)) as program,
         ):
             program = replace(program, given=practice.given)
-            sheet = make_sheet(program, "practice", drawn, practice.asked, practice.cases)
-        target = out or folder / "build" / "questions.html"
+            sheet = make_sheet(program, "practice", seed, practice.asked, practice.cases)
+        target = folder / "build" / "questions.html"
         write_whole(make_page(sheet, course.title, "practice").encode(), target)
     except KeyboardInterrupt:
         raise Stop("stopped before there was a page") from None
@@ -83,4 +73,4 @@ def print_sheet(sheet: Sheet, target: Path) -> None:
     if not sheet.questions:
         console.print("none of your TODOs passes its checks yet: ask again when one does")
         return
-    print_note(f"{plural(len(sheet.questions), 'question')} in {target}, with seed {sheet.seed}")
+    print_note(f"{plural(len(sheet.questions), 'question')} in {target}")

@@ -152,9 +152,10 @@ def describe_progress(folder: Path, options: Options) -> str:
     except Stop as error:
         return f"The checks cannot run: {clean(str(error))}."
     left = [todo.id for todo in result.counted if todo.state != "passed"]
+    points = " ".join(total(result).split())
     if not left:
-        return f"All checks pass: {total(result)}."
-    return f"Your checks give {total(result)}. Not finished: {', '.join(left)}."
+        return f"All checks pass: {points}."
+    return f"Your checks give {points}. Not finished: {', '.join(left)}."
 
 
 def make_replay_folder(tree: Path) -> Path | None:

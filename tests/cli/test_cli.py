@@ -39,12 +39,6 @@ def test_less_than_full_marks_end_with_status_1(tmp_path: Path):
     assert json.loads(target.read_text(encoding="utf-8"))["points"] == 0
 
 
-def test_what_cannot_be_graded_ends_with_status_2_and_a_sentence(tmp_path: Path):
-    done = run_grader("grade", tmp_path / "nowhere")
-    assert done.exit_code == 2 and "there is no submission at" in done.stderr
-    assert run_grader("grade", KIT / "solution", "--todo", "99").exit_code == 2
-
-
 def test_the_command_line_starts_without_what_only_some_commands_need():
     code = (
         "import sys; sys.argv = ['grader', '--help']; import grader.cli.main as cli\n"

@@ -16,7 +16,7 @@ from grader.cli.restore import restore
 from grader.errors import Stop
 from grader.intake.found import Found
 from grader.intake.packing import pack
-from grader.judge.course import FULL, read_course
+from grader.judge.course import FULL
 from grader.judge.grade import KIT
 
 
@@ -71,24 +71,6 @@ def test_a_program_that_is_missing_is_said(tree):
     assert done.exit_code == 1 and "There is no integrators here" in done.output
     with zipfile.ZipFile(tree / PACKED) as archive:
         assert "pymunk_scene.py" in archive.namelist()
-
-
-def test_a_course_of_one_program_misses_no_other(tree):
-    (tree / "pymunk_scene.py").unlink()
-    course = KIT / "tests" / "courses" / "integrators.toml"
-    words = [
-        "hand-in",
-        "--no-check",
-        str(tree),
-        "--out",
-        str(tree / "mine.zip"),
-        "--course",
-        str(course),
-    ]
-    done = run_grader(*words)
-    assert done.exit_code == 0 and "mine.zip" in "".join(done.output.split())
-    assert find_missing(pack_tree(tree)[1], FULL) == ["pymunk_scene"]
-    assert find_missing(pack_tree(tree, read_course(course))[1], read_course(course)) == []
 
 
 def test_more_than_will_be_read_is_refused(tree, monkeypatch):

@@ -148,6 +148,8 @@ def test_the_lab_is_walked_from_the_zip_to_full_marks(
     assert out.startswith("PASSED") and f" {most} / {most}" in out and "To hand in" in out
     for line in programs:
         student.types(line)
+    student.types(student.command("make questions"))
+    assert "<details><summary>The answer" in (tree / "build/questions.html").read_text("utf-8")
     student.types(student.command("make hand-in"))
     told = [sys.executable, "-m", "grader", "grade", str(tree / "hand-in.zip"), "--at-least", "100"]
     graded = subprocess.run(told, cwd=KIT, capture_output=True, text=True)
