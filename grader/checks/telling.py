@@ -1,7 +1,6 @@
 """Write *Expected* and *Got* with enough digits to look different."""
 
-import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import TypeVar
 
 from grader.judge.lab import Lab
@@ -40,9 +39,3 @@ def told_apart(
     if told[0] == told[1] and digits < FLOAT_DIGITS:
         return told_apart(say, right, got, digits + 1)
     return told
-
-
-def decimals_to_tell(wanted: Iterable[float], got: Iterable[float], least: int) -> int:
-    """Return how many decimals make *Expected* and *Got* look different: `least`, or up to 15."""
-    off = max((abs(a - b) for a, b in zip(wanted, got, strict=True)), default=1.0)
-    return min(15, max(least, math.ceil(-math.log10(off)))) if 0 < off < math.inf else least

@@ -21,7 +21,7 @@ from grader.checks.strategies import (
     some_frictions,
     velocities,
 )
-from grader.checks.telling import decimals_to_tell
+from grader.checks.telling import want_told
 from grader.judge.drawing import between, given
 from grader.judge.lab import STEP, Lab, Pair, Run, Thing
 from grader.protocol import BodyValue
@@ -144,11 +144,8 @@ def want_opposite(
     )
     size = 1.0 + sum(map(abs, (*first, *last)))  # of what is rounded
     off = max(abs(one - other) for one, other in zip(last, right, strict=True))
-    lab.want(
-        off <= 1e-7 * size,
-        f"opposite impulses on A and B, and nothing else: {say_motion(right, last)}",
-        say_motion(last, right),
-    )
+    words = "opposite impulses on A and B, and nothing else: {}"
+    want_told(lab, off <= 1e-7 * size, say_motion, right, last, expected=words)
 
 
 def want_contact(lab: Lab, world: Thing, discs: Discs, pressing: float, rubbing: float) -> None:
@@ -178,15 +175,13 @@ def weight(mass: float) -> str:
     return f"{mass:g} kg" if mass else "a static body"
 
 
-def say_motion(says: Motion, other: Motion) -> str:
-    n = decimals_to_tell(says, other, 3)
-    ax, ay, bx, by = (f"{each + 0.0:.{n}f}" for each in says)
+def say_motion(motion: Motion, digits: int) -> str:
+    ax, ay, bx, by = (f"{each + 0.0:.{digits}f}" for each in motion)
     return f"A ({ax}, {ay}) px/s, B ({bx}, {by}) px/s"
 
 
-def say(impulse: float, other: float) -> str:
-    n = decimals_to_tell([impulse], [other], 2)
-    return f"{round(impulse, n) + 0.0:.12g} kg px/s"
+def say(impulse: float, digits: int) -> str:
+    return f"{round(impulse, digits) + 0.0:.12g} kg px/s"
 
 
 def want_exact(
@@ -196,11 +191,9 @@ def want_exact(
     right = exact.friction(discs.mu, discs.k, kept * closing, kept * slip)
     lighter = min(mass for mass in discs.mass if mass)
     size = 1.0 + lighter * (abs(closing) + abs(slip) + sum(map(abs, discs.drift)))
-    lab.want(
-        abs(answer - right) <= 1e-7 * size,
-        f"a friction impulse of {say(right, answer)} on B, along its slip",
-        say(answer, right),
-    )
+    good = abs(answer - right) <= 1e-7 * size
+    words = "a friction impulse of {} on B, along its slip"
+    want_told(lab, good, say, right, answer, digits=2, expected=words)
 
 
 def want_about(lab: Lab, discs: Discs, closing: float, slip: float) -> None:

@@ -1,7 +1,7 @@
 """TODO 5: damping by a rate per second."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import astuple, replace
 from itertools import product
 from typing import NamedTuple
@@ -16,7 +16,7 @@ from grader.checks.strategies import (
     rates,
     wide_velocities,
 )
-from grader.checks.telling import decimals_to_tell
+from grader.checks.telling import want_told
 from grader.judge.drawing import given
 from grader.judge.lab import Lab, Moment, Pair, Thing
 from grader.protocol import BodyValue
@@ -70,9 +70,13 @@ def say(share: float, decimals: int = 2) -> str:
     return f"{100 * share:.{decimals}f}%"
 
 
-def decimals(right: Sequence[float], answer: Sequence[float]) -> int:
-    """Return how many decimals make percentages look different."""
-    return decimals_to_tell((100 * s for s in right), (100 * s for s in answer), 2)
+def say_both(shares: Shares, decimals: int) -> str:
+    return f"{say(shares[0], decimals)} of the speed and {say(shares[1], decimals)} of the spin"
+
+
+def say_twice(shares: tuple[Shares, Shares], decimals: int) -> str:
+    once, often = (say_both(each, decimals) for each in shares)
+    return f"{once} in one step, {often} in many"
 
 
 def are_close(answer: Iterable[float], right: Iterable[float], within: float) -> bool:
@@ -106,21 +110,15 @@ def speed_and_spin_have_a_rate_of_their_own(lab: Lab) -> None:
             lab.want(rate > 0 or share == 1.0, "all of it left at a rate of 0", say(share, 6))
     motion = lab.about(SPEED), lab.about(SPIN)
     lab.ran("one ball, both dampings 0, for one second")
-    speed, spin = damp(lab, 0.0, 0.0, 1 / 120, 120, motion)
-    n = decimals((1.0, 1.0), (speed, spin))
-    left = f"{say(speed, n)} and {say(spin, n)}"
-    lab.want(speed == 1.0 and spin == 1.0, "all of its speed and spin", left)
+    left = damp(lab, 0.0, 0.0, 1 / 120, 120, motion)
+    want_told(lab, left == (1.0, 1.0), say_both, (1.0, 1.0), left, digits=2)
 
 
 def want_shares(lab: Lab, got: Shares, rates: Pair, seconds: float) -> None:
     """Insist on about what exp says; a straight line is near enough where steps are short."""
     right = exact.damped(rates[0], seconds), exact.damped(rates[1], seconds)
-    n = decimals(right, got)
-    lab.want(
-        are_close(got, right, within=0.01),
-        f"{say(right[0], n)} of the speed and {say(right[1], n)} of the spin left",
-        f"{say(got[0], n)} and {say(got[1], n)}",
-    )
+    good = are_close(got, right, within=0.01)
+    want_told(lab, good, say_both, right, got, digits=2, expected="{} left")
 
 
 def one_world_follows_its_rates_and_its_step(lab: Lab) -> None:
@@ -172,13 +170,8 @@ def want_both(lab: Lab, damped: Damped, rates: Pair, dt: float, parts: int) -> N
     often = damped.shares(linear, angular, dt / parts, parts)
     right = exact.damped(linear, dt), exact.damped(angular, dt)
     within = SINGLE * (1 + max(rates) * dt)  # the exponent is rounded as well
-    n = decimals((*right, *right), (*once, *often))
-    lab.want(
-        are_close(once, right, within) and are_close(often, right, parts * within),
-        f"{say(right[0], n)} of the speed, {say(right[1], n)} of the spin, both times",
-        f"{say(once[0], n)} and {say(once[1], n)} in one step, "
-        f"{say(often[0], n)} and {say(often[1], n)} in many",
-    )
+    good = are_close(once, right, within) and are_close(often, right, parts * within)
+    want_told(lab, good, say_twice, (right, right), (once, often), digits=2)
 
 
 def say_step(dt: float) -> str:
@@ -278,17 +271,13 @@ def want_moment(lab: Lab, answer: Moment, right: Moment, dt: float, times: float
     """Insist on the right motion after a step, up to `times` what SINGLE allows of its speeds."""
     turns = right.angle + math.remainder(answer.angle - right.angle, math.tau)
     got, meant = astuple(replace(answer, angle=turns)), astuple(right)
-    n = decimals_to_tell(meant, got, 4)
     vx, vy, omega = (times * SINGLE * abs(speed) for speed in (right.vx, right.vy, right.omega))
     most = vx * dt, vy * dt, vx, vy, omega * dt, omega
-    lab.want(
-        all(
-            math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9 + off)
-            for a, b, off in zip(got, meant, most, strict=True)
-        ),
-        say_moment(right, n),
-        say_moment(answer, n),
+    good = all(
+        math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9 + off)
+        for a, b, off in zip(got, meant, most, strict=True)
     )
+    want_told(lab, good, say_moment, right, answer, digits=4)
 
 
 def say_moment(each: Moment, n: int) -> str:

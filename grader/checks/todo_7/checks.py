@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from grader.checks import exact
 from grader.checks.strategies import places_around, seeds
-from grader.checks.telling import decimals_to_tell
+from grader.checks.telling import want_told
 from grader.judge.drawing import given
 from grader.judge.lab import STEP, Frame, Lab, Moment, Pair, Thing
 from grader.protocol import Rng, SpaceBody, SpaceJoint, SpaceValue, Vec
@@ -152,12 +152,15 @@ def bodies_in(lab: Lab, space: Thing) -> list[SpaceBody]:
 
 def want_full_disc(lab: Lab, ball: Ball) -> None:
     right = exact.disc_moment(ball.mass, ball.radius)
-    n = decimals_to_tell([right], [ball.moment], 2)
-    lab.want(
+    want_told(
+        lab,
         math.isclose(ball.moment, right, rel_tol=1e-9),
-        f"a moment of {right:.{n}f} for radius {ball.radius:g} px and mass {ball.mass:g}",
-        f"{ball.moment:.{n}f}",
-        OFFSET * math.isclose(ball.moment, right + ball.mass * math.hypot(*ball.pos) ** 2),
+        lambda moment, digits: f"{moment:.{digits}f}",
+        right,
+        ball.moment,
+        digits=2,
+        expected=f"a moment of {{}} for radius {ball.radius:g} px and mass {ball.mass:g}",
+        meaning=OFFSET * math.isclose(ball.moment, right + ball.mass * math.hypot(*ball.pos) ** 2),
     )
 
 
