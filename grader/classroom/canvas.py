@@ -35,7 +35,6 @@ from grader.errors import Stop
 from grader.intake.names import list_names
 from grader.intake.roster import list_name
 from grader.intake.systems import read_roster
-from grader.judge.wording import withhold_reasons
 from grader.report.files import write_whole
 from grader.text import printable
 
@@ -230,10 +229,8 @@ def make_work(
         return Work(*who, summary, hash_text(summary), None)
     # What an earlier run found is no news to those who have it from Canvas.
     outcome = msgspec.structs.replace(entry.outcome, before="", changed=[])
-    result = entry.result
-    shown = withhold_reasons(result, graded.course) if result else None
     comment = write_text(outcome, None, graded.course).strip()
-    digest = hash_text(write_text(outcome, shown, graded.course))
+    digest = hash_text(write_text(outcome, entry.show_result(graded.course), graded.course))
     return Work(*who, comment, digest, graded.find_page(outcome.name))
 
 

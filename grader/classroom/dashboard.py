@@ -4,8 +4,7 @@ All of it comes from the results and the class book. Names and words of students
 """
 
 import statistics
-from collections.abc import Callable, Iterator
-from contextlib import suppress
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -20,17 +19,11 @@ from grader.classroom.book import Book, Outcome, make_outcome
 from grader.classroom.marks import USUAL_TOTAL, compute_mark, make_parts, mark_by_course
 from grader.classroom.similarity import read_pairs
 from grader.errors import Stop
-from grader.intake.found import Intake
-from grader.intake.packing import pack
 from grader.judge.course import FULL, Course
-from grader.judge.grade import Options
-from grader.judge.outer import WHOLE, Allowance, Failed, Lost, call_each_within, call_within
+from grader.judge.outer import Allowance, call_each_within, call_within
 from grader.judge.result import Result, State, TodoResult
-from grader.judge.submission import CannotGrade
 from grader.judge.wording import withhold_reasons
-from grader.judge.workplace import work_folder
 from grader.player.page import clean_line, fill_template
-from grader.player.replay import grade_with_replays
 from grader.report.files import write_whole
 from grader.report.html import Standing, write_report, write_standing
 
@@ -57,12 +50,17 @@ class Entry:
 
     outcome: Outcome
     brief: Result | None = None  # what the page of the class shows
-    read: Callable[[], Result] | None = None
+    path: Path | None = None  # of its result
 
     @property
     def result(self) -> Result | None:
         """Read the whole result."""
-        return self.read() if self.read else None
+        return msgspec.json.decode(self.path.read_bytes(), type=Result) if self.path else None
+
+    def show_result(self, course: Course) -> Result | None:
+        """Read the result as students may see it; None where there is none."""
+        result = self.result
+        return withhold_reasons(result, course) if result else None
 
     @property
     def share(self) -> float:
@@ -100,13 +98,16 @@ class Rate:
 
 @dataclass(frozen=True)
 class Mistake:
-    """A known mistake, the students who make it, and the replay of one of them if there is one."""
+    """A known mistake, and the students who make it."""
 
     todo: str
     name: str
-    meaning: str
     entries: list[Entry]
-    replay: str = ""
+
+    @property
+    def meaning(self) -> str:
+        checks = (check for entry in self.entries for check in entry.todos[self.todo].checks)
+        return next((check.meaning for check in checks if check.meaning), "")
 
     @property
     def key(self) -> str:
@@ -140,60 +141,22 @@ def read_entry(book: Book, outcome: Outcome) -> Entry:
     """Return an outcome with its result; one whose result cannot be read is in trouble."""
     if outcome.trouble:
         return Entry(outcome)
-    read = partial(decode_result, book.locate_result(outcome.name))
+    entry = Entry(outcome, path=book.locate_result(outcome.name))
     try:
-        return Entry(outcome, shorten_result(read()), read)
+        result = entry.result
+        return replace(entry, brief=shorten_result(result)) if result else entry
     except (OSError, msgspec.MsgspecError) as error:
         words = f"its result cannot be read: {error}"
         return Entry(structs.replace(outcome, trouble=words))
 
 
-def decode_result(path: Path) -> Result:
-    return msgspec.json.decode(path.read_bytes(), type=Result)
-
-
 def shorten_result(result: Result) -> Result:
-    """Return a result with those checks alone that describe or show a known mistake."""
+    """Return a result with those checks alone that describe a known mistake."""
     todos = []
     for todo in result.todos:
-        checks = [each for each in todo.checks if todo.misconception]
-        checks = [each for each in checks if each.meaning or each.replay]
+        checks = [each for each in todo.checks if todo.misconception and each.meaning]
         todos.append(structs.replace(todo, checks=checks))
     return structs.replace(result, todos=todos)
-
-
-def add_replays(
-    entries: list[Entry], intake: Intake, options: Options, folder: Path
-) -> Iterator[Entry]:
-    """Grade one student's TODO again for each known mistake, with replays in `folder`."""
-    found = {each.name: each for each in intake.found}
-    wanted: dict[str, set[str]] = {}
-    for mistake in find_mistakes(entries, folder):
-        name = next((e.outcome.name for e in mistake.entries if e.outcome.name in found), None)
-        if name and not mistake.replay:
-            wanted.setdefault(name, set()).add(mistake.todo)
-    for entry in entries:
-        name = entry.outcome.name
-        result = entry.result if name in wanted else None
-        if result is not None:
-            again = replace(options, only=frozenset(wanted[name]))
-            with suppress(Stop, Failed, Lost), work_folder() as work:
-                tree = pack(found[name], options.course.modules).unpack(work)
-                replaying = partial(grade_with_replays, tree, again, folder / name)
-                graded = call_within(WHOLE, Result, replaying, (CannotGrade,))
-                shown = partial(replace_todos, result, graded.todos)
-                entry = Entry(entry.outcome, shorten_result(shown()), shown)
-        yield entry
-
-
-def replace_todos(result: Result, todos: list[TodoResult]) -> Result:
-    """Return the result with these TODOs in it, where their points are the same."""
-    again = {todo.id: todo for todo in todos}
-    shown = [
-        again[todo.id] if todo.id in again and again[todo.id].points == todo.points else todo
-        for todo in result.todos
-    ]
-    return structs.replace(result, todos=shown)
 
 
 def count_rates(entries: list[Entry]) -> list[Rate]:
@@ -210,23 +173,15 @@ def count_rates(entries: list[Entry]) -> list[Rate]:
     return rates
 
 
-def find_mistakes(entries: list[Entry], folder: Path) -> list[Mistake]:
+def find_mistakes(entries: list[Entry]) -> list[Mistake]:
     """Return the known mistakes, the most common first."""
     makers: dict[tuple[str, str], list[Entry]] = {}
     for entry in entries:
         for todo in entry.todos.values():
             if todo.misconception:
                 makers.setdefault((todo.id, todo.misconception), []).append(entry)
-    found = [make_mistake(id, name, each, folder) for (id, name), each in makers.items()]
+    found = [Mistake(*mistake, each) for mistake, each in makers.items()]
     return sorted(found, key=lambda each: (-len(each.entries), each.key))
-
-
-def make_mistake(todo: str, name: str, entries: list[Entry], folder: Path) -> Mistake:
-    checks = [check for entry in entries for check in entry.todos[todo].checks]
-    meaning = next((check.meaning for check in checks if check.meaning), "")
-    replays = (check.replay for check in checks if check.replay)
-    replay = next((each for each in replays if (folder / each).is_file()), "")
-    return Mistake(todo, name, meaning, entries, replay)
 
 
 def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) -> Path:
@@ -248,11 +203,11 @@ def write_entry(folder: Path, entry: Entry, course: Course) -> None:
     """Write the report of one student."""
     report = folder / f"{entry.outcome.name}.html"
     standing = make_standing(entry.outcome, course)
-    result = entry.result
-    if result is None:
+    shown = entry.show_result(course)
+    if shown is None:
         write_standing(standing, report)
     else:
-        write_report(withhold_reasons(result, course), report, standing=standing)
+        write_report(shown, report, standing=standing)
 
 
 def make_standing(outcome: Outcome, course: Course = FULL) -> Standing:
@@ -309,7 +264,7 @@ def render_class(folder: Path, entries: list[Entry], title: str = FULL.title) ->
         full=sum(each.outcome.final >= each.outcome.max_points for each in marked),
         bins=[sum(each.bin == number for each in marked) for number in range(BINS)],
         rates=count_rates(graded),
-        mistakes=find_mistakes(graded, folder),
+        mistakes=find_mistakes(graded),
         alike=read_pairs(folder),
         slowest=sorted(timed, key=lambda each: -each.outcome.seconds)[:SLOWEST],
         bonus=any(each.outcome.bonus for each in marked),

@@ -20,7 +20,7 @@ from grader.intake.names import make_portable
 from grader.intake.roster import ClassList, Roster
 from grader.judge.course import FULL, Course
 from grader.judge.result import Result
-from grader.judge.wording import format_reasons, withhold_reasons
+from grader.judge.wording import format_reasons
 from grader.report.files import put_in
 from grader.report.html import list_failed_first
 from grader.text import clean, format_csv
@@ -70,9 +70,7 @@ def answer_export(
         if entry is None or path is None:
             made.notes.append(f"{found.name}: left out, there is no page: grade the class again")
             continue
-        result = entry.result
-        shown = withhold_reasons(result, graded.course) if result else None
-        text = write_text(entry.outcome, shown, graded.course)
+        text = write_text(entry.outcome, entry.show_result(graded.course), graded.course)
         page = make_page(found, path.read_bytes(), text, people)
         works.setdefault(found.sources, []).append(page)
     for sources, pages in works.items():

@@ -44,9 +44,6 @@ course_app = typer.Typer(
 app.add_typer(course_app, name="nbgrader", hidden=True)
 
 CourseFolder = Annotated[Path, typer.Option("--folder", help="The course folder of nbgrader.")]
-ClassList = Annotated[
-    Path | None, typer.Option("--roster", help="The class list, if it was graded with one.")
-]
 Key = Annotated[str, typer.Option(help="Its column that names students as their folders do.")]
 Gradebook = Annotated[
     Path, typer.Argument(help="The class list: the gradebook as the LMS exports it.")
@@ -186,31 +183,11 @@ def gradescope_command(
 
 
 @app.command("dashboard")
-def dashboard_command(
-    context: typer.Context,
-    results: ResultsFolder,
-    submissions: Annotated[
-        Path | None, typer.Option(help="The class: adds a replay of each known mistake.")
-    ] = None,
-    roster: ClassList = None,
-    seed: Annotated[int | None, typer.Option(help="The seed it was graded with.")] = None,
-    course: CourseFile = None,
-) -> None:
+def dashboard_command(results: ResultsFolder, course: CourseFile = None) -> None:
     """Make a page of a class, and a report for each student."""
-    if submissions is None:
-        refuse_ignored(context, ("roster", "seed"), "without --submissions")
-    from grader.classroom.dashboard import add_replays, read_class, write_dashboard
-    from grader.intake.listing import open_class
-    from grader.intake.systems import read_class_list
+    from grader.classroom.dashboard import read_class, write_dashboard
 
-    taken = read_course(course)
-    entries = read_class(results)
-    if submissions is not None:
-        options = Options(shipped_reference(), seed=seed, course=taken)
-        with open_class(submissions, read_class_list(submissions, roster)) as intake:
-            require_same_class(entries, intake.names, results, submissions)
-            entries = list(add_replays(entries, intake, options, results))
-    print_note(f"made {write_dashboard(results, entries, taken)}")
+    print_note(f"made {write_dashboard(results, read_class(results), read_course(course))}")
 
 
 @app.command("course-check")

@@ -12,15 +12,13 @@ import pytest
 from command_line import run_grader
 from msgspec import structs
 from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers
-from whole_bank import bank
 
-from grader.bank.verify import shared_worker
 from grader.classroom.book import Book, Outcome, make_outcome
 from grader.classroom.dashboard import read_class, write_dashboard
 from grader.errors import Stop
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import Options, shipped_reference
 from grader.judge.result import CheckResult, Result, State, TodoResult
-from grader.report.files import as_json, write_json
+from grader.report.files import as_json
 
 STATES: list[State] = ["passed", "not yet", "not started", "error"]
 TODOS = 14
@@ -170,24 +168,6 @@ def test_an_empty_folder_is_refused(tmp_path: Path):
     with pytest.raises(Stop, match="there are no results in"):
         read_class(tmp_path)
     assert run_grader("dashboard", tmp_path).exit_code == 2
-
-
-@pytest.mark.soak
-def test_a_replay_is_made_of_each_known_mistake(tmp_path: Path):
-    """From a class and its results, by the command."""
-    member = next(each for each in bank() if each.name == "5-spin-is-not-damped")
-    for student in ("ann", "ben"):
-        member.build(KIT, tmp_path / "class" / student)
-        graded = grade(tmp_path / "class" / student, ONLY_5, shared_worker())
-        write_json(graded, tmp_path / "results" / f"{student}.json")
-    before = (tmp_path / "results" / "ann.json").read_bytes()
-    folders = [str(tmp_path / "results"), "--submissions", str(tmp_path / "class")]
-    done = run_grader("dashboard", *folders)
-    assert done.exit_code == 0, done.output
-    (replay,) = [link for link in links(tmp_path / "results.class.html") if "/ann/" in link]
-    assert '<canvas id="picture"' in (tmp_path / replay).read_text(encoding="utf-8")
-    assert "<iframe" in (tmp_path / "results" / "ann.html").read_text(encoding="utf-8")
-    assert (tmp_path / "results" / "ann.json").read_bytes() == before
 
 
 # ---------------------------------------------------------------- in a browser

@@ -15,7 +15,7 @@ from rich.console import Console
 from samples import sample
 
 from grader.bank import mutants, verify
-from grader.classroom import dashboard, executor, grading
+from grader.classroom import executor, grading
 from grader.classroom.grading import ClassOptions, run_class
 from grader.judge import grade
 from grader.judge.grade import Options
@@ -75,9 +75,6 @@ bench --rounds 0
 sync now
 dashboard nosuch
 dashboard class
-dashboard results --roster list.csv
-dashboard results --seed 3
-dashboard results --submissions other
 gradescope --out class
 gradescope --seed x
 course-check --course bad.toml
@@ -148,7 +145,6 @@ def without_work(monkeypatch: pytest.MonkeyPatch, place: Path) -> None:
     monkeypatch.chdir(place)
     for module in (grade, executor, making, verify):
         monkeypatch.setattr(module, "start_worker", begin)
-    monkeypatch.setattr(dashboard, "grade_with_replays", begin)
     for module in (verify, mutants):
         monkeypatch.setattr(module, "run_in_processes", begin)
     monkeypatch.setattr(executor.Pool, "__enter__", begin)
