@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from grader.judge.rubric import load_rubric
-from grader.source.regions import python_files, regions_in, replace_regions
+from grader.source.regions import python_files, regions_in
 
 HERE = Path(__file__).parent
 SOLUTION, STARTER = (HERE.parents[1] / name for name in ("solution", "starter"))
@@ -56,15 +56,6 @@ def regions(tree: Path) -> dict[str, tuple[str, Any]]:
 
 def copy_of(tree: Path, folder: Path) -> Path:
     return shutil.copytree(tree, folder / tree.name, ignore=shutil.ignore_patterns("__pycache__"))
-
-
-def mixed(tree: Path, other: Path, todo: str, folder: Path) -> Path:
-    """A copy of the tree with one TODO as it stands in the other tree."""
-    name, region = regions(other)[todo]
-    path = copy_of(tree, folder) / name
-    text = replace_regions(path.read_text(encoding="utf-8"), {todo: region.lines})
-    path.write_text(text, encoding="utf-8", newline="\n")
-    return folder / tree.name
 
 
 def edit(path: Path, old: str, new: str) -> None:
