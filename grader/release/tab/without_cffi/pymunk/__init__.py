@@ -12,7 +12,8 @@ class Missing:
         raise ImportError(REASON)
 
 
-for each in ("Arbiter", "BB", "Body", "Circle", "Poly", "Segment", "Shape", "ShapeFilter", "Space"):
+SHAPES = ("Circle", "Poly", "Segment", "Shape", "ShapeFilter")
+for each in ("Arbiter", "BB", "Body", "Constraint", "Space", *SHAPES):
     globals()[each] = type(each, (Missing,), {"step": lambda self, dt: None})
 Vec2d = type("Vec2d", (Missing,), {})
 

@@ -2,5 +2,5 @@
 
 from . import Missing
 
-for each in ("Constraint", "DampedSpring", "PinJoint", "PivotJoint", "SlideJoint"):
+for each in ("DampedSpring", "PinJoint", "PivotJoint", "SlideJoint"):
     globals()[each] = type(each, (Missing,), {})
