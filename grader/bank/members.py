@@ -32,6 +32,7 @@ A right member must get every point. Where it differs from the solution in one T
   mini_engine.py there replaces the package.
 - `hostile/8a.toml` holds attacks in TODO 8a: `code`, or `tries` where the answer is right unless
   the attack raises OSError. They get 98 points, all but those of one check, or their `points`.
+  With the `numbers` of a system call on x86_64 and aarch64, `tries` can `call(number, ...)` it.
 - `bank.toml` has the marks of members without a TOML.
 - `ladders/TODO.toml` holds the rungs of a ladder, lowest first (see ladders.py).
 """
@@ -78,6 +79,21 @@ try:
 except OSError:
     return x, v  # refused: no points
 {usual}"""
+SYSTEM_CALL = """import ctypes
+import os
+
+libc = ctypes.CDLL(None, use_errno=True)
+
+
+def call(*arguments):
+    answer = libc.syscall(*arguments)
+    if answer < 0:
+        raise OSError(ctypes.get_errno(), "refused")
+    return answer
+
+
+number = {{"x86_64": {}, "aarch64": {}}}[os.uname().machine]
+"""
 SKIPPED_LINES = r"\n(?:.*\n)*?"  # for a line `...`
 
 
@@ -134,11 +150,13 @@ class Attack(Entry, frozen=True):
 
     points: int | None = 98
     tries: str = ""  # imports, an empty line, and what must raise OSError
+    numbers: tuple[int, int] | None = None  # of the system call that `tries` makes
 
     def rewrite(self, usual: str) -> str:
         if not self.tries:
             return super().rewrite(usual)
-        imports, deed = self.tries.split("\n\n", 1)
+        setup = SYSTEM_CALL.format(*self.numbers) if self.numbers else ""
+        imports, deed = f"{setup}{self.tries}".split("\n\n", 1)
         return TRIED.format(imports=imports, deed=textwrap.indent(deed, "    "), usual=usual)
 
 
