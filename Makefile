@@ -91,8 +91,8 @@ contained: ## Grade SUBMISSIONS=folder in a container, by ENGINE=docker or podma
 		$(if $(COURSE_FILE),--volume "$$(realpath "$(COURSE_FILE)"):/instructor/kit/course.toml:ro") \
 		physics-grader --out "/instructor/beside/$$(basename "$$results")" $(if $(SEED),--seed $(SEED))
 
-dashboard: $(CORE) ## Make a page of a graded class: RESULTS=folder (SUBMISSIONS=folder for replays)
-	@$(PY) -m grader dashboard "$(RESULTS)" $(if $(SUBMISSIONS),--submissions "$(SUBMISSIONS)")
+dashboard: $(CORE) ## Make a page of a graded class: RESULTS=folder
+	@$(PY) -m grader dashboard "$(RESULTS)"
 
 gradescope: $(CORE) ## Make build/gradescope/autograder.zip
 	@$(PY) -m grader gradescope

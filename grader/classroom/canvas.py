@@ -62,18 +62,11 @@ OF_ONE_STUDENT = (  # refusals after which the others' marks may go through
 )
 
 
-class Sent(Struct):
-    """The marks sent for one student; two where the last one may not have arrived."""
-
-    marks: list[str] = []
-    digest: str = ""
-
-
 class Record(Struct):
     """The contents of canvas.json."""
 
     address: str
-    students: dict[str, Sent] = {}  # by their ids in Canvas
+    students: dict[str, list[str]] = {}  # marks by ids in Canvas; the last may not have arrived
 
 
 @dataclass(frozen=True)
@@ -92,15 +85,15 @@ class Work:
         """Return the page's name or the comment's words, to find the comment again."""
         return f"feedback-{self.digest}" if self.page else self.comment
 
-    def was_said(self, there: Any, sent: Sent) -> bool:
-        """Tell whether Canvas has the comment with its page, or had it."""
+    def is_in(self, there: Any) -> bool:
+        """Tell whether Canvas has the comment with its page."""
         comments = getattr(there, "submission_comments", None) or []
         files = [file for each in comments for file in each.get("attachments") or []]
         said = [
             *(each.get("display_name") for each in files),
-            *(e.get("comment") for e in comments),
+            *(each.get("comment") for each in comments),
         ]
-        return sent.digest == self.digest or any(self.sign in (each or "") for each in said)
+        return any(self.sign in (each or "") for each in said)
 
 
 @dataclass(frozen=True)
@@ -124,7 +117,7 @@ class Plan:
         self.left_out += 1
         self.notes.append(f"{name}: left out, {why}")
 
-    def add(self, work: Work, there: Any, sent: Sent, over: bool) -> None:
+    def add(self, work: Work, there: Any, sent: list[str], over: bool) -> None:
         """Compare a mark with that in Canvas; only `over` replaces one that a person entered."""
         if there is None:
             return self.leave_out(work.name, f"Canvas has no student {work.user} for it")
@@ -132,8 +125,8 @@ class Plan:
             return self.leave_out(work.name, "Canvas has them excused: change that there")
         score = getattr(there, "entered_score", getattr(there, "score", None))
         before = "" if score is None else f"{score:g}"
-        same, ours = is_score(work.mark, score), [m for m in sent.marks if is_score(m, score)]
-        if same and work.was_said(there, sent):
+        same, ours = is_score(work.mark, score), [m for m in sent if is_score(m, score)]
+        if same and work.is_in(there):
             self.unchanged += 1
         elif same or over or ours or not before:
             self.changes.append(Change(work, there, before, ours))
@@ -164,7 +157,7 @@ def upload_class(
     path = known.locate("canvas.json")
     record = read_record(path, address)
     for work in works:
-        plan.add(work, there.get(work.user), record.students.get(work.user, Sent()), over)
+        plan.add(work, there.get(work.user), record.students.get(work.user, []), over)
     if plan.changes:
         console.print(tabulate(plan.changes))
     sent = send_changes(plan, record, path) if send else []
@@ -300,8 +293,8 @@ def send_changes(plan: Plan, record: Record, path: Path) -> list[str]:
     """Send all changes, and return the names sent; raises Stop where Canvas stops answering."""
     sent: list[str] = []
     for each in plan.changes:
-        work, digest = each.work, record.students.get(each.work.user, Sent()).digest
-        record.students[work.user] = Sent([*each.ours, work.mark], digest)
+        work = each.work
+        record.students[work.user] = [*each.ours, work.mark]
         write_whole(msgspec.json.encode(record), path)
         done = f"sent already: {list_names(sent) or 'none'}; {work.name}: may have arrived"
         with explain(f"{done}. The same command goes on from there"):
@@ -309,7 +302,7 @@ def send_changes(plan: Plan, record: Record, path: Path) -> list[str]:
         if why_not:
             plan.leave_out(work.name, f"Canvas refuses {work.mark}: {why_not}")
             continue
-        record.students[work.user] = Sent([work.mark], work.digest)
+        record.students[work.user] = [work.mark]
         write_whole(msgspec.json.encode(record), path)
         sent.append(work.name)
         if taken := getattr(each.there, "points_deducted", None):
