@@ -90,7 +90,7 @@ SOLID = "all.zip"  # in an archive of the page: packed in one piece, which makes
 PUBLISHED = tuple(f"{each}/site/" for each in ("lab.zip", f"lab.zip/{SOLID}", f"more.zip/{SOLID}"))
 LESSON = "lesson.md"
 ZIP = f"{NAME}-tab.zip"
-WITHOUT_PYMUNK = "This page was made without pymunk: do TODO 7 on a computer with Python."
+WITHOUT_PYMUNK = "This page was made without pymunk: do TODO 7 and B4 on a computer with Python."
 
 
 def make_tab(

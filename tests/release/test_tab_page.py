@@ -50,7 +50,7 @@ from grader.source.regions import read_source, regions_in
 
 SOAK = pytest.mark.soak
 CFFI = CACHE / "cffi.zip"  # optional: a wheel of cffi for Pyodide, and pymunk is tried too
-PYMUNK = ("7a", "7b", "7c", "7d")
+PYMUNK = ("7a", "7b", "7c", "7d", "B4")
 MOST_LOADED = 9 * 10**6  # bytes, compressed as a server would
 SAMPLE = 200  # members that the long run compares; `make test` has those of FEW
 FEW = {"2-masses-forgotten": "2", "8a-explicit-euler-again": "8a"}

@@ -1,6 +1,6 @@
 """Stand in for pymunk where the page was made without cffi: no class of it can be used."""
 
-REASON = "this page was made without pymunk: do TODO 7 on a computer with Python"
+REASON = "this page was made without pymunk: do TODO 7 and B4 on a computer with Python"
 
 
 class Missing:

@@ -1,6 +1,6 @@
 """Stand in for the joints of pymunk."""
 
-from . import Missing
+from . import Constraint as Constraint
 
 for each in ("DampedSpring", "PinJoint", "PivotJoint", "SlideJoint"):
-    globals()[each] = type(each, (Missing,), {})
+    globals()[each] = type(each, (Constraint,), {})
