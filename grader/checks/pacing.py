@@ -154,6 +154,15 @@ def are_fixed(sizes: list[float]) -> bool:
     return all(math.isclose(size, STEP, rel_tol=1e-9) for size in sizes)
 
 
+def want_fixed_steps(lab: Lab, sizes: list[float]) -> None:
+    """Insist that all steps are STEP long."""
+    lab.want(
+        are_fixed(sizes),
+        f"steps of STEP = {STEP:.9f} s, and no others",
+        f"steps of {', '.join(f'{size:.9f}' for size in sizes[:4])} s",
+    )
+
+
 def make_still_world(lab: Lab) -> Thing:
     """Return a world or space in the middle of something, with a body far below the window."""
     if lab.module == "pymunk_scene":
@@ -199,11 +208,7 @@ def want_whole_steps(lab: Lab, world: Thing, accumulator: float, seconds: float)
         f"and a frame of {1000 * seconds:.6g} ms"
     )
     rest, steps, sizes, said = lab.advance(world, accumulator, seconds)
-    lab.want(
-        are_fixed(sizes),
-        f"steps of STEP = {STEP:.9f} s",
-        f"steps of {', '.join(f'{size:.9f}' for size in sizes[:4])} s",
-    )
+    want_fixed_steps(lab, sizes)
     wrong = "1 too many" if said == steps + 1 else "too small" if said < steps else "too large"
     lab.want(
         said == steps,
