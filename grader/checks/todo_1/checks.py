@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 from hypothesis import strategies as st
 
 from grader.checks import exact
+from grader.checks.digits import want_answer
 from grader.checks.exact import Disc, Rect, Touch
 from grader.checks.strategies import belts, circles, eighths, slow_speeds
-from grader.checks.telling import want_told
 from grader.judge.drawing import between, given
 from grader.judge.lab import NOTHING, STEP, Broke, Lab, Moment, Pair, Thing
 from grader.protocol import ContactValue
@@ -113,7 +113,7 @@ def say(answer: Touch | None, digits: int = 3) -> str:
 def want(lab: Lab, answer: Touch | None, right: list[Touch | None], of: str = "") -> None:
     """Insist on one of the right answers."""
     good = any(is_same(answer, each) for each in right)
-    want_told(lab, good, say, right[0], answer, expected=of + "{}")
+    want_answer(lab, good, say, right[0], answer, expected=of + "{}")
 
 
 def want_exact(lab: Lab, discs: Iterable[Disc], at: Pair = (0.0, 0.0), **circle: Any) -> None:

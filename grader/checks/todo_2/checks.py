@@ -6,9 +6,9 @@ from typing import Any
 from hypothesis import strategies as st
 
 from grader.checks import exact
+from grader.checks.digits import want_answer
 from grader.checks.exact import Lever
 from grader.checks.strategies import directions, masses, radii, wherever
-from grader.checks.telling import want_told
 from grader.judge.drawing import given
 from grader.judge.lab import NOTHING, STEP, Lab, Pair, Thing
 
@@ -73,7 +73,7 @@ def want_exact(
     answer = effective_mass(lab, a, b, axis, things, framed)
     right = exact.effective_mass(a, b, axis)
     good = math.isclose(answer, right, rel_tol=1e-9)
-    want_told(lab, good, per_kg, right, answer, digits=6)
+    want_answer(lab, good, per_kg, right, answer, digits=6)
 
 
 def want_about(lab: Lab, a: Lever, b: Lever, axis: Pair) -> None:

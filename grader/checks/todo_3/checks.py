@@ -6,9 +6,9 @@ from itertools import product
 from hypothesis import strategies as st
 
 from grader.checks import exact
+from grader.checks.digits import want_answer
 from grader.checks.exact import BETA, Rod
 from grader.checks.strategies import any_spins, any_surface, directions, lengths, masses
-from grader.checks.telling import want_told
 from grader.judge.drawing import given
 from grader.judge.lab import STEP, Broke, Lab, Moment, Pair, Thing
 from grader.protocol import BodyValue
@@ -109,7 +109,7 @@ def want_exact(
     answer, right = velocities(ends), exact.rod_solved(rod)
     most = rounding(rod, math.hypot(*at))
     good = all(math.dist(*each) <= most for each in zip(answer, right, strict=True))
-    want_told(lab, good, say_both, right, answer)
+    want_answer(lab, good, say_both, right, answer)
     return ends
 
 
@@ -194,7 +194,7 @@ def a_rod_of_the_right_length_stops_only_the_speed_along_it(lab: Lab) -> None:
     right = falling, falling
     apart = all(math.dist(*each) <= 1e-6 for each in zip(left, right, strict=True))
     meaning = "Each end needs a velocity of its own."
-    want_told(lab, apart, say_both, right, left, meaning=meaning)
+    want_answer(lab, apart, say_both, right, left, meaning=meaning)
 
 
 STRAINS = 0.0, 0.25, -0.25, 1 / 1024, -1 / 1024  # of the length
@@ -302,10 +302,10 @@ def want_solved(lab: Lab, rod: Rod, vel_a: Pair, vel_b: Pair, far: float) -> Non
         off = math.dist(after.momentum, rod.momentum)
         kept = off <= rounding(rod, far) * (rod.mass_a + rod.mass_b)
         words = "a momentum of {}, as before"
-        want_told(lab, kept, in_kg, rod.momentum, after.momentum, expected=words)
+        want_answer(lab, kept, in_kg, rod.momentum, after.momentum, expected=words)
     reached = abs(after.speed - rod.bias) <= rounding(rod, far)
     words = "B leaves A at bias, {} along the rod, after any number of passes"
-    want_told(lab, reached, in_px_a_second, rod.bias, after.speed, expected=words)
+    want_answer(lab, reached, in_px_a_second, rod.bias, after.speed, expected=words)
 
 
 def in_kg(momentum: Pair, digits: int) -> str:
@@ -326,7 +326,7 @@ def nothing_happens_where_no_end_can_move(lab: Lab) -> None:
     lab.tell(joint, "prepare", STEP)
     left = velocities(tell_solve(lab, joint, a, b, rod._replace(mass_a=0.0, mass_b=0.0)))
     before = rod.vel_a, rod.vel_b
-    want_told(lab, left == before, say_both, before, left)
+    want_answer(lab, left == before, say_both, before, left)
     for n in range(-MANY, MANY):  # and where they can, something does; k near 0.5, the usual one
         heavy = 4.0 + (n + 0.5) / 128
         want_exact(lab, make_similar(lab, Rod(4.0, heavy, 50.0, (n / 8, 40.0), SLOW, FAST, STEP)))

@@ -11,6 +11,7 @@ from itertools import product
 from hypothesis import strategies as st
 
 from grader.checks import exact
+from grader.checks.digits import want_answer
 from grader.checks.exact import Discs
 from grader.checks.strategies import (
     damped_steps,
@@ -21,7 +22,6 @@ from grader.checks.strategies import (
     some_frictions,
     velocities,
 )
-from grader.checks.telling import want_told
 from grader.judge.drawing import between, given
 from grader.judge.lab import STEP, Lab, Pair, Run, Thing
 from grader.protocol import BodyValue
@@ -145,7 +145,7 @@ def want_opposite(
     size = 1.0 + sum(map(abs, (*first, *last)))  # of what is rounded
     off = max(abs(one - other) for one, other in zip(last, right, strict=True))
     words = "opposite impulses on A and B, and nothing else: {}"
-    want_told(lab, off <= 1e-7 * size, say_motion, right, last, expected=words)
+    want_answer(lab, off <= 1e-7 * size, say_motion, right, last, expected=words)
 
 
 def want_contact(lab: Lab, world: Thing, discs: Discs, pressing: float, rubbing: float) -> None:
@@ -193,7 +193,7 @@ def want_exact(
     size = 1.0 + lighter * (abs(closing) + abs(slip) + sum(map(abs, discs.drift)))
     good = abs(answer - right) <= 1e-7 * size
     words = "a friction impulse of {} on B, along its slip"
-    want_told(lab, good, say, right, answer, digits=2, expected=words)
+    want_answer(lab, good, say, right, answer, digits=2, expected=words)
 
 
 def want_about(lab: Lab, discs: Discs, closing: float, slip: float) -> None:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from hypothesis import strategies as st
 
 from grader.checks import exact
+from grader.checks.digits import want_answer
 from grader.checks.strategies import (
     any_speeds,
     crawls,
@@ -16,7 +17,6 @@ from grader.checks.strategies import (
     rates,
     wide_velocities,
 )
-from grader.checks.telling import want_told
 from grader.judge.drawing import given
 from grader.judge.lab import Lab, Moment, Pair, Thing
 from grader.protocol import BodyValue
@@ -111,14 +111,14 @@ def speed_and_spin_have_a_rate_of_their_own(lab: Lab) -> None:
     motion = lab.about(SPEED), lab.about(SPIN)
     lab.ran("one ball, both dampings 0, for one second")
     left = damp(lab, 0.0, 0.0, 1 / 120, 120, motion)
-    want_told(lab, left == (1.0, 1.0), say_both, (1.0, 1.0), left, digits=2)
+    want_answer(lab, left == (1.0, 1.0), say_both, (1.0, 1.0), left, digits=2)
 
 
 def want_shares(lab: Lab, got: Shares, rates: Pair, seconds: float) -> None:
     """Insist on about what exp says; a straight line is near enough where steps are short."""
     right = exact.damped(rates[0], seconds), exact.damped(rates[1], seconds)
     good = are_close(got, right, within=0.01)
-    want_told(lab, good, say_both, right, got, digits=2, expected="{} left")
+    want_answer(lab, good, say_both, right, got, digits=2, expected="{} left")
 
 
 def one_world_follows_its_rates_and_its_step(lab: Lab) -> None:
@@ -171,7 +171,7 @@ def want_both(lab: Lab, damped: Damped, rates: Pair, dt: float, parts: int) -> N
     right = exact.damped(linear, dt), exact.damped(angular, dt)
     within = SINGLE * (1 + max(rates) * dt)  # the exponent is rounded as well
     good = are_close(once, right, within) and are_close(often, right, parts * within)
-    want_told(lab, good, say_twice, (right, right), (once, often), digits=2)
+    want_answer(lab, good, say_twice, (right, right), (once, often), digits=2)
 
 
 def say_step(dt: float) -> str:
@@ -277,7 +277,7 @@ def want_moment(lab: Lab, answer: Moment, right: Moment, dt: float, times: float
         math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9 + off)
         for a, b, off in zip(got, meant, most, strict=True)
     )
-    want_told(lab, good, say_moment, right, answer, digits=4)
+    want_answer(lab, good, say_moment, right, answer, digits=4)
 
 
 def say_moment(each: Moment, n: int) -> str:

@@ -9,8 +9,8 @@ from itertools import count
 from typing import Any, NamedTuple
 
 from grader.checks import exact
+from grader.checks.digits import want_answer
 from grader.checks.strategies import places_around, seeds
-from grader.checks.telling import want_told
 from grader.judge.drawing import given
 from grader.judge.lab import STEP, Frame, Lab, Moment, Pair, Thing
 from grader.protocol import Rng, SpaceBody, SpaceJoint, SpaceValue, Vec
@@ -152,7 +152,7 @@ def bodies_in(lab: Lab, space: Thing) -> list[SpaceBody]:
 
 def want_full_disc(lab: Lab, ball: Ball) -> None:
     right = exact.disc_moment(ball.mass, ball.radius)
-    want_told(
+    want_answer(
         lab,
         math.isclose(ball.moment, right, rel_tol=1e-9),
         lambda moment, digits: f"{moment:.{digits}f}",

@@ -6,9 +6,9 @@ from itertools import islice, pairwise
 from typing import NamedTuple
 
 from grader.checks import exact
+from grader.checks.digits import want_answer
 from grader.checks.exact import Accel, State
 from grader.checks.strategies import forces, near_and_far, starts
-from grader.checks.telling import want_told
 from grader.judge.drawing import given
 from grader.judge.lab import Lab
 
@@ -88,7 +88,7 @@ def want_step(
     sizes = RIGHT[method](abs(x), abs(v), dt, exact.polynomial([abs(c) for c in force]))
     off = zip(answer, right, sizes, strict=True)
     good = all(abs(a - b) <= 1e-12 * size for a, b, size in off)
-    want_told(lab, good, say, right, answer, digits=6)
+    want_answer(lab, good, say, right, answer, digits=6)
     return answer
 
 

@@ -6,8 +6,8 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from grader.checks import exact
+from grader.checks.digits import want_answer
 from grader.checks.exact import Rod, Spring
-from grader.checks.telling import want_told
 from grader.checks.todo_3.checks import FAST, SLOW, STILL, make_similar, velocities, weight
 from grader.judge.lab import STEP, Lab, Moment, Pair, Thing
 
@@ -73,7 +73,7 @@ def apply_once(
     lab.saw("spring", (spring,), answer)
     right = exact.spring_applied(spring)
     good = are_close(spring, answer, right, math.hypot(*place))
-    want_told(lab, good, say, right, answer)
+    want_answer(lab, good, say, right, answer)
 
 
 def are_close(spring: Spring, answer: Ends, right: Ends, far: float) -> bool:

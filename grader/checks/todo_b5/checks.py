@@ -4,9 +4,9 @@ import math
 from itertools import pairwise
 
 from grader.checks import exact
+from grader.checks.digits import want_answer
 from grader.checks.exact import Place
 from grader.checks.pacing import frames_at, want_a_proper_end
-from grader.checks.telling import want_told
 from grader.judge.lab import NOTHING, STEP, Lab, Pair, Thing
 
 CLOSE = 1e-6  # px or rad
@@ -88,7 +88,7 @@ def want_part_of_the_way(lab: Lab, found: Place, before: Place, now: Place, shar
     near = math.dist(found[:2], right[:2]) < CLOSE
     way = math.dist(before[:2], found[:2]) + math.dist(found[:2], now[:2])
     off = way > math.dist(before[:2], now[:2]) + CLOSE
-    want_told(
+    want_answer(
         lab,
         near,
         say_place,
@@ -98,7 +98,7 @@ def want_part_of_the_way(lab: Lab, found: Place, before: Place, now: Place, shar
         meaning=OFF_THE_WAY * off,
     )
     good = any(abs(without_turns(found[2] - each[2])) < CLOSE for each in (before, right, now))
-    want_told(lab, good, say_angle, right[2], found[2], digits=4, expected="the angle {}")
+    want_answer(lab, good, say_angle, right[2], found[2], digits=4, expected="the angle {}")
 
 
 def without_turns(angle: float) -> float:

@@ -1,6 +1,6 @@
 """*Expected* and *Got* are never the same text, nor told apart by what says nothing."""
 
-from grader.checks.telling import told_apart
+from grader.checks.digits import say_apart
 
 
 def in_digits(value: float, digits: int) -> str:
@@ -8,11 +8,11 @@ def in_digits(value: float, digits: int) -> str:
 
 
 def test_digits_are_added_until_the_numbers_differ():
-    assert told_apart(in_digits, 0.6065, 0.60651) == (
+    assert say_apart(in_digits, 0.6065, 0.60651) == (
         "(0.60650, 0.50) px/s",
         "(0.60651, 0.50) px/s",
     )
 
 
 def test_a_minus_before_zero_tells_nothing():
-    assert told_apart(in_digits, 0.0, -2e-5) == ("(0.00000, 0.50) px/s", "(-0.00002, 0.50) px/s")
+    assert say_apart(in_digits, 0.0, -2e-5) == ("(0.00000, 0.50) px/s", "(-0.00002, 0.50) px/s")
