@@ -90,8 +90,7 @@ def make_scene(yours: Run, expected: Run, rows: Sequence[PairedRequest]) -> Scen
     lines: list[LinePair] = []
     pairs: list[MomentPair] = []
     for row in rows:
-        at, count = len(pairs), len(row.pairs)
-        lines.append(LinePair(row.line.code, *row.answers, at, count, row.line.marks))
+        lines.append(LinePair(row.line.code, *row.answers, len(pairs), row.line.marks))
         pairs += row.pairs
     return Scene(
         yours.experiment,

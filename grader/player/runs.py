@@ -68,7 +68,6 @@ class LinePair(Struct, frozen=True):
     yours: str
     expected: str
     at: int  # its first moment
-    count: int
     marks: list[Mark] = []
 
 
