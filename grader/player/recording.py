@@ -33,6 +33,7 @@ from grader.protocol import (
     Moment,
     Piece,
     Play,
+    Played,
     Record,
     Ref,
     Reply,
@@ -139,7 +140,8 @@ class Recorder:
         code = self.translator.translate(request, reply)
         value = reply.value if isinstance(reply, Returned) else reply
         watched = self.translator.watched_names(request)
-        step = Step(request, code, value is None, self.translator.recalled, watched)
+        paced = isinstance(reply, Played) and reply.paced
+        step = Step(request, code, value is None, self.translator.recalled, watched, paced)
         self.steps[-1].append(step)
         return step
 

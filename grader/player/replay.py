@@ -17,7 +17,7 @@ from grader.judge.children import Worker
 from grader.judge.failures import Failing
 from grader.judge.grade import Options, grading
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.judge.rubric import CHECKS, Rubric, load_rubric
+from grader.judge.rubric import CHECKS, Rubric
 from grader.judge.wording import list_reasons
 from grader.player.page import make_page
 from grader.player.pairing import pair_runs
@@ -41,10 +41,7 @@ def grade_with_replays(
         if not run.failing and not any(folder.glob("*.html")):
             return result
         open_right = run.open_right if options.reference else None
-        known = frozenset(run.submission.functions)
-        return Replays(folder, run.sandbox.open_child, open_right, known).add_to(
-            result, run.failing
-        )
+        return Replays(folder, run.sandbox.open_child, open_right).add_to(result, run.failing)
 
 
 @dataclass
@@ -54,7 +51,6 @@ class Replays:
     folder: Path
     open_child: OpenChild
     open_reference: OpenChild | None
-    functions: frozenset[str] = frozenset()  # the TODOs whose functions the submission has
     budget: Budget = field(default_factory=Budget)
     deaths: int = 0
     written: int = 0  # characters
@@ -115,14 +111,9 @@ class Replays:
         task = f"TODO {todo.id}, {todo.title}" if failing.todo.function else todo.title
         title = f"{task}: {check.title}"
         words = [f"Expected: {check.expected}", f"Got: {check.got}"]
-        again = write_script(title, recorder.translator, steps, words, self._has_pacing(lab.module))
+        again = write_script(title, recorder.translator, steps, words)
         made = [make_page(title, list_reasons(check), both, again), again]
         return made if len(made[0]) <= MAX_CHARACTERS else None
-
-    def _has_pacing(self, module: str) -> bool:
-        """Return whether the submission has advance(), which runs the steps of a frame."""
-        todos = [todo.id for todo in load_rubric().todos if todo.function == f"{module}:advance"]
-        return any(todo in self.functions for todo in todos)
 
     def _expected_scenes(self, failing: Failing) -> list[list[Run]]:
         """Return the scenes of the right run: of the reference, or recorded before."""

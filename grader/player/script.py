@@ -52,6 +52,7 @@ class Step:
     silent: bool  # nothing came back
     recalled: list[str] = field(default_factory=list)  # code that makes objects of earlier scenes
     watched: list[str] = field(default_factory=list)  # names of the bodies that it reads
+    paced: bool = False  # a program whose advance() runs all steps
 
 
 @dataclass
@@ -294,15 +295,11 @@ def write_script(
     translator: Translator,
     steps: Sequence[Step],
     words: Sequence[str],
-    paced: bool,
 ) -> str:
-    """Write a script with the same calls; `words` become comments at its end.
-
-    `paced`: the program has a function advance() that runs the steps of a frame.
-    """
-    plays = [each.request for each in steps if isinstance(each.request, Play)]
+    """Write a script with the same calls; `words` become comments at its end."""
+    plays = [(each.request, each.paced) for each in steps if isinstance(each.request, Play)]
     if plays:
-        imports, body = write_play(translator.module, plays[-1], paced)
+        imports, body = write_play(translator.module, *plays[-1])
     else:
         body = list(fold_repeats(write_calls(steps)))
         imports = list(write_imports(translator, "\n".join(body)))

@@ -791,7 +791,7 @@ def arms(arm_recorder: Recorder) -> Replay:
 def test_a_script_makes_the_bodies_of_an_earlier_scene(arm_recorder: Recorder, tmp_path: Path):
     steps = arm_recorder.steps[-1]
     script = tmp_path / "again.py"
-    script.write_text(write_script("", arm_recorder.translator, steps, [], False), "utf-8")
+    script.write_text(write_script("", arm_recorder.translator, steps, []), "utf-8")
     done = run_script(script, KIT / "solution")
     assert done.returncode == 0 and float(done.stdout) > 0, done.stderr
 

@@ -223,7 +223,7 @@ def make_replay(run, todo, check, failing):
     from grader.player.replay import Replays
 
     try:
-        replays = Replays(LAB, run.sandbox.open_child, None, frozenset(run.submission.functions))
+        replays = Replays(LAB, run.sandbox.open_child, None)
         made = replays.make_files(todo, check, failing)
     except Exception:  # whatever a submission makes of it
         return ""
