@@ -4,6 +4,7 @@ The submission runs in this process, so it can reach the count. We notice if it 
 works in another thread or hides a function. We do not notice if it overwrites the number.
 """
 
+import _thread
 import sys
 from collections.abc import Callable, Iterator
 from types import CodeType, FrameType, FunctionType, ModuleType
@@ -24,8 +25,8 @@ ENDS = {  # events of an audit hook
     "sys.settrace",
     "sys.setprofile",
     "sys.monitoring.register_callback",
-    "_thread.start_new_thread",
 }
+THREAD_STARTS = (_thread.start_new_thread, _thread.start_new)
 IMPORTING = "_frozen_importlib"
 ELSEWHERE = 0.005  # s of work in other threads at which we object
 
@@ -48,14 +49,16 @@ class LineCounter:
             sys.addaudithook(watch)
             LineCounter.has_hook = True
         self.elsewhere = seconds_elsewhere()
+        sys.setprofile(watch_calls)
         sys.settrace(self.hook)
         counting.append(self)
         return self
 
     def __exit__(self, *_: object) -> None:
-        held = sys.gettrace() is self.hook
+        held = sys.gettrace() is self.hook and sys.getprofile() is watch_calls
         counting.clear()
         sys.settrace(None)
+        sys.setprofile(None)
         if not held or self.begun != self.over:
             self.trouble = self.trouble or "its lines were hidden"
         if seconds_elsewhere() - self.elsewhere > ELSEWHERE:
@@ -88,6 +91,12 @@ counting: list[LineCounter] = []  # one at most
 def watch(event: str, _: tuple[Any, ...]) -> None:
     if event in ENDS and counting:
         counting[0].trouble = f"{event} was called"
+
+
+def watch_calls(_: FrameType, event: str, called: object) -> None:
+    """Notice the start of a thread: Python 3.11 has no audit event for it."""
+    if event == "c_call" and any(called is each for each in THREAD_STARTS) and counting:
+        counting[0].trouble = "a thread was started"
 
 
 def seconds_elsewhere() -> float:

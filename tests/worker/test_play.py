@@ -300,7 +300,14 @@ class Box:
     def leaves(self):
         done = _thread.allocate_lock()
         done.acquire()
-        _thread.start_new_thread(lambda: (sum(range(10**6)), done.release()), ())
+        _thread.start_new_thread(lambda: done.release(), ())
+        done.acquire()
+
+    def maps(self):
+        done = _thread.allocate_lock()
+        done.acquire()
+        work = lambda: (sum(range(2 * 10**6)), done.release())
+        list(map(_thread.start_new_thread, [work], [()]))
         done.acquire()
 
 def make():
@@ -327,7 +334,8 @@ def test_a_submission_cannot_end_the_count_unnoticed(lab_of: LabOf):
         ("stops", "sys.settrace was called"),
         ("ends", "sys.settrace was called"),
         ("hides", "its lines were hidden"),
-        ("leaves", "another thread worked|_thread.start_new_thread was called"),
+        ("leaves", "a thread was started"),
+        ("maps", "another thread worked"),
         ("breaks", "."),
     ):
         with pytest.raises(NotYet, match=words):
