@@ -10,7 +10,8 @@ CROWD = 2  # near pairs for each such body; of more, many are not worth their lo
 LONGEST = 0.5  # s, that a room covers
 SHUFFLED = 8  # steps, after which the order of the sweep has changed much
 WIDER = 1.1  # times, must bodies be spread along the other axis for the sweep to change to it
-FEW = 8  # boxes, so few that dropping any is not worth it
+LANE = 4.0  # times half the width of a ball, as broad as a lane is
+FEW = 8  # boxes in a lane, so few that dropping any is not worth it
 
 
 class Pair:
@@ -28,11 +29,12 @@ class Bounds:
     """The room of a body, in which its centre may move, and the box that it cannot leave then.
 
     Along the axis of the sweep the box goes from low to high, across it from side_low to side_high.
+    The lanes that it is in go from first to last.
     """
 
     __slots__ = (
         *("body", "place", "near", "margin", "left", "right", "top", "bottom"),
-        *("high", "low", "side_high", "side_low"),
+        *("high", "low", "side_high", "side_low", "first", "last"),
     )
 
     def __init__(self, body: Body, place: int) -> None:
@@ -43,6 +45,7 @@ class Bounds:
         self.left = self.right = body.x  # px
         self.top = self.bottom = body.y  # px
         self.low = self.high = self.side_low = self.side_high = 0.0  # px
+        self.first = self.last = 0
 
     def make_room(self, back: float, ahead: float, fall_x: float, fall_y: float) -> None:
         """Make room for the way of a body, from so many seconds ago to so many ahead.
@@ -101,16 +104,17 @@ class BroadPhase:
     other pair can touch until a body has left its room; only then the sweep is made anew. Rooms are
     longer the longer the last ones lasted, and shorter where too many pairs are near.
 
-    The sweep goes along the axis on which the awake bodies are spread wider. It meets each box
-    where it begins; the boxes that began before and have not ended are the only ones it can be
-    near. Those that have ended are dropped once they may be half of all: that costs less than
-    dropping each at once.
+    The sweep goes along the axis on which the bodies that can move are spread wider. It meets each
+    box where it begins; the boxes that began before and have not ended are the only ones it can be
+    near. The plane is cut into lanes along the sweep, so that few of them are in one lane with it.
+    Those that have ended are dropped now and then: that costs less than dropping each at once.
     """
 
     def __init__(self) -> None:
         self.bounds: list[Bounds] = []  # of all bodies, in the order of the last sweep
         self.moving: list[Bounds] = []  # of those that can move
         self.widest = 0.0  # px, half of the widest that can move
+        self.lane = 0.0  # px, how broad a lane is
         self.pairs: list[Pair] = []
         self.is_stale = True
         self.is_sorted = False
@@ -122,7 +126,8 @@ class BroadPhase:
         """Begin anew, with these bodies."""
         self.bounds = [Bounds(body, place) for place, body in enumerate(bodies)]
         self.moving = [b for b in self.bounds if not b.body.idle or b.body.is_kinematic]
-        self.widest = max([max(b.body.hx, b.body.hy) for b in self.moving], default=0.0)
+        halves = [max(b.body.hx, b.body.hy) for b in self.moving]
+        self.widest, self.lane = max(halves), LANE * sum(halves) / len(halves)
         self.is_stale, self.is_sorted = True, False
 
     def find_leavers(self, dt: float) -> list[Bounds]:
@@ -167,27 +172,45 @@ class BroadPhase:
         self.sort(upright)
         if upright:
             left, right, top, bottom = top, bottom, left, right
+        lanes = self.cut_lanes(top, bottom)
         pairs: list[Pair] = []
-        active: list[Bounds] = []
-        most = FEW
         for one in self.bounds:
             low, side_low, side_high = one.low, one.side_low, one.side_high
             if low >= right:
                 break
             if one.high <= left or side_low >= bottom or side_high <= top:
                 continue  # far from all that can move
-            if len(active) > most:
-                active = [other for other in active if other.high > low]
-                most = 2 * len(active) + FEW
-            a = one.body
-            for other in active:
-                if other.side_low < side_high and other.side_high > side_low and other.high > low:
-                    b = other.body
-                    if not (a.idle and b.idle):
-                        one.near = other.near = True
-                        pairs.append(Pair(a, b) if a.id > b.id else Pair(b, a))
-            active.append(one)
+            a, first = one.body, one.first
+            for i in range(first, one.last + 1):
+                lane = lanes[i]
+                if len(lane) > FEW:
+                    lane = lanes[i] = [other for other in lane if other.high > low]
+                for other in lane:
+                    if (
+                        other.high > low
+                        and other.side_low < side_high
+                        and other.side_high > side_low
+                        and (i == first or i == other.first)
+                    ):
+                        b = other.body
+                        if not (a.idle and b.idle):
+                            one.near = other.near = True
+                            pairs.append(Pair(a, b) if a.id > b.id else Pair(b, a))
+                lane.append(one)
         return pairs
+
+    def cut_lanes(self, top: float, bottom: float) -> list[list[Bounds]]:
+        """Return the lanes, still empty. Find out which of them each box is in.
+
+        What is beyond the outermost is in them.
+        """
+        count = min(int((bottom - top) / self.lane) + 1, len(self.bounds))
+        share, end = count / (bottom - top), count - 1
+        for one in self.bounds:
+            first, last = int((one.side_low - top) * share), int((one.side_high - top) * share)
+            one.first = 0 if first < 0 else end if first > end else first
+            one.last = 0 if last < 0 else end if last > end else last
+        return [[] for _ in range(count)]
 
     def sort(self, upright: bool) -> None:
         """Put the boxes into the order in which the sweep meets them.
