@@ -1,5 +1,6 @@
 """Find the pairs of bodies that are near each other, by sort and sweep: the broad phase."""
 
+from math import inf
 from operator import attrgetter
 
 from .body import Body
@@ -161,9 +162,7 @@ class BroadPhase:
 
     def sweep(self, margin: float) -> list[Pair]:
         """Return the pairs whose boxes come within margin px, one of the two able to move."""
-        moving, edge = self.moving, self.widest + margin
-        left, right = min([b.left for b in moving]) - edge, max([b.right for b in moving]) + edge
-        top, bottom = min([b.top for b in moving]) - edge, max([b.bottom for b in moving]) + edge
+        left, right, top, bottom = self.find_hull(self.widest + margin)
         taller = (bottom - top) / (right - left)
         upright = taller > (1 / WIDER if self.upright else WIDER)
         for one in self.bounds:
@@ -198,6 +197,21 @@ class BroadPhase:
                             pairs.append(Pair(a, b) if a.id > b.id else Pair(b, a))
                 lane.append(one)
         return pairs
+
+    def find_hull(self, edge: float) -> tuple[float, float, float, float]:
+        """Return left, right, top and bottom of all room, and an edge of so many px around it."""
+        left = top = inf
+        right = bottom = -inf
+        for one in self.moving:
+            if one.left < left:
+                left = one.left
+            if one.right > right:
+                right = one.right
+            if one.top < top:
+                top = one.top
+            if one.bottom > bottom:
+                bottom = one.bottom
+        return left - edge, right + edge, top - edge, bottom + edge
 
     def cut_lanes(self, top: float, bottom: float) -> list[list[Bounds]]:
         """Return the lanes, still empty. Find out which of them each box is in.

@@ -92,9 +92,47 @@ class Impacts:
         return ago
 
     def resolve_all(self, law: Law) -> None:
-        """Resolve the impacts that are due, and those they lead to."""
+        """Resolve the impacts that are due, and those they lead to.
+
+        Those of one island are over before those of the next begin: they do not reach it.
+        """
         self.link()
-        rounds = ROUNDS * len(self.touching)
+        due, done = self.due, set[Contact]()
+        for c, impact in due.items():
+            if self.is_alone(c):
+                self.due = {c: impact}
+                self.resolve_first(law, {})
+            elif c not in done:
+                island = self.contacts_from(c)
+                done.update(island)
+                self.due = {other: due[other] for other in island if other in due}
+                self.resolve_island(law, ROUNDS * len(island))
+
+    def is_alone(self, c: Contact) -> bool:
+        """Return whether an impact reaches no other contact."""
+        for body in (c.a, c.b):
+            if body in self.frame_of or len(self.beside.get(body, [])) > 1:
+                return False
+        return True
+
+    def contacts_from(self, c: Contact) -> list[Contact]:
+        """Return the contacts that an impact of this one may reach, over balls and rods."""
+        found, bodies = {c: None}, balls_of([c])
+        reached = set(bodies)
+        for body in bodies:
+            frame = self.frame_of.get(body)
+            around = list(frame.balls) if frame else []
+            for other in self.beside.get(body, []):
+                found[other] = None
+                around += [other.a, other.b]
+            for ball in around:
+                if ball not in reached and not ball.is_static:
+                    reached.add(ball)
+                    bodies.append(ball)
+        return list(found)
+
+    def resolve_island(self, law: Law, rounds: int) -> None:
+        """Resolve the impacts that are due in an island, in no more than so many rounds."""
         for _ in range(SETTLINGS):
             reached: dict[Body, float] = {}
             while self.due and rounds > 0:

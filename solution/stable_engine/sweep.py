@@ -58,7 +58,7 @@ def moment_of_touch(a: Body, b: Body, dt: float) -> tuple[float, float, float]:
         x, y = x - near_x, y - near_y
     elif not b.r:
         x, y = x - max(-b.hx, min(x, b.hx)), y - max(-b.hy, min(y, b.hy))
-    distance = hypot(x, y)
+    distance = sqrt(x * x + y * y)
     return (1 - fraction) * dt, -x / distance, -y / distance
 
 
