@@ -8,10 +8,10 @@ from .contact import Contact
 
 ROOM = 0.1  # radii, on each side of a body that can move
 CROWD = 2  # near pairs for each such body; of more, many are not worth their looks
-LONGEST = 0.5  # s, that a room covers
+FIRST, LONGEST = 0.1, 0.5  # s, that a room covers
 SHUFFLED = 8  # steps, after which the order of the sweep has changed much
 WIDER = 1.1  # times, must bodies be spread along the other axis for the sweep to change to it
-LANE = 4.0  # times half the width of a ball, as broad as a lane is
+LANE = 6.0  # times half the width of a ball, as broad as a lane is
 FEW = 8  # boxes in a lane, so few that dropping any is not worth it
 
 
@@ -30,12 +30,12 @@ class Bounds:
     """The room of a body, in which its centre may move, and the box that it cannot leave then.
 
     Along the axis of the sweep the box goes from low to high, across it from side_low to side_high.
-    The lanes that it is in go from first to last.
+    The first lane that it is in is known once the sweep has met it.
     """
 
     __slots__ = (
         *("body", "place", "near", "margin", "left", "right", "top", "bottom"),
-        *("high", "low", "side_high", "side_low", "first", "last"),
+        *("high", "low", "side_high", "side_low", "first_lane"),
     )
 
     def __init__(self, body: Body, place: int) -> None:
@@ -46,37 +46,25 @@ class Bounds:
         self.left = self.right = body.x  # px
         self.top = self.bottom = body.y  # px
         self.low = self.high = self.side_low = self.side_high = 0.0  # px
-        self.first = self.last = 0
+        self.first_lane: list[Bounds] = []
 
-    def make_room(self, back: float, ahead: float, fall_x: float, fall_y: float) -> None:
-        """Make room for the way of a body, from so many seconds ago to so many ahead.
-
-        A ball falls on its way, if nothing near may hold it.
-        """
+    def make_room(self, back: float, ahead: float) -> None:
+        """Make room for the way of a body, from so many seconds ago to so many ahead."""
         body, margin = self.body, self.margin
-        left, right = body.x - margin, body.x + margin
-        top, bottom = body.y - margin, body.y + margin
-        dx, dy = body.vx * ahead, body.vy * ahead
-        back_x, back_y = body.vx * back, body.vy * back
-        if not (self.near or body.idle):
-            dx, dy = dx + fall_x, dy + fall_y
-        if dx > 0:
-            right += dx
+        x, y, vx, vy = body.x, body.y, body.vx, body.vy
+        if vx > 0:
+            self.left, self.right = x - vx * back - margin, x + vx * ahead + margin
         else:
-            left += dx
-        if dy > 0:
-            bottom += dy
+            self.left, self.right = x + vx * ahead - margin, x - vx * back + margin
+        if vy > 0:
+            self.top, self.bottom = y - vy * back - margin, y + vy * ahead + margin
         else:
-            top += dy
-        if back_x > 0:
-            left -= back_x
-        else:
-            right -= back_x
-        if back_y > 0:
-            top -= back_y
-        else:
-            bottom -= back_y
-        self.left, self.right, self.top, self.bottom = left, right, top, bottom
+            self.top, self.bottom = y + vy * ahead - margin, y - vy * back + margin
+
+    def make_room_to_fall(self, fall_x: float, fall_y: float) -> None:
+        """Make more room for a body that falls by so many px."""
+        self.left, self.right = self.left + min(fall_x, 0.0), self.right + max(fall_x, 0.0)
+        self.top, self.bottom = self.top + min(fall_y, 0.0), self.bottom + max(fall_y, 0.0)
 
     def update_box(self, upright: bool, margin: float) -> None:
         """Work out the box. Low ends are moved out by margin px."""
@@ -120,7 +108,7 @@ class BroadPhase:
         self.is_stale = True
         self.is_sorted = False
         self.upright = False  # whether the sweep goes along y
-        self.ahead = 0.0  # s, that rooms cover
+        self.ahead = FIRST  # s, that rooms cover
         self.age = 0.0  # s, of the rooms
 
     def take(self, bodies: list[Body]) -> None:
@@ -144,20 +132,25 @@ class BroadPhase:
             self.is_stale = True
         return leavers
 
-    def renew(self, g: tuple[float, float], dt: float, back: float, margin: float) -> None:
+    def renew(
+        self, g: tuple[float, float], held: set[Body], dt: float, back: float, margin: float
+    ) -> None:
         """Make room for all that can move, and find the pairs whose boxes come within margin px.
 
-        Rooms also cover the way of the last `back` seconds.
+        Rooms also cover the way of the last `back` seconds. Bodies fall but for those that are held.
         """
-        if self.age >= self.ahead and len(self.pairs) <= CROWD * len(self.moving):
-            ahead = min(max(2 * self.ahead, dt), LONGEST)
-        else:
+        if self.age < self.ahead + dt / 2 or len(self.pairs) > CROWD * len(self.moving):
             ahead = max(self.ahead / 2, dt)
+        else:
+            ahead = min(2 * self.ahead, LONGEST)
         self.is_sorted = self.is_sorted and self.age < SHUFFLED * dt
         self.is_stale, self.ahead, self.age = False, ahead, 0.0
         fall_x, fall_y = g[0] * ahead * ahead / 2, g[1] * ahead * ahead / 2
         for one in self.moving:
-            one.make_room(back, ahead, fall_x, fall_y)
+            one.make_room(back, ahead)
+        for one in self.moving if fall_x or fall_y else []:
+            if not (one.body in held or one.body.idle):
+                one.make_room_to_fall(fall_x, fall_y)
         self.pairs = self.sweep(margin)
 
     def sweep(self, margin: float) -> list[Pair]:
@@ -171,7 +164,9 @@ class BroadPhase:
         self.sort(upright)
         if upright:
             left, right, top, bottom = top, bottom, left, right
-        lanes = self.cut_lanes(top, bottom)
+        count = min(int((bottom - top) / self.lane) + 1, len(self.bounds))
+        lanes: list[list[Bounds]] = [[] for _ in range(count)]
+        per_px = count / (bottom - top)
         pairs: list[Pair] = []
         for one in self.bounds:
             low, side_low, side_high = one.low, one.side_low, one.side_high
@@ -179,17 +174,18 @@ class BroadPhase:
                 break
             if one.high <= left or side_low >= bottom or side_high <= top:
                 continue  # far from all that can move
-            a, first = one.body, one.first
-            for i in range(first, one.last + 1):
-                lane = lanes[i]
+            a, first = one.body, int((side_low - top) * per_px) if side_low > top else 0
+            last = int((side_high - top) * per_px) if side_high < bottom else count
+            first_lane = one.first_lane = lanes[first]
+            for lane in lanes[first : last + 1]:
                 if len(lane) > FEW:
-                    lane = lanes[i] = [other for other in lane if other.high > low]
+                    lane[:] = [other for other in lane if other.high > low]
                 for other in lane:
                     if (
                         other.high > low
                         and other.side_low < side_high
                         and other.side_high > side_low
-                        and (i == first or i == other.first)
+                        and (lane is first_lane or lane is other.first_lane)
                     ):
                         b = other.body
                         if not (a.idle and b.idle):
@@ -212,19 +208,6 @@ class BroadPhase:
             if one.bottom > bottom:
                 bottom = one.bottom
         return left - edge, right + edge, top - edge, bottom + edge
-
-    def cut_lanes(self, top: float, bottom: float) -> list[list[Bounds]]:
-        """Return the lanes, still empty. Find out which of them each box is in.
-
-        What is beyond the outermost is in them.
-        """
-        count = min(int((bottom - top) / self.lane) + 1, len(self.bounds))
-        share, end = count / (bottom - top), count - 1
-        for one in self.bounds:
-            first, last = int((one.side_low - top) * share), int((one.side_high - top) * share)
-            one.first = 0 if first < 0 else end if first > end else first
-            one.last = 0 if last < 0 else end if last > end else last
-        return [[] for _ in range(count)]
 
     def sort(self, upright: bool) -> None:
         """Put the boxes into the order in which the sweep meets them.

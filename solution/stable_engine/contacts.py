@@ -1,6 +1,7 @@
 """Contacts: bodies do not pass through each other."""
 
 from collections.abc import Callable
+from math import hypot, sqrt
 
 from .body import Body
 from .broad_phase import BroadPhase, Pair
@@ -110,7 +111,8 @@ class Contacts(Effect):
     def renew_pairs(self, dt: float) -> None:
         """Find the near pairs anew. Contacts get theirs back where bodies still touch."""
         phase, margin = self.broad_phase, SPECULATIVE_SPEED * self.world.unit * dt
-        phase.renew(self.world.g, dt, self.last_dt if self.lets_none_pass else 0.0, margin)
+        held = {body for c in self.touching for body in (c.a, c.b)}
+        phase.renew(self.world.g, held, dt, self.last_dt if self.lets_none_pass else 0.0, margin)
         if self.ignored:
             phase.pairs = [p for p in phase.pairs if pair_number(p.a, p.b) not in self.ignored]
         self.near = [one.body for one in phase.moving if one.near]
@@ -143,7 +145,7 @@ class Contacts(Effect):
             if b.r:
                 dx, dy, reach = b.x - a.x, b.y - a.y, a.r + b.r + margin
                 if back:
-                    reach += (abs(dvx) + abs(dvy)) * back
+                    reach += sqrt(dvx * dvx + dvy * dvy) * back
                 if dx * dx + dy * dy > reach * reach:
                     if pair.contact:
                         self.end_contact(pair)
@@ -215,7 +217,7 @@ class Contacts(Effect):
 
     def have_passed(self, a: Body, b: Body, gap: float) -> bool:
         """Return whether two free balls have touched on their way here, and are past each other."""
-        way = (abs(a.vx - b.vx) + abs(a.vy - b.vy)) * self.last_dt
+        way = hypot(a.vx - b.vx, a.vy - b.vy) * self.last_dt
         if way <= gap or way <= FAR * (a.r + b.r) or not b.r:
             return False
         if a.joint_count or b.joint_count or self.was_stopped(a) or self.was_stopped(b):

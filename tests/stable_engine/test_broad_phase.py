@@ -34,7 +34,7 @@ def by_looking(world):
 
 
 def renew(phase):
-    phase.renew((0.0, 0.0), DT, 0.0, MARGIN)
+    phase.renew((0.0, 0.0), set(), DT, 0.0, MARGIN)
     return [(pair.a.id, pair.b.id) for pair in phase.pairs]
 
 
