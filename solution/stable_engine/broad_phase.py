@@ -7,8 +7,8 @@ from .body import Body
 from .contact import Contact
 
 ROOM = 0.1  # radii, on each side of a body that can move
-CROWD = 2  # near pairs for each such body; of more, many are not worth their looks
-FIRST, LONGEST = 0.1, 0.5  # s, that a room covers
+CROWD = 1  # near pairs for each such body; of more, many are not worth their looks
+LONGEST = 0.5  # s, that a room covers
 SHUFFLED = 8  # steps, after which the order of the sweep has changed much
 WIDER = 1.1  # times, must bodies be spread along the other axis for the sweep to change to it
 LANE = 6.0  # times half the width of a ball, as broad as a lane is
@@ -108,7 +108,7 @@ class BroadPhase:
         self.is_stale = True
         self.is_sorted = False
         self.upright = False  # whether the sweep goes along y
-        self.ahead = FIRST  # s, that rooms cover
+        self.ahead = LONGEST  # s, that rooms cover
         self.age = 0.0  # s, of the rooms
 
     def take(self, bodies: list[Body]) -> None:
@@ -137,14 +137,15 @@ class BroadPhase:
     ) -> None:
         """Make room for all that can move, and find the pairs whose boxes come within margin px.
 
-        Rooms also cover the way of the last `back` seconds. Bodies fall but for those that are held.
+        Rooms also cover the way of the last `back` seconds. Those of bodies that are not held cover
+        their fall.
         """
-        if self.age < self.ahead + dt / 2 or len(self.pairs) > CROWD * len(self.moving):
+        if self.is_crowded() or self.age < self.ahead + dt / 2:
             ahead = max(self.ahead / 2, dt)
         else:
             ahead = min(2 * self.ahead, LONGEST)
         self.is_sorted = self.is_sorted and self.age < SHUFFLED * dt
-        self.is_stale, self.ahead, self.age = False, ahead, 0.0
+        self.ahead, self.age = ahead, 0.0
         fall_x, fall_y = g[0] * ahead * ahead / 2, g[1] * ahead * ahead / 2
         for one in self.moving:
             one.make_room(back, ahead)
@@ -152,6 +153,11 @@ class BroadPhase:
             if not (one.body in held or one.body.idle):
                 one.make_room_to_fall(fall_x, fall_y)
         self.pairs = self.sweep(margin)
+        self.is_stale = self.is_crowded() and ahead > dt  # then the next step has smaller rooms
+
+    def is_crowded(self) -> bool:
+        """Return whether too many pairs are near."""
+        return len(self.pairs) > CROWD * len(self.moving)
 
     def sweep(self, margin: float) -> list[Pair]:
         """Return the pairs whose boxes come within margin px, one of the two able to move."""

@@ -72,7 +72,7 @@ class Contacts(Effect):
         self.alone: list[Body] = []  # can move, and are near nobody
         self.beside_static: list[Body] = []  # balls that are near static bodies
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
-        self.groups = [self.balls, self.statics]
+        self.groups: list[Group] = []  # those of them that hold any contact
         self.unpaired: dict[int, Contact] = {}  # those of sleeping bodies, by their pair's number
         self.ignored: set[int] = set()  # numbers of pairs
         self.pace = Pace(STIFFENING)
@@ -175,6 +175,7 @@ class Contacts(Effect):
             if gap < -a.r or gap < -b.r < 0:
                 deep.append(c)
         self.touching, self.balls.contacts, self.statics.contacts = touching, balls, statics
+        self.groups = [group for group in (self.balls, self.statics) if group.contacts]
         if self.unpaired:
             self.end_unpaired()
         if len(deep) > 1:
@@ -242,8 +243,9 @@ class Contacts(Effect):
         if h != self.h:
             self.keep_forces(h)
         hertz = FREQUENCY / self.pace.follow(h)
-        self.balls.bias_rate, self.balls.mass_scale = softness(hertz, DAMPING_RATIO, h)
-        self.statics.bias_rate, self.statics.mass_scale = softness(2 * hertz, DAMPING_RATIO, h)
+        for group in self.groups:
+            rate = hertz if group.moves_b else 2 * hertz
+            group.bias_rate, group.mass_scale = softness(rate, DAMPING_RATIO, h)
         if not self.changed:
             return
         for c in self.touching:
@@ -334,7 +336,7 @@ class Contacts(Effect):
         leavers = [one.body for one in self.broad_phase.find_leavers(self.last_dt)]
         for body in dict.fromkeys([*self.beside_static, *leavers]):
             self.stop_core(body, h)
-        for _ in range(CORNER_PASSES):
+        for _ in range(CORNER_PASSES if self.statics.contacts else 0):
             put_back = []
             for c in self.statics.contacts:
                 a, b = c.a, c.b

@@ -21,8 +21,7 @@ class Friction(Effect):
         super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
         self.contacts.friction_warms = True
-        self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
-        self.groups = [self.balls, self.statics]
+        self.groups: list[Group] = []  # of the contacts that have friction
 
     def is_used(self) -> bool:
         return any(body.mu > 0 for body in self.world.bodies)
@@ -38,9 +37,12 @@ class Friction(Effect):
     def prepare(self, h: float) -> None:
         if not self.contacts.changed:
             return
-        self.balls.contacts = [c for c in self.contacts.balls.contacts if c.mu > 0]
-        self.statics.contacts = [c for c in self.contacts.statics.contacts if c.mu > 0]
-        for group in self.groups:
+        self.groups = []
+        for whole in self.contacts.groups:
+            group = Group(whole.moves_b)
+            group.contacts = [c for c in whole.contacts if c.mu > 0]
+            if group.contacts:
+                self.groups.append(group)
             for c in group.contacts:
                 a, b, tx, ty = c.a, c.b, -c.ny, c.nx
                 # the arms of two balls meet, or they would make spin from nothing

@@ -10,7 +10,7 @@ from .effect import Effect, WorldState
 STILL_SPEED = 3.0  # of the centre and of the rim
 GAINED_SPEED = 0.03  # in STILL_TIME; what gains more is not at rest, but on a gentle slope
 STILL_TIME = 0.5  # s
-LOOK_EVERY = 4  # steps; a look at all that are awake costs as much as moving them
+LOOK_EVERY = 8  # steps; a look at all that are awake costs as much as moving them
 
 
 class Sleep(Effect):
