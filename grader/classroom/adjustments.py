@@ -21,7 +21,7 @@ from msgspec import Meta, Struct, structs
 
 from grader.classroom.comments import Comment, place_all
 from grader.errors import Stop
-from grader.intake.found import Found
+from grader.intake.found import Work
 from grader.intake.names import fold
 from grader.intake.roster import ClassList, find_student, is_same_student
 from grader.judge.course import END_OF_DAY, EXAMPLE, FULL, Course, Late
@@ -92,7 +92,7 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
     comment: list[Comment] = []
     zone: str = ""
 
-    def decide(self, found: Found, points: int | None) -> "Final":
+    def decide(self, found: Work, points: int | None) -> "FinalPoints":
         """Return what counts for a submission that earned `points`; None if it was not graded."""
         decisions = self.find_decisions(found)
         reasons: list[str] = []
@@ -103,12 +103,12 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
             reasons.append(reason)
         final = None if points is None else max(points, 0)
         by_hand = any(each.points is not None for each in decisions)
-        return Final(final, tuple(filter(None, reasons)), self.find_due(found), by_hand)
+        return FinalPoints(final, tuple(filter(None, reasons)), self.find_due(found), by_hand)
 
-    def sum_bonus(self, found: Found) -> int:
+    def sum_bonus(self, found: Work) -> int:
         return sum(each.bonus or 0 for each in self.find_decisions(found))
 
-    def apply_lateness(self, late: Late, found: Found, points: int, reasons: list[str]) -> int:
+    def apply_lateness(self, late: Late, found: Work, points: int, reasons: list[str]) -> int:
         """Return the points that lateness leaves, and add the reason to `reasons`."""
         days = self.count_days_late(found)
         if not days:
@@ -136,7 +136,7 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
             points = late.cap
         return points
 
-    def count_days_late(self, found: Found) -> int:
+    def count_days_late(self, found: Work) -> int:
         """Return days begun since the due date; 1 where the LMS marks work late without a time."""
         due = self.find_due(found)
         if self.late is not None and due and found.handed_in:
@@ -145,13 +145,13 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
             return math.ceil(after / DAY) if after > grace else 0
         return int(found.late)
 
-    def find_due(self, found: Found) -> datetime | None:
+    def find_due(self, found: Work) -> datetime | None:
         """Return when this student's work is due: the last extension, or the date for all."""
         extended = [each.due for each in self.find_decisions(found) if each.due]
         due = max(extended) if extended else self.late.due if self.late else None
         return self.add_zone(due) if due else None
 
-    def find_decisions(self, found: Found) -> list[Adjust]:
+    def find_decisions(self, found: Work) -> list[Adjust]:
         """Return the decisions about a student, or about the group member who handed in."""
         for name in (found.name, found.handed_in_by):
             if decisions := [each for each in self.adjust if each.concerns(name)]:
@@ -176,7 +176,7 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         """Return students and the work that a person says is theirs."""
         return [(who, each.take) for each in self.adjust if each.take for who in each.students]
 
-    def place_comments(self, found: Found, files: Mapping[str, bytes]) -> list[Remark]:
+    def place_comments(self, found: Work, files: Mapping[str, bytes]) -> list[Remark]:
         """Return the comments on a student's work, each beside its line.
 
         Raises Exceeded, Failed or Lost where searching its files reaches a limit.
@@ -212,7 +212,7 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 @dataclass(frozen=True)
-class Final:
+class FinalPoints:
     """The points that count, and why they are not those of the checks."""
 
     points: int | None  # None: there is no mark

@@ -13,10 +13,10 @@ from rich.console import Console
 
 from grader.classroom.adjustments import Adjustments
 from grader.classroom.book import NOTHING, Book, Outcome, make_outcome
-from grader.classroom.executor import LOST, Executor, ExecutorFailed, Graded
+from grader.classroom.executor import LOST, Answer, Executor, ExecutorFailed
 from grader.classroom.similarity import Prints, make_prints
 from grader.errors import Stop, say_error
-from grader.intake.found import CannotTake, Found, Intake, Package
+from grader.intake.found import CannotTake, Intake, Package, Work
 from grader.intake.names import list_names, make_portable
 from grader.intake.packing import pack
 from grader.intake.roster import ClassList
@@ -32,7 +32,7 @@ NONE = Adjustments()
 
 @dataclass
 class Task:
-    members: list[Found]
+    members: list[Work]
     package: Package
     key: str
 
@@ -57,7 +57,7 @@ class Run:
 
     def list_tasks(self) -> Iterator[Task]:
         """Yield each work to grade once; record the others."""
-        works: dict[tuple[object, ...], list[Found]] = {}
+        works: dict[tuple[object, ...], list[Work]] = {}
         for found in self.intake.found:
             works.setdefault((found.sources, found.taken), []).append(found)
         for members in works.values():
@@ -79,7 +79,7 @@ class Run:
             if new := list(self.skip_kept(members, package, key)):
                 yield Task(new, msgspec.structs.replace(package, name=new[0].name), key)
 
-    def skip_kept(self, members: list[Found], package: Package, key: str) -> Iterator[Found]:
+    def skip_kept(self, members: list[Work], package: Package, key: str) -> Iterator[Work]:
         """Yield students without a valid earlier result; record the others."""
         for found in members:
             self.package_notes[found.name] = package.notes
@@ -89,7 +89,7 @@ class Run:
             else:
                 self.record("kept", found, kept)
 
-    def record_result(self, task: Task, graded: Graded) -> None:
+    def record_result(self, task: Task, graded: Answer) -> None:
         """Write a result for each student of a group, with their own name."""
         result = msgspec.json.decode(graded[0], type=Result)
         for found in task.members:
@@ -99,11 +99,11 @@ class Run:
             self.book.write(outcome, own)
             self.count("graded", outcome)
 
-    def record_trouble(self, found: Found, words: str) -> None:
+    def record_trouble(self, found: Work, words: str) -> None:
         self.book.keep_earlier(found.name)
         self.record("trouble", found, Outcome(found.name, words))
 
-    def record(self, how: str, found: Found, outcome: Outcome) -> None:
+    def record(self, how: str, found: Work, outcome: Outcome) -> None:
         """Apply the rules and decisions to an outcome, and count it."""
         self.count(how, self.decide(found, outcome))
 
@@ -111,7 +111,7 @@ class Run:
         self.counts[how] = self.counts.get(how, 0) + 1
         self.outcomes.append(outcome)
 
-    def decide(self, found: Found, outcome: Outcome) -> Outcome:
+    def decide(self, found: Work, outcome: Outcome) -> Outcome:
         """Return an outcome with bonus, lateness, decisions, and its mark of an earlier run."""
         decisions = self.adjustments
         outcome = msgspec.structs.replace(outcome, bonus_by_hand=decisions.sum_bonus(found))
@@ -137,7 +137,7 @@ class Run:
     def record_absent(self, names: Iterable[str]) -> None:
         """Record students who handed in nothing, if a person set their points."""
         for name in names:
-            found = Found(name, ())
+            found = Work(name, ())
             if self.adjustments.decide(found, None).by_hand:
                 self.record("by hand", found, Outcome(name, NOTHING))
 
@@ -177,7 +177,7 @@ def grade_class(run: Run, executor: Executor, console: Console, absent: Iterable
     with run.book as book, Counter("grading", total, console) as counter:
         run.notes += run.intake.notes
         for name, words in run.intake.troubles.items():
-            run.record_trouble(Found(name, ()), words)
+            run.record_trouble(Work(name, ()), words)
         for task, graded in grade_tasks(run.list_tasks(), executor):
             if isinstance(graded, str):
                 for found in task.members:
@@ -202,9 +202,9 @@ def grade_class(run: Run, executor: Executor, console: Console, absent: Iterable
     return run
 
 
-def grade_tasks(tasks: Iterator[Task], executor: Executor) -> Iterator[tuple[Task, Graded | str]]:
+def grade_tasks(tasks: Iterator[Task], executor: Executor) -> Iterator[tuple[Task, Answer | str]]:
     """Yield each task with its result or its trouble, in the order in which they end."""
-    under_way: dict[Future[Graded], Task] = {}
+    under_way: dict[Future[Answer], Task] = {}
     for task in tasks:
         under_way[executor.submit(task.package)] = task
         if len(under_way) >= executor.capacity():
@@ -214,8 +214,8 @@ def grade_tasks(tasks: Iterator[Task], executor: Executor) -> Iterator[tuple[Tas
 
 
 def collect_results(
-    under_way: "dict[Future[Graded], Task]",
-) -> Iterator[tuple[Task, Graded | str]]:
+    under_way: "dict[Future[Answer], Task]",
+) -> Iterator[tuple[Task, Answer | str]]:
     """Wait for a task to end, and yield all that have ended."""
     done, _ = wait(under_way, return_when=FIRST_COMPLETED)
     if any(future.cancelled() for future in done):
@@ -224,7 +224,7 @@ def collect_results(
         yield under_way.pop(future), read_future(future)
 
 
-def read_future(future: Future[Graded]) -> Graded | str:
+def read_future(future: Future[Answer]) -> Answer | str:
     """Return a result, or why there is none."""
     try:
         return future.result()

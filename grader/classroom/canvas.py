@@ -70,7 +70,7 @@ class Record(Struct):
 
 
 @dataclass(frozen=True)
-class Work:
+class Delivery:
     """The mark, comment and page for one student."""
 
     name: str
@@ -98,7 +98,7 @@ class Work:
 
 @dataclass(frozen=True)
 class Change:
-    work: Work
+    delivery: Delivery
     there: Any  # the submission in Canvas
     before: str  # the mark there
     ours: list[str]  # the same, if it was sent by us
@@ -117,22 +117,22 @@ class Plan:
         self.left_out += 1
         self.notes.append(f"{name}: left out, {why}")
 
-    def add(self, work: Work, there: Any, sent: list[str], over: bool) -> None:
+    def add(self, delivery: Delivery, there: Any, sent: list[str], over: bool) -> None:
         """Compare a mark with that in Canvas; only `over` replaces one that a person entered."""
         if there is None:
-            return self.leave_out(work.name, f"Canvas has no student {work.user} for it")
+            return self.leave_out(delivery.name, f"Canvas has no student {delivery.user} for it")
         if getattr(there, "excused", False):
-            return self.leave_out(work.name, "Canvas has them excused: change that there")
+            return self.leave_out(delivery.name, "Canvas has them excused: change that there")
         score = getattr(there, "entered_score", getattr(there, "score", None))
         before = "" if score is None else f"{score:g}"
-        same, ours = is_score(work.mark, score), [m for m in sent if is_score(m, score)]
-        if same and work.is_in(there):
+        same, ours = is_score(delivery.mark, score), [m for m in sent if is_score(m, score)]
+        if same and delivery.is_in(there):
             self.unchanged += 1
         elif same or over or ours or not before:
-            self.changes.append(Change(work, there, before, ours))
+            self.changes.append(Change(delivery, there, before, ours))
         else:
-            why = f"a person entered {before} in Canvas, and the mark here is {work.mark}"
-            self.leave_out(work.name, f"{why}: replace it with --over")
+            why = f"a person entered {before} in Canvas, and the mark here is {delivery.mark}"
+            self.leave_out(delivery.name, f"{why}: replace it with --over")
 
 
 def is_score(mark: str, score: float | None) -> bool:
@@ -147,7 +147,7 @@ def upload_class(
     Raises Stop where Canvas cannot be asked, or stops answering.
     """
     address, plan = to or known.settings.canvas, Plan()
-    works = list_works(known, others_known, plan)
+    deliveries = list_deliveries(known, others_known, plan)
     with explain("nothing was sent"):
         assignment = open_assignment(address, known)
         listed = ask(lambda: list(assignment.get_submissions(include=COMMENTS, per_page=100)))
@@ -156,8 +156,8 @@ def upload_class(
         remember_class(known.folder, {"canvas": to}, other_course=False)
     path = known.locate("canvas.json")
     record = read_record(path, address)
-    for work in works:
-        plan.add(work, there.get(work.user), record.students.get(work.user, []), over)
+    for delivery in deliveries:
+        plan.add(delivery, there.get(delivery.user), record.students.get(delivery.user, []), over)
     if plan.changes:
         console.print(tabulate(plan.changes))
     sent = send_changes(plan, record, path) if send else []
@@ -173,17 +173,20 @@ def tabulate(changes: list[Change]) -> Table:
     titles = ("student", "in Canvas", "mark", "comment")
     table = Table(*(Column(title, overflow="fold") for title in titles))
     for each in changes:
-        work, words = each.work, each.work.comment + "\nwith their page" * bool(each.work.page)
+        delivery, words = (
+            each.delivery,
+            each.delivery.comment + "\nwith their page" * bool(each.delivery.page),
+        )
         lines = "\n".join(printable(line) for line in words.splitlines())
-        table.add_row(printable(work.name), each.before or "none", work.mark, lines)
+        table.add_row(printable(delivery.name), each.before or "none", delivery.mark, lines)
     return table
 
 
 # ---------------------------------------------------------------- what students are to get
 
 
-def list_works(known: ClassFolder, others_known: bool, plan: Plan) -> list[Work]:
-    """Return the work for each student, with the gradebook's own marks; note who is left out."""
+def list_deliveries(known: ClassFolder, others_known: bool, plan: Plan) -> list[Delivery]:
+    """Return the delivery for each student, with the gradebook's marks; note who is left out."""
     results, course = known.find_results(), known.course
     roster = read_roster(known.find_roster("an upload"))
     if "ID" not in roster.columns:
@@ -200,7 +203,7 @@ def list_works(known: ClassFolder, others_known: bool, plan: Plan) -> list[Work]
     plan.notes += made.notes
     by_name = {each.outcome.name: each for each in entries}
     ids = Counter(row["ID"].strip() for row in roster.rows)
-    works = []
+    deliveries = []
     for row, mark, summary in made.rows:
         user, full = row["ID"].strip(), list_name(row)
         name = f"{full} ({row[key]})" if full else row[key]
@@ -210,21 +213,21 @@ def list_works(known: ClassFolder, others_known: bool, plan: Plan) -> list[Work]
             plan.leave_out(name, f"the class list has ID {user!r} {ids[user]} times")
         else:
             found = next((by_name[each] for each in owners.find_results(row)), None)
-            works.append(make_work((name, user, mark), found, summary, graded))
-    return works
+            deliveries.append(make_delivery((name, user, mark), found, summary, graded))
+    return deliveries
 
 
-def make_work(
+def make_delivery(
     who: tuple[str, str, str], entry: Entry | None, summary: str, graded: GradedClass
-) -> Work:
+) -> Delivery:
     """Return a mark with its comment, and with the student's page if there is one."""
     if entry is None:
-        return Work(*who, summary, hash_text(summary), None)
+        return Delivery(*who, summary, hash_text(summary), None)
     # What an earlier run found is no news to those who have it from Canvas.
     outcome = msgspec.structs.replace(entry.outcome, before="", changed=[])
     comment = write_text(outcome, None, graded.course).strip()
     digest = hash_text(write_text(outcome, entry.show_result(graded.course), graded.course))
-    return Work(*who, comment, digest, graded.find_page(outcome.name))
+    return Delivery(*who, comment, digest, graded.find_page(outcome.name))
 
 
 def hash_text(text: str) -> str:
@@ -293,31 +296,31 @@ def send_changes(plan: Plan, record: Record, path: Path) -> list[str]:
     """Send all changes, and return the names sent; raises Stop where Canvas stops answering."""
     sent: list[str] = []
     for each in plan.changes:
-        work = each.work
-        record.students[work.user] = [*each.ours, work.mark]
+        delivery = each.delivery
+        record.students[delivery.user] = [*each.ours, delivery.mark]
         write_whole(msgspec.json.encode(record), path)
-        done = f"sent already: {list_names(sent) or 'none'}; {work.name}: may have arrived"
+        done = f"sent already: {list_names(sent) or 'none'}; {delivery.name}: may have arrived"
         with explain(f"{done}. The same command goes on from there"):
             why_not = send_change(each)
         if why_not:
-            plan.leave_out(work.name, f"Canvas refuses {work.mark}: {why_not}")
+            plan.leave_out(delivery.name, f"Canvas refuses {delivery.mark}: {why_not}")
             continue
-        record.students[work.user] = [work.mark]
+        record.students[delivery.user] = [delivery.mark]
         write_whole(msgspec.json.encode(record), path)
-        sent.append(work.name)
+        sent.append(delivery.name)
         if taken := getattr(each.there, "points_deducted", None):
             words = f"Canvas's own late policy takes {taken:g} more points from the mark"
-            plan.notes.append(f"{work.name}: {words}")
+            plan.notes.append(f"{delivery.name}: {words}")
     return sent
 
 
 def send_change(change: Change) -> str:
     """Send a mark, its comment and its page; return why Canvas refuses them, or nothing."""
-    work, there = change.work, change.there
-    grade, comment = {"posted_grade": work.mark}, {"text_comment": work.comment}
+    delivery, there = change.delivery, change.there
+    grade, comment = {"posted_grade": delivery.mark}, {"text_comment": delivery.comment}
     words = {"submission": grade, "comment": comment, "prefer_points_over_scheme": True}
     try:
-        files = {"file_ids": [upload_page(work, work.page, there)]} if work.page else {}
+        files = {"file_ids": [upload_page(delivery, delivery.page, there)]} if delivery.page else {}
         ask(lambda: there.edit(**words | {"comment": comment | files}))
     except OF_ONE_STUDENT as error:
         if is_throttled(error):
@@ -326,11 +329,13 @@ def send_change(change: Change) -> str:
     return ""
 
 
-def upload_page(work: Work, page: Path, there: Any) -> int:
+def upload_page(delivery: Delivery, page: Path, there: Any) -> int:
     """Upload a student's page for a comment, and return its id in Canvas."""
-    place = f"courses/{there.course_id}/assignments/{there.assignment_id}/submissions/{work.user}"
+    place = (
+        f"courses/{there.course_id}/assignments/{there.assignment_id}/submissions/{delivery.user}"
+    )
     with TemporaryDirectory() as folder:
-        path = Path(folder, f"{work.sign}.html")  # Canvas takes its name
+        path = Path(folder, f"{delivery.sign}.html")  # Canvas takes its name
         path.write_bytes(page.read_bytes())
         uploader = Uploader(there._requester, f"{place}/comments/files", path)
         return int(ask(uploader.start)[1]["id"])

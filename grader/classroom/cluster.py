@@ -18,7 +18,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from grader.classroom.executor import AHEAD, LOST, ExecutorFailed, Graded, grade_package
+from grader.classroom.executor import AHEAD, LOST, Answer, ExecutorFailed, grade_package
 from grader.classroom.fingerprint import pack_reference
 from grader.errors import Stop
 from grader.intake.found import Package
@@ -32,7 +32,7 @@ ONE_AT_A_TIME = threading.Lock()  # a process has one worker, however many threa
 # ---------------------------------------------------------------- on a worker
 
 
-def grade_here(package: Package, options: Options, reference: Package | None, made: str) -> Graded:
+def grade_here(package: Package, options: Options, reference: Package | None, made: str) -> Answer:
     """Grade one submission, if the fingerprint of this grader is `made`."""
     if fingerprint() != made:
         raise ExecutorFailed(describe_versions([socket.gethostname()]))
@@ -77,8 +77,8 @@ class Cluster:
         except OSError as error:
             raise Stop(LOST) from error
 
-    def submit(self, package: Package) -> "Future[Graded]":
-        future: Future[Graded] = self.dask.submit(
+    def submit(self, package: Package) -> "Future[Answer]":
+        future: Future[Answer] = self.dask.submit(
             grade_here, package, self.options, self.reference, fingerprint()
         )
         return future

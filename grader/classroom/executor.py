@@ -21,10 +21,10 @@ from grader.report.files import as_json
 AHEAD = 2  # submissions that wait, packed, for each one being graded
 LOST = "the cluster is gone; what is graded stays, and the same command goes on from there"
 
-Graded = tuple[bytes, float]  # a result as JSON, and the seconds it took
+Answer = tuple[bytes, float]  # a result as JSON, and the seconds it took
 
 
-def grade_package(package: Package, options: Options) -> Graded:
+def grade_package(package: Package, options: Options) -> Answer:
     """Grade one submission, in a process of the pool or of a cluster."""
     start = time.monotonic()
     with work_folder() as work:
@@ -45,7 +45,7 @@ class Executor(Protocol):
         """Return how many submissions to submit at a time."""
         ...
 
-    def submit(self, package: Package) -> "Future[Graded]": ...
+    def submit(self, package: Package) -> "Future[Answer]": ...
 
 
 class ExecutorFailed(Stop):
@@ -78,16 +78,16 @@ class Pool:
     def capacity(self) -> int:
         return self.jobs * (1 + AHEAD)
 
-    def submit(self, package: Package) -> "Future[Graded]":
+    def submit(self, package: Package) -> "Future[Answer]":
         return self.threads.submit(self.grade, package)
 
-    def grade(self, package: Package) -> Graded:
+    def grade(self, package: Package) -> Answer:
         """Grade one submission in a free process; repeat it once if the process ended."""
         process = self.free.get()
         try:
             for _ in range(2):
                 with suppress(Lost):
-                    return process.call(self.allowance, Graded, self.work, package, self.options)
+                    return process.call(self.allowance, Answer, self.work, package, self.options)
             raise Failed("it ended the grader's own process, twice: please report it")
         finally:
             self.free.put(process)

@@ -14,7 +14,7 @@ from grader.classroom.comments import describe_remark
 from grader.classroom.dashboard import Entry, make_standing
 from grader.classroom.owners import find_owners
 from grader.errors import Stop
-from grader.intake.found import Found, Intake
+from grader.intake.found import Intake, Work
 from grader.intake.lms import PAGE, Lms, Page
 from grader.intake.names import make_portable
 from grader.intake.roster import ClassList, Roster
@@ -99,7 +99,7 @@ def answer_absent(
             made.notes.append(f"{name}: left out, {why}")
 
 
-def make_page(found: Found, content: bytes, text: str, people: ClassList) -> Page:
+def make_page(found: Work, content: bytes, text: str, people: ClassList) -> Page:
     """Return what goes back to one student; a group's others get it beside the first one's."""
     if not found.handed_in_by:
         return Page(found.name, PAGE, content, text)

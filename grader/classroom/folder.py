@@ -163,17 +163,17 @@ class ClassFolder:
             )
 
 
-class Asked(Struct, frozen=True):
+class AskedTodo(Struct, frozen=True):
     """A TODO of a result, without its points."""
 
     id: str
     max_points: int
 
 
-class AskedOf(Struct, frozen=True):
+class AskedTodos(Struct, frozen=True):
     """A result without its points and checks."""
 
-    todos: list[Asked]
+    todos: list[AskedTodo]
 
 
 def find_difference(results: Path, course: Course) -> str:
@@ -181,7 +181,7 @@ def find_difference(results: Path, course: Course) -> str:
     asked = {todo.id: todo.max_points for todo in course.rubric.todos}
     for path in sorted(results.glob("[!.]*.json")):
         try:
-            result = msgspec.json.decode(path.read_bytes(), type=AskedOf)
+            result = msgspec.json.decode(path.read_bytes(), type=AskedTodos)
         except (OSError, msgspec.MsgspecError):
             continue
         graded = {todo.id: todo.max_points for todo in result.todos}

@@ -17,7 +17,7 @@ from msgspec import Meta, Struct
 from grader.classroom.book import NOTHING, Outcome
 from grader.classroom.owners import Owners, find_owners
 from grader.errors import Stop
-from grader.intake.lms import Lms, MarkColumn, Marked
+from grader.intake.lms import Lms, MarkColumn, MarkRow
 from grader.intake.names import list_names
 from grader.intake.roster import Roster, Row
 from grader.intake.systems import find_system
@@ -122,7 +122,7 @@ class Marks:
 
     text: str = ""
     encoding: str = "utf-8"
-    rows: list[Marked] = field(default_factory=list)
+    rows: list[MarkRow] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     unowned: list[str] = field(default_factory=list)  # students who may own work without an owner
 
@@ -183,7 +183,7 @@ def make_marks(roster: Roster, key: str, scores: Scores) -> Marks:
     owners = find_owners(roster, key, scores.parts, scores.absent)
     for row in roster.rows:
         mark, summary = mark_row(row, row[key], owners, scores, made)
-        made.rows.append(Marked(row, mark, summary))
+        made.rows.append(MarkRow(row, mark, summary))
     for student in sorted(owners.strangers):
         made.notes.append(f"{student}: handed in, but is not in the class list under {key!r}")
     if made.unowned:

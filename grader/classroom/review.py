@@ -26,9 +26,9 @@ from grader.classroom.dashboard import read_outcomes
 from grader.classroom.decisions import Decision, DecisionsFile, Table
 from grader.classroom.folder import ClassFolder
 from grader.errors import Stop
-from grader.intake.found import CannotTake, Found, Intake
+from grader.intake.found import CannotTake, Intake, Work
 from grader.intake.names import make_portable
-from grader.intake.packing import Shown, pack, show
+from grader.intake.packing import Contents, pack, show
 from grader.intake.pieces import name_type, rank_file
 from grader.intake.roster import ClassList, is_same_student
 from grader.player.page import clean_line, fill_template
@@ -81,7 +81,7 @@ class Review:
     people: ClassList  # without the work that a person chose
     host: str = "127.0.0.1"
     token: str = field(default_factory=secrets.token_urlsafe)
-    read: dict[str, tuple[Shown, str]] = field(default_factory=dict)  # by name
+    read: dict[str, tuple[Contents, str]] = field(default_factory=dict)  # by name
 
     @cached_property
     def outcomes(self) -> dict[str, Outcome]:
@@ -127,20 +127,20 @@ class Review:
         same = any(is_same_student(who, name) for who in decision.students)
         return same or name in map(make_portable, called) or decision.values.get("take") == name
 
-    def list_works(self, name: str) -> list[Found]:
+    def list_works(self, name: str) -> list[Work]:
         return [each for each in self.intake.works if each.name == name]
 
-    def read_files(self, name: str) -> tuple[Shown, str]:
+    def read_files(self, name: str) -> tuple[Contents, str]:
         """Return a student's files, and whether they are as graded or as they came."""
         if name not in self.read:
             self.read[name] = self.unpack_files(name)
         return self.read[name]
 
-    def unpack_files(self, name: str) -> tuple[Shown, str]:
+    def unpack_files(self, name: str) -> tuple[Contents, str]:
         works, asked = self.list_works(name), self.known.course.modules
         if len(works) == 1 and name not in self.intake.troubles:
             try:
-                return Shown(pack(works[0], asked).files), "as they are graded"
+                return Contents(pack(works[0], asked).files), "as they are graded"
             except CannotTake:
                 return show(works[0], asked), "as they came"
         shown = [(work, show(work, asked)) for work in works]
@@ -150,7 +150,7 @@ class Review:
             for work, each in shown
             for file, content in each.files
         ]
-        return Shown(files, shown[0][1].choices if len(shown) == 1 else []), "as they came"
+        return Contents(files, shown[0][1].choices if len(shown) == 1 else []), "as they came"
 
     def list_choices(self, name: str) -> list[list[str]]:
         """Return the paths of which a person may choose one, a list for each question."""
@@ -160,7 +160,7 @@ class Review:
         return choices
 
 
-def join_source(work: Found, file: str) -> str:
+def join_source(work: Work, file: str) -> str:
     """Return a file's path, beginning with the name of its submission."""
     source = work.sources[0].name
     return file if file.partition("/")[0] == source else f"{source}/{file}"
@@ -364,7 +364,7 @@ def place_decision(decision: Decision, files: Mapping[str, bytes]) -> Remark | N
     return place_comment(msgspec.convert(decision.values, Comment), files)
 
 
-def list_files(shown: Shown, remarks: list[Remark]) -> list[File]:
+def list_files(shown: Contents, remarks: list[Remark]) -> list[File]:
     """Return the files to show, those of the lab first."""
     ranked = sorted(shown.files, key=lambda each: rank_file(PurePosixPath(each[0])))
     files, room = [], MOST_LINES

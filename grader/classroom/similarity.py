@@ -24,7 +24,7 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
-from grader.intake.found import CannotTake, Found, Package
+from grader.intake.found import CannotTake, Package, Work
 from grader.intake.listing import open_class
 from grader.intake.packing import pack
 from grader.intake.roster import ClassList
@@ -132,7 +132,7 @@ def make_prints(package: Package, team: tuple[str, ...] = ()) -> Prints:
 
 def read_prints(
     stack: ExitStack, folder: Path, people: ClassList
-) -> tuple[dict[str, Found], list[Prints]]:
+) -> tuple[dict[str, Work], list[Prints]]:
     """Read an earlier class, named after its folder; its files stay while `stack` is open."""
     found, prints = {}, []
     for each in stack.enter_context(open_class(folder, people)).found:
@@ -193,7 +193,7 @@ class Line:
 Side = dict[str, list[Line]]  # one of two submissions: lines around what both share, by file
 
 
-def show_pair(first: Found, second: Found) -> tuple[Side, Side]:
+def show_pair(first: Work, second: Work) -> tuple[Side, Side]:
     """Show what two submissions share; nothing where that takes too long."""
     with suppress(CannotTake, Exceeded, Failed, Lost):
         return compare(pack(first), pack(second))
@@ -238,7 +238,7 @@ def locate_pairs(results: Path, suffix: str) -> Path:
     return results.with_name(f"{results.name}.alike.{suffix}")
 
 
-def write_pairs(results: Path, pairs: list[Pair], found: Mapping[str, Found]) -> Path:
+def write_pairs(results: Path, pairs: list[Pair], found: Mapping[str, Work]) -> Path:
     """Write the pairs as a page, a table and JSON; `found` has all submissions by name."""
     path = locate_pairs(results, "html")
     page = fill_template(

@@ -244,7 +244,7 @@ def name_members(
     for member in list_members(archive):
         try:
             name = PurePosixPath(check_name(decode_name(member)))
-        except Misnamed as error:
+        except BadName as error:
             misnamed.append(str(error))
             continue
         other, first = found.get(fold(name.as_posix()), (name, member))
@@ -265,14 +265,14 @@ def decode_name(member: zipfile.ZipInfo) -> str:
     return unicodedata.normalize("NFC", name.replace("\\", "/"))
 
 
-class Misnamed(Exception):
+class BadName(Exception):
     """Raised for a name that some systems refuse, of a file that is no work."""
 
 
 def check_name(name: str) -> str:
     """Return the name, if it stays inside its folder and every system takes it.
 
-    Raises CannotTake for a file that may be work, and Misnamed for any other.
+    Raises CannotTake for a file that may be work, and BadName for any other.
     """
     parts = [part for part in name.split("/") if part not in ("", ".")]
     if len(parts) > MAX_DEPTH:
@@ -282,7 +282,7 @@ def check_name(name: str) -> str:
     for part in parts:
         if make_portable(part) != part.strip(" .") and not is_system_file(part):
             if PurePosixPath(name).suffix.lower() not in WORK:
-                raise Misnamed(name[:100])
+                raise BadName(name[:100])
             raise CannotTake(f"the archive holds {part[:100]!r}, a name not for every system")
     return "/".join(part if is_system_file(part) else make_portable(part) for part in parts)
 

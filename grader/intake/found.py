@@ -16,7 +16,7 @@ class CannotTake(CannotGrade):
 
 
 @dataclass(frozen=True)
-class Found:
+class Work:
     """A submission on disk, before it is read."""
 
     name: str  # of its result; a file name on every platform
@@ -37,12 +37,12 @@ class Found:
 
 @dataclass
 class Intake:
-    found: list[Found] = field(default_factory=list)
+    found: list[Work] = field(default_factory=list)
     troubles: dict[str, str] = field(default_factory=dict)  # name -> why it cannot be graded
-    refused: dict[str, list[Found]] = field(default_factory=dict)  # the work behind a trouble
+    refused: dict[str, list[Work]] = field(default_factory=dict)  # the work behind a trouble
     notes: list[str] = field(default_factory=list)
 
-    def refuse(self, name: str, words: str, *works: Found) -> None:
+    def refuse(self, name: str, words: str, *works: Work) -> None:
         """Leave work to manual review, where a person may choose among `works`."""
         self.troubles[name] = words
         self.refused[name] = [*self.refused.get(name, []), *works]
@@ -54,7 +54,7 @@ class Intake:
         self.refused.pop(name, None)
 
     @property
-    def works(self) -> list[Found]:
+    def works(self) -> list[Work]:
         """Return all work, with that which needs review."""
         return [*self.found, *(each for works in self.refused.values() for each in works)]
 
@@ -69,7 +69,7 @@ class Upload:
     """A file or folder of a class, with its owner by its name."""
 
     path: Path
-    name: str  # as of `Found`
+    name: str  # as of `Work`
     late: bool = False
     from_lms: bool = False  # an LMS wrote the name: all files of one owner belong together
     empty: bool = False  # a text or a link was handed in, and no file

@@ -11,7 +11,7 @@ import yaml
 from msgspec import Struct, field
 
 from grader.errors import Stop
-from grader.intake.found import Found, Intake
+from grader.intake.found import Intake, Work
 from grader.intake.lms import Lms
 from grader.intake.names import make_portable
 from grader.intake.roster import ClassList
@@ -45,7 +45,7 @@ class Submitter(Struct):
         return make_portable(str(known or self.email or self.sid or self.name))
 
 
-class Exported(Struct):
+class ListedWork(Struct):
     """One submission in Gradescope's list."""
 
     submitters: list[Submitter] = field(name=":submitters")
@@ -63,14 +63,14 @@ class Gradescope(Lms):
         """Tell an export from a submission with such a file, by the folder's name."""
         return self.is_export(folder) and bool(re.fullmatch(r"assignment_\d+_export", folder.name))
 
-    def read_export(self, folder: Path, people: ClassList, intake: Intake) -> Iterator[Found]:
+    def read_export(self, folder: Path, people: ClassList, intake: Intake) -> Iterator[Work]:
         """Return the submissions of an export: one for each student, also of a group."""
         for place, entry in read_metadata(folder).items():
             path = folder / make_portable(place)
             names = [person.find_name(people) for person in entry.submitters]
             for name in names:
                 if path.is_dir() and not path.is_symlink():
-                    yield Found(
+                    yield Work(
                         name,
                         (path,),
                         handed_in=add_zone(entry.created_at),
@@ -82,10 +82,10 @@ class Gradescope(Lms):
                     intake.troubles[name] = words
 
 
-def read_metadata(folder: Path) -> dict[str, Exported]:
+def read_metadata(folder: Path) -> dict[str, ListedWork]:
     try:
         with open(folder / METADATA, "rb") as file:
-            return msgspec.convert(yaml.load(file, MetadataLoader), dict[str, Exported])
+            return msgspec.convert(yaml.load(file, MetadataLoader), dict[str, ListedWork])
     except (yaml.YAMLError, UnicodeError, ValueError, msgspec.ValidationError) as error:
         words = f"{folder / METADATA} is not as Gradescope writes it ({error!s:.200})"
         raise Stop(f"{words}: export the submissions again") from error

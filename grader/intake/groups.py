@@ -3,12 +3,12 @@
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 
-from grader.intake.found import Found, Intake
+from grader.intake.found import Intake, Work
 from grader.intake.names import fold, make_portable, split_login
 from grader.intake.roster import ClassList
 
 
-def share_work(intake: Intake, people: ClassList, hash_files: Callable[[Found], str]) -> None:
+def share_work(intake: Intake, people: ClassList, hash_files: Callable[[Work], str]) -> None:
     """Enter the work of a group for its members who handed in nothing.
 
     Where members handed in different work, by `hash_files`, the others need manual review.
@@ -44,5 +44,5 @@ def match_members(group: list[str], names: Iterable[str]) -> dict[str, str]:
     return {each: names[0] for each, names in found.items() if names}
 
 
-def set_group(found: Found, everybody: list[str]) -> Found:
+def set_group(found: Work, everybody: list[str]) -> Work:
     return replace(found, group=tuple(each for each in everybody if each != found.name))

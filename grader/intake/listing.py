@@ -10,7 +10,7 @@ from pathlib import Path
 
 from grader.errors import Stop
 from grader.intake.archives import unzip_class
-from grader.intake.found import CannotTake, Found, Intake, Upload
+from grader.intake.found import CannotTake, Intake, Upload, Work
 from grader.intake.groups import share_work
 from grader.intake.lms import Lms
 from grader.intake.names import fold, make_portable
@@ -98,7 +98,7 @@ def enter_wrapper(folder: Path) -> Path:
 # ---------------------------------------------------------------- by names of files
 
 
-def list_uploads(paths: list[Path], people: ClassList, intake: Intake) -> Iterator[Found]:
+def list_uploads(paths: list[Path], people: ClassList, intake: Intake) -> Iterator[Work]:
     """Return submissions by the names of files and folders; note the rest."""
     groups: dict[tuple[str, str], list[Upload]] = {}
     empty: dict[str, Path] = {}
@@ -119,15 +119,15 @@ def list_uploads(paths: list[Path], people: ClassList, intake: Intake) -> Iterat
     for name, path in empty.items():
         if name not in names:
             words = f"{path.name}: a text or a link was handed in, and no file"
-            intake.refuse(name, words, Found(name, (path,)))
+            intake.refuse(name, words, Work(name, (path,)))
 
 
-def choose_attempt(name: str, uploads: list[Upload], intake: Intake) -> Iterator[Found]:
+def choose_attempt(name: str, uploads: list[Upload], intake: Intake) -> Iterator[Work]:
     """Return a student's last attempt: one submission, or each file if people named them."""
     attempts = sorted({each.attempt for each in uploads})
     if len(attempts) > 1 and any(each.timeless for each in uploads):
         files = " and ".join(sorted({each.path.name for each in uploads}))
-        works = [Found(name, (each.path,), each.late, each.handed_in) for each in uploads]
+        works = [Work(name, (each.path,), each.late, each.handed_in) for each in uploads]
         intake.refuse(name, f"handed in more than once, at unknown times: {files}", *works)
         return
     last = attempts[-1]
@@ -138,7 +138,7 @@ def choose_attempt(name: str, uploads: list[Upload], intake: Intake) -> Iterator
     late = any(each.late for each in uploads)
     together = all(each.from_lms for each in uploads)
     for sources in [paths] if together else [(path,) for path in paths]:
-        yield Found(name, sources, late, uploads[0].handed_in)
+        yield Work(name, sources, late, uploads[0].handed_in)
 
 
 def sort_systems(paths: list[Path]) -> list[Lms]:
@@ -177,7 +177,7 @@ def mention_file(path: Path, intake: Intake, people: ClassList) -> None:
         words = f"nothing of the lab was found: {path.name} is no folder and no archive"
     if name is not None:
         name = make_portable(name)
-        intake.refuse(name, words, Found(name, (path,)))
+        intake.refuse(name, words, Work(name, (path,)))
     elif path.name not in SIDE_FILES and suffix != ".csv":
         intake.notes.append(f"{path.name} is no submission: skipped")
 
@@ -185,9 +185,9 @@ def mention_file(path: Path, intake: Intake, people: ClassList) -> None:
 # ---------------------------------------------------------------- each submission once
 
 
-def drop_doubles(found: Iterable[Found], intake: Intake) -> Iterator[Found]:
+def drop_doubles(found: Iterable[Work], intake: Intake) -> Iterator[Work]:
     """Return each submission once; a person must choose between different ones of a student."""
-    groups: dict[str, list[Found]] = {}
+    groups: dict[str, list[Work]] = {}
     for each in found:
         groups.setdefault(fold(each.name), []).append(each)
     refused = {fold(name): words for name, words in intake.troubles.items()}
@@ -243,7 +243,7 @@ def choose_work(intake: Intake, people: ClassList, name: str, path: str) -> bool
     return True
 
 
-def enter_source(work: Found, path: str) -> str:
+def enter_source(work: Work, path: str) -> str:
     """Return a path inside the work as its files are laid out; empty for all of it."""
     first, _, rest = path.partition("/")
     source = next((each for each in work.sources if each.name == first), None)
@@ -258,7 +258,7 @@ def tell_apart(names: list[str]) -> list[str]:
     return [ascii(name) for name in names] if same else names
 
 
-def hash_files(each: Found) -> str:
+def hash_files(each: Work) -> str:
     """Return a hash of a submission's files, or why it cannot be read."""
     try:
         return pack(each).digest

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
-from grader.intake.found import Found, Intake, Upload
+from grader.intake.found import Intake, Upload, Work
 from grader.intake.roster import PLAIN_COLUMNS, ClassList, Roster, Row
 
 PAGE = "feedback.html"
 TOTAL = re.compile(r"(?:Total Pts: |MaxPoints:)([\d.,]+)")  # of Blackboard and Brightspace
 
 
-class Marked(NamedTuple):
+class MarkRow(NamedTuple):
     row: Row
     mark: str
     summary: str
@@ -26,7 +26,7 @@ class MarkColumn:
     title: str
     total: float
     key: str  # the column of the class list that identifies students
-    rows: list[Marked]
+    rows: list[MarkRow]
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ class Lms:
         """Tell whether a folder among others is an export, and no submission with such a list."""
         return False
 
-    def read_export(self, folder: Path, people: ClassList, intake: Intake) -> Iterator[Found]:
+    def read_export(self, folder: Path, people: ClassList, intake: Intake) -> Iterator[Work]:
         """Yield the submissions in the list of an export."""
         return iter(())
 

@@ -13,10 +13,10 @@ from pathlib import Path, PurePosixPath
 from msgspec import Struct
 
 from grader.intake.archives import Bounds, unzip
-from grader.intake.found import CannotTake, Found, Package
+from grader.intake.found import CannotTake, Package, Work
 from grader.intake.names import MENTIONED, make_portable, shorten_list
 from grader.intake.pieces import (
-    Arranged,
+    Layout,
     ManyPrograms,
     arrange,
     list_choices,
@@ -59,7 +59,7 @@ def open_submission(
     name = real.name if real.is_dir() else cut_suffix(real)
     with work_folder() as temporary:
         try:
-            package = pack(Found(make_portable(name), (real,)), asked)
+            package = pack(Work(make_portable(name), (real,)), asked)
         except ManyPrograms as error:
             raise CannotTake(f"{path}: {error}, or grade each of them with --class") from error
         except CannotTake as error:
@@ -69,7 +69,7 @@ def open_submission(
         yield package.unpack(temporary)
 
 
-def pack(found: Found, asked: Collection[str] = ()) -> Package:
+def pack(found: Work, asked: Collection[str] = ()) -> Package:
     """Read a submission, wherever in it the programs lie.
 
     Raises CannotTake where it has none of the programs asked for, or cannot be read within the
@@ -82,7 +82,7 @@ def pack(found: Found, asked: Collection[str] = ()) -> Package:
         raise CannotTake(str(error)) from error
 
 
-def read_package(found: Found, asked: Collection[str] = ()) -> Package:
+def read_package(found: Work, asked: Collection[str] = ()) -> Package:
     """Read a submission in this process."""
     bounds, files = Bounds(), []
     asked = asked or list_modules()
@@ -106,22 +106,22 @@ def read_package(found: Found, asked: Collection[str] = ()) -> Package:
     return Package(found.name, sorted(files), notes)
 
 
-class Shown(Struct, frozen=True):
+class Contents(Struct, frozen=True):
     """A submission as it came: its files, and paths of which a person must choose one."""
 
     files: list[tuple[str, bytes]]
     choices: list[list[str]] = []
 
 
-def show(found: Found, asked: Collection[str] = ()) -> Shown:
+def show(found: Work, asked: Collection[str] = ()) -> Contents:
     """Read a submission as it came; return no files where it reaches a limit."""
     try:
-        return call_within(READING, Shown, partial(read_shown, found, asked), (CannotTake,))
+        return call_within(READING, Contents, partial(read_shown, found, asked), (CannotTake,))
     except (Exceeded, Failed, Lost, CannotTake, OSError):
-        return Shown([])
+        return Contents([])
 
 
-def read_shown(found: Found, asked: Collection[str]) -> Shown:
+def read_shown(found: Work, asked: Collection[str]) -> Contents:
     """Read a submission in this process; open archives until a person must choose."""
     bounds = Bounds()
     with work_folder() as folder:
@@ -131,7 +131,7 @@ def read_shown(found: Found, asked: Collection[str]) -> Shown:
         paths = [PurePosixPath(path.relative_to(folder).as_posix()) for path in plain_files(folder)]
         files = [(path.as_posix(), (folder / path).read_bytes()) for path in paths]
         choices = list_choices(folder, asked)
-    return Shown(sorted(files), [[each.as_posix() for each in group] for group in choices])
+    return Contents(sorted(files), [[each.as_posix() for each in group] for group in choices])
 
 
 def find_empty_programs(files: list[tuple[str, bytes]], asked: Collection[str]) -> list[str]:
@@ -150,7 +150,7 @@ def find_empty_programs(files: list[tuple[str, bytes]], asked: Collection[str]) 
 
 
 @contextmanager
-def lay_out(folder: Path, laid: Arranged) -> Iterator[Path]:
+def lay_out(folder: Path, laid: Layout) -> Iterator[Path]:
     """Lay opened work out in a folder as the lab does."""
     if not laid.files:
         yield enter_single_folders(folder)
@@ -167,8 +167,8 @@ def lay_out(folder: Path, laid: Arranged) -> Iterator[Path]:
 
 @contextmanager
 def open_found(
-    found: Found, asked: Collection[str] = ()
-) -> Iterator[tuple[Path, Arranged, list[str]]]:
+    found: Work, asked: Collection[str] = ()
+) -> Iterator[tuple[Path, Layout, list[str]]]:
     """Unpack a submission, and find the lab's files in it."""
     folder = found.sources[0]
     if len(found.sources) == 1 and folder.is_dir():
@@ -183,7 +183,7 @@ def open_found(
         yield temporary, laid, [*note_unopened(temporary, laid, asked), *bounds.notes]
 
 
-def is_complete(laid: Arranged, asked: Collection[str]) -> bool:
+def is_complete(laid: Layout, asked: Collection[str]) -> bool:
     """Tell whether all programs that the course asks for were found."""
     held = {name.partition("/")[0].removesuffix(".py") for name in laid.files}
     return held.issuperset(asked or list_modules())
@@ -193,7 +193,7 @@ def list_archives(folder: Path) -> list[Path]:
     return sorted(path for path in plain_files(folder) if is_archive(path))
 
 
-def note_unopened(folder: Path, laid: Arranged, asked: Collection[str]) -> list[str]:
+def note_unopened(folder: Path, laid: Layout, asked: Collection[str]) -> list[str]:
     names = [path.relative_to(folder).as_posix() for path in list_archives(folder)]
     enough = "all programs lie beside it"
     deep = f"archives are opened {DEEPEST} deep, one in the other"
@@ -201,7 +201,7 @@ def note_unopened(folder: Path, laid: Arranged, asked: Collection[str]) -> list[
     return [f"{name} was not opened: {why}" for name in names]
 
 
-def unpack(found: Found, folder: Path, bounds: Bounds, asked: Collection[str] = ()) -> Arranged:
+def unpack(found: Work, folder: Path, bounds: Bounds, asked: Collection[str] = ()) -> Layout:
     """Unpack until all programs that are asked for were found, or no archive is left."""
     refused: dict[str, str] = {}
     for _ in range(DEEPEST):
@@ -227,7 +227,7 @@ def unpack(found: Found, folder: Path, bounds: Bounds, asked: Collection[str] = 
     return laid
 
 
-def copy_all(found: Found, folder: Path, bounds: Bounds) -> None:
+def copy_all(found: Work, folder: Path, bounds: Bounds) -> None:
     """Copy a submission under its own names, the same file only once."""
     copied: set[tuple[str, str]] = set()
     for source in found.sources:

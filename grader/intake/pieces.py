@@ -53,7 +53,7 @@ class ManyPrograms(CannotTake):
 
 
 @dataclass
-class Arranged:
+class Layout:
     """The files of a submission by their names in the lab."""
 
     files: dict[str, Path]
@@ -112,7 +112,7 @@ class Piece:
         return mine == others
 
 
-def arrange(folder: Path, asked: Collection[str] = (), taken: Collection[str] = ()) -> Arranged:
+def arrange(folder: Path, asked: Collection[str] = (), taken: Collection[str] = ()) -> Layout:
     """Return the submission in `folder` as the lab lays it out.
 
     Raises ManyPrograms where two files at the same depth could be the same program, unless a person
@@ -150,7 +150,7 @@ def list_choices(folder: Path, asked: Collection[str] = ()) -> list[list[PurePos
     return [each for number, each in enumerate(found) if each not in found[:number]]
 
 
-def arrange_rest(folder: Path, asked: Collection[str], left_out: set[PurePosixPath]) -> Arranged:
+def arrange_rest(folder: Path, asked: Collection[str], left_out: set[PurePosixPath]) -> Layout:
     """Arrange all files except those `left_out`.
 
     Of two programs that the course does not ask for, either will do: no mark depends on it.
@@ -167,7 +167,7 @@ def arrange_rest(folder: Path, asked: Collection[str], left_out: set[PurePosixPa
     if PACKAGE not in {piece.module for piece in pieces}:
         pieces += find_loose_package(paths, folder)
     if not pieces:
-        return Arranged({}, root=folder)
+        return Layout({}, root=folder)
     top = find_top(pieces)
     files: dict[str, Path] = {}
     elsewhere: set[PurePosixPath] = set()
@@ -186,7 +186,7 @@ def arrange_rest(folder: Path, asked: Collection[str], left_out: set[PurePosixPa
             if path.parent == parent and path.suffix == ".py" and path not in elsewhere:
                 files.setdefault(path.name, folder / path)
     as_found = all(path == folder / top / name for name, path in files.items())
-    return Arranged(files, as_found, folder / top, notes)
+    return Layout(files, as_found, folder / top, notes)
 
 
 def find_candidates(paths: list[PurePosixPath]) -> list[Piece]:

@@ -38,7 +38,7 @@ REFUSED = 3  # exit status: it printed a sentence for people
 Files = Iterator[tuple[str, bytes | None]]  # None: too large
 
 
-class Refused(Exception):
+class CannotRepack(Exception):
     """Raised for an archive that cannot be unpacked; says why."""
 
 
@@ -55,9 +55,9 @@ def main(source: str, target: str, seconds: int = SECONDS) -> int:
                     continue
                 size += len(content)
                 if count >= MAX_MEMBERS or size > MAX_UNPACKED:
-                    raise Refused("the archive holds too much: ask for the program alone")
+                    raise CannotRepack("the archive holds too much: ask for the program alone")
                 out.writestr(zipfile.ZipInfo(name), content)
-    except Refused as refusal:
+    except CannotRepack as refusal:
         words = str(refusal)
     except MemoryError:
         words = "the archive takes too much memory to unpack"
@@ -133,7 +133,7 @@ def read_single(source: str) -> tuple[str, bytes | None]:
         head = file.read(PEEK)
     opened = next((kind for sign, kind in kinds.items() if head.startswith(sign)), None)
     if opened is None:
-        raise Refused("the archive is broken, or of no kind that is read here: ask for a zip")
+        raise CannotRepack("the archive is broken, or of no kind that is read here: ask for a zip")
     with opened(source) as file:
         content = file.read(MAX_CONTENT + 1)
     name = Path(source).name.removeprefix(".")
@@ -150,13 +150,13 @@ def read_7z(source: str) -> Files:
                     yield each.filename, None
             wanted = {e.filename: e.uncompressed for e in plain if e.uncompressed <= MAX_CONTENT}
             if sum(wanted.values()) > MAX_UNPACKED or len(wanted) > MAX_MEMBERS:
-                raise Refused("the archive holds too much: ask for the program alone")
+                raise CannotRepack("the archive holds too much: ask for the program alone")
             factory = py7zr.io.BytesIOFactory(MAX_CONTENT + 1)
             archive.extract(targets=list(wanted), factory=factory)
     except py7zr.exceptions.PasswordRequired as error:
-        raise Refused("the archive is encrypted: ask for one without a password") from error
+        raise CannotRepack("the archive is encrypted: ask for one without a password") from error
     except py7zr.exceptions.AbsolutePathError as error:
-        raise Refused(f"the archive reaches outside its folder ({error!s:.100})") from error
+        raise CannotRepack(f"the archive reaches outside its folder ({error!s:.100})") from error
     for name, content in factory.products.items():
         content.seek(0)
         yield name, content.read()
@@ -167,18 +167,18 @@ def read_rar(source: str) -> Files:
     try:
         with rarfile.RarFile(source, errors="strict") as archive:
             if archive.needs_password():
-                raise Refused("the archive is encrypted: ask for one without a password")
+                raise CannotRepack("the archive is encrypted: ask for one without a password")
             for each in archive.infolist():
                 if each.is_file() and not each.file_redir:
                     too_large = each.file_size > MAX_CONTENT
                     yield each.filename, None if too_large else archive.read(each)
     except rarfile.RarCannotExec as error:
-        raise Refused(
+        raise CannotRepack(
             "this machine has nothing that unpacks a .rar: install one of unrar, unar and 7z, or "
             "ask for a zip"
         ) from error
     except rarfile.Error as error:
-        raise Refused(
+        raise CannotRepack(
             "the archive is broken, one part of several, or cannot be unpacked here: ask for a zip"
         ) from error
 
@@ -187,7 +187,7 @@ def load_library(name: str, format: str) -> Any:
     try:
         return importlib.import_module(name)
     except ImportError as error:
-        raise Refused(
+        raise CannotRepack(
             f"a {format} needs {name}, which is not installed: {sys.executable} -m pip install "
             f"{name}, or ask for a zip"
         ) from error

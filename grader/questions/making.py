@@ -10,7 +10,7 @@ import msgspec
 from rich.console import Console
 
 from grader.errors import Stop
-from grader.intake.found import Found, Package
+from grader.intake.found import Package, Work
 from grader.intake.listing import open_class
 from grader.intake.names import make_portable
 from grader.intake.packing import open_submission, pack
@@ -142,7 +142,7 @@ def make_class(
     return made
 
 
-def make_for(making: Making, found: Found, process: WatchedProcess, full_name: str) -> SheetResult:
+def make_for(making: Making, found: Work, process: WatchedProcess, full_name: str) -> SheetResult:
     """Make the sheet of one student of a class; a failure does not stop the others."""
     try:
         package = pack(found, making.options.course.modules)

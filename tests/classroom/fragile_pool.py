@@ -4,7 +4,7 @@ import os
 import signal
 import time
 
-from grader.classroom.executor import Graded, Pool
+from grader.classroom.executor import Answer, Pool
 from grader.intake.found import Package
 from grader.judge.grade import Options
 from grader.judge.outer import Allowance
@@ -19,7 +19,7 @@ def result_of(package: Package) -> bytes:
     return as_json(Result(1, package.name, points, 2, 0, ["processes"], [todo]))
 
 
-def stand_in(package: Package, options: Options) -> Graded:
+def stand_in(package: Package, options: Options) -> Answer:
     """Instead of grading: what some submissions do to the process that grades them."""
     kind, held = package.name.partition("-")[0], []
     if kind.startswith("killer"):

@@ -7,7 +7,7 @@ import pytest
 
 from grader.classroom.adjustments import Adjustments, load_adjustments
 from grader.errors import Stop
-from grader.intake.found import Found
+from grader.intake.found import Work
 from grader.intake.roster import ClassList
 from grader.intake.systems import read_roster
 from grader.judge.course import FULL, Course
@@ -27,7 +27,7 @@ def adjust(*lines: str, student: str = "'Ann'", **values: object) -> str:
 
 
 def final(tmp_path: Path, text: str, points: int | None = 80, **found: object):
-    return loaded(tmp_path, text).decide(Found("ann", (), **found), points)
+    return loaded(tmp_path, text).decide(Work("ann", (), **found), points)
 
 
 SHARE = LATE.replace("per_day = 10", 'per_day = "10%"').replace("at_most = 25\n", "")
@@ -148,8 +148,8 @@ def test_times_without_a_zone_are_the_schools_and_dates_end_with_their_day(tmp_p
     assert final(tmp_path, west, handed_in=datetime(2026, 5, 4, 21, 59)).points == 80
     text = 'zone = "Asia/Kolkata"\n[late]\ndue = 2026-05-04\nper_day = 10\n'
     decided = loaded(tmp_path, text + adjust(due="2026-05-09"))
-    assert decided.find_due(Found("ann", ())) == datetime(2026, 5, 9, 18, 29, 59, tzinfo=UTC)
-    assert decided.find_due(Found("ben", ())) == datetime(2026, 5, 4, 18, 29, 59, tzinfo=UTC)
+    assert decided.find_due(Work("ann", ())) == datetime(2026, 5, 9, 18, 29, 59, tzinfo=UTC)
+    assert decided.find_due(Work("ben", ())) == datetime(2026, 5, 4, 18, 29, 59, tzinfo=UTC)
 
 
 # ---------------------------------------------------------------- names of students
@@ -175,13 +175,13 @@ def test_a_student_is_known_by_every_name_of_the_class_list(tmp_path, people, wh
     decided = loaded(tmp_path, adjust(student=repr(who), points=3))
     decided = decided.resolve(["ann@x.edu", "cem@x.edu"], people)
     assert decided.students == ["cem@x.edu"]
-    assert decided.decide(Found("cem@x.edu", ()), None).points == 3
+    assert decided.decide(Work("cem@x.edu", ()), None).points == 3
 
 
 def test_one_decision_for_several_and_a_name_that_two_have(tmp_path, people):
     decided = loaded(tmp_path, adjust(student="['ann', 'ben@x']", add=1))
-    assert decided.decide(Found("ben@x", ()), 5).points == 6
-    assert decided.decide(Found("ann@y", ()), 5).points == 6
+    assert decided.decide(Work("ben@x", ()), 5).points == 6
+    assert decided.decide(Work("ann@y", ()), 5).points == 6
     assert decided.find_unused(["ben@x"]) == ["ann"]
     decided.resolve(["ann@y", "ben@x"], ClassList())
     with pytest.raises(Stop, match="could be ann@x or ann@y: write one of these names"):

@@ -25,11 +25,11 @@ from grader.classroom import batch, grading
 from grader.classroom.adjustments import Adjust, Adjustments
 from grader.classroom.batch import Run, grade_class
 from grader.classroom.book import Book
-from grader.classroom.executor import Graded, grade_package, shared_worker
+from grader.classroom.executor import Answer, grade_package, shared_worker
 from grader.classroom.fingerprint import make_key
 from grader.classroom.grading import ClassOptions, run_class, write_page
 from grader.errors import Stop
-from grader.intake.found import Found, Intake, Package
+from grader.intake.found import Intake, Package, Work
 from grader.intake.listing import open_class
 from grader.intake.packing import pack
 from grader.judge.fingerprint import DECIDING, deciding_files
@@ -50,9 +50,9 @@ class Inline:
     def capacity(self) -> int:
         return 1
 
-    def submit(self, package: Package) -> "Future[Graded]":
+    def submit(self, package: Package) -> "Future[Answer]":
         self.names.append(package.name)
-        future: Future[Graded] = Future()
+        future: Future[Answer] = Future()
         future.set_result((result_of(package), 0.0))
         return future
 
@@ -60,8 +60,8 @@ class Inline:
 class InThisProcess(Inline):
     """Grades in earnest."""
 
-    def submit(self, package: Package) -> "Future[Graded]":
-        future: Future[Graded] = Future()
+    def submit(self, package: Package) -> "Future[Answer]":
+        future: Future[Answer] = Future()
         future.set_result(grade_package(package, ONLY_8A))
         return future
 
@@ -219,7 +219,7 @@ def test_those_who_work_together_are_no_copies(classroom):
 def test_whatever_goes_wrong_with_one_the_others_are_graded(classroom, monkeypatch, name):
     real = getattr(batch, name)
 
-    def break_at_ben(work: Found | Package, *more: object) -> object:
+    def break_at_ben(work: Work | Package, *more: object) -> object:
         if work.name == "ben":
             raise UnicodeEncodeError("utf-8", "x", 0, 1, "surrogates")
         return real(work, *more)
@@ -290,14 +290,14 @@ def test_so_does_one_that_waits_for_ever():
         assert "grading it takes more than 1 s" in str(future.exception())
 
 
-def list_class(classroom: Path) -> list[Found]:
+def list_class(classroom: Path) -> list[Work]:
     with open_class(classroom) as intake:
         return intake.found
 
 
 def test_an_executor_that_is_gone_ends_the_class_and_what_is_graded_stays(classroom):
     class Leaving(Inline):
-        def submit(self, package: Package) -> "Future[Graded]":
+        def submit(self, package: Package) -> "Future[Answer]":
             future = super().submit(package)
             if package.name == "ben":
                 future = Future()

@@ -33,9 +33,9 @@ from grader.classroom.review import (
 )
 from grader.classroom.review_server import ReviewServer, open_review
 from grader.errors import Stop
-from grader.intake.found import Found, Intake
+from grader.intake.found import Intake, Work
 from grader.intake.listing import apply_choices, open_class
-from grader.intake.packing import Shown, pack
+from grader.intake.packing import Contents, pack
 from grader.intake.roster import ClassList
 from grader.judge.course import FULL
 
@@ -132,7 +132,7 @@ def test_of_long_files_only_a_part_is_kept_and_shown():
     remark = place_comment(comment, {"a.py": content})
     assert remark.line == 2 and all(len(text) <= LONGEST_LINE for _, text in remark.code)
     assert len(comment.code) == LONGEST_LINE
-    shown = Shown([(f"{number}.py", b"\n" * 200_000) for number in range(60)])
+    shown = Contents([(f"{number}.py", b"\n" * 200_000) for number in range(60)])
     files = list_files(shown, [])
     assert sum(len(each.lines) for each in files) == MOST_LINES
     assert len(files) == 60 and all("cut off" in each.note for each in files)
@@ -178,7 +178,7 @@ def test_the_work_that_a_person_takes_counts(
 
 def test_a_choice_holds_for_all_who_handed_in_together(tmp_path: Path):
     put(tmp_path, {"s/a/integrators.py": "1", "s/b/integrators.py": "2"})
-    found = [Found(name, (tmp_path / "s",)) for name in ("ann", "ben")]
+    found = [Work(name, (tmp_path / "s",)) for name in ("ann", "ben")]
     intake, people = Intake(found), ClassList()
     people.chosen = [("ben", "a")]
     apply_choices(intake, people)

@@ -27,7 +27,7 @@ from grader.classroom.similarity import (
     read_pairs,
     read_tokens,
 )
-from grader.intake.found import Found, Package
+from grader.intake.found import Package, Work
 from grader.intake.packing import pack
 from grader.judge.grade import KIT, Options
 
@@ -52,7 +52,7 @@ def packed(place: Path, pattern: str) -> dict[str, Package]:
     for member in bank():
         if member.kind == "right" and re.fullmatch(pattern, member.name):
             member.build(KIT, place / member.name)
-            found[member.name] = pack(Found(member.name, (place / member.name,)))
+            found[member.name] = pack(Work(member.name, (place / member.name,)))
     return found
 
 
@@ -91,7 +91,7 @@ def test_a_copy_is_shown_however_it_is_dressed(right, name):
 
 
 def test_what_everybody_was_given_and_the_solutions_wording_tell_nothing(tmp_path):
-    trees = [pack(Found(name, (KIT / name,))) for name in ("starter", "solution")]
+    trees = [pack(Work(name, (KIT / name,))) for name in ("starter", "solution")]
     assert all(not make_prints(each).runs for each in trees)
     twins = [Package(name, trees[1].files) for name in ("ann", "ben")]
     assert find_pairs([make_prints(each) for each in twins], 0.0) == []

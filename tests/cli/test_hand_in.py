@@ -14,7 +14,7 @@ from grader.cli import hand_in as packing
 from grader.cli.hand_in import PACKED, find_missing, pack_tree
 from grader.cli.restore import restore
 from grader.errors import Stop
-from grader.intake.found import Found
+from grader.intake.found import Work
 from grader.intake.packing import pack
 from grader.judge.course import FULL
 from grader.judge.grade import KIT
@@ -56,7 +56,7 @@ def test_the_zip_holds_the_work_and_nothing_else(tree):
 
 def test_what_is_packed_is_what_is_taken_in(tree):
     path, names = pack_tree(tree)
-    package = pack(Found("ann", (path,)))
+    package = pack(Work("ann", (path,)))
     assert [name for name, _ in package.files] == sorted(names) and not package.notes
 
 

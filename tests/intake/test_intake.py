@@ -17,7 +17,7 @@ from counting import count_calls
 
 from grader.errors import Stop
 from grader.intake import archives
-from grader.intake.found import CannotTake, Found
+from grader.intake.found import CannotTake, Work
 from grader.intake.listing import open_class
 from grader.intake.names import make_portable
 from grader.intake.packing import open_submission, pack, read_package
@@ -49,7 +49,7 @@ def under(folder: str, files: dict[str, str | bytes] = PROGRAM) -> dict[str, str
     return {f"{folder}/{name}": content for name, content in files.items()}
 
 
-def names_in(found: Found) -> list[str]:
+def names_in(found: Work) -> list[str]:
     return [name for name, _ in read_package(found).files]
 
 
@@ -59,9 +59,9 @@ def classroom(tmp_path: Path) -> Path:
     return tmp_path / "class"
 
 
-def handed_in(classroom: Path, content: bytes) -> Found:
+def handed_in(classroom: Path, content: bytes) -> Work:
     (classroom / "ann.zip").write_bytes(content)
-    return Found("ann", (classroom / "ann.zip",))
+    return Work("ann", (classroom / "ann.zip",))
 
 
 def refused(classroom: Path, content: bytes) -> str:
@@ -257,10 +257,10 @@ def test_who_handed_in_twice_must_choose_unless_it_is_the_same(classroom):
 
 
 def test_the_same_files_are_one_package_whoever_and_however(classroom, tmp_path):
-    folder = Found("ann", (write(classroom / "ann", PROGRAM),))
+    folder = Work("ann", (write(classroom / "ann", PROGRAM),))
     (classroom / "b.zip").write_bytes(zipped(under("x/y", dict(reversed(PROGRAM.items())))))
     package = read_package(folder)
-    assert package.digest == read_package(Found("ben", (classroom / "b.zip",))).digest
+    assert package.digest == read_package(Work("ben", (classroom / "b.zip",))).digest
     unpacked = package.unpack(tmp_path)
     assert unpacked.name == "ann"
     assert {name: (unpacked / name).read_text() for name in PROGRAM} == PROGRAM
@@ -479,7 +479,7 @@ def test_what_has_no_end_is_for_a_person(classroom, monkeypatch):
     monkeypatch.setattr(submission, "MAX_SEEN", 30)
     write(folder, {f"many/{number}": "" for number in range(30)})
     with pytest.raises(CannotTake, match="more than 20000 files and folders"):
-        read_package(Found("ann", (folder,)))
+        read_package(Work("ann", (folder,)))
 
 
 def test_folders_in_each_other_without_end_are_for_a_person(classroom):
@@ -494,7 +494,7 @@ def test_folders_in_each_other_without_end_are_for_a_person(classroom):
     finally:
         os.chdir(here)
     with pytest.raises(CannotTake, match="40 folders in each other"):
-        read_package(Found("ann", (folder,)))
+        read_package(Work("ann", (folder,)))
     deep = {"d/" * 1500 + "integrators.py": "x = 1\n"}
     assert "40 folders in each other" in refused(classroom.parent / "class", zipped(deep))
     subprocess.run(["rm", "-r", folder], check=True)  # pytest cannot
@@ -505,12 +505,12 @@ def test_folders_in_each_other_without_end_are_for_a_person(classroom):
 def test_nobody_waits_at_a_pipe(classroom, name):
     os.mkfifo(classroom / name)
     with pytest.raises(CannotTake, match="no file to read"):
-        read_package(Found("ann", (classroom / name,)))
+        read_package(Work("ann", (classroom / name,)))
     with pytest.raises(Stop, match="no file to read"), open_submission(classroom / name):
         pass
     folder = write(classroom / "ben", PROGRAM)
     os.mkfifo(folder / "data.py")
-    assert "data.py" not in names_in(Found("ben", (folder,)))
+    assert "data.py" not in names_in(Work("ben", (folder,)))
 
 
 @pytest.mark.parametrize("name", ["{}/integrators.py", "{}/mini_engine/__init__.py"])
@@ -518,7 +518,7 @@ def test_a_program_many_times_takes_no_more_calls_than_its_files(classroom, name
     def taken(count: int) -> None:
         folder = write(classroom / f"{count}", {name.format(n): "" for n in range(count)})
         with suppress(CannotTake):
-            read_package(Found("ann", (folder,)))
+            read_package(Work("ann", (folder,)))
 
     few, many = (count_calls(lambda count=count: taken(count)) for count in (200, 400))
     assert many < 3 * few
@@ -526,7 +526,7 @@ def test_a_program_many_times_takes_no_more_calls_than_its_files(classroom, name
 
 def test_notes_of_one_submission_are_few(classroom):
     copies = {f"integrators ({number}).py": PROGRAM["integrators.py"] for number in range(200)}
-    notes = read_package(Found("ann", (write(classroom / "ann", {**PROGRAM, **copies}),))).notes
+    notes = read_package(Work("ann", (write(classroom / "ann", {**PROGRAM, **copies}),))).notes
     assert len(notes) == 21 and notes[-1] == "and 181 notes more"
 
 

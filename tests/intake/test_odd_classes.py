@@ -21,7 +21,7 @@ from grader.classroom.course_check import Files, find_problems
 from grader.classroom.marks import Marking, Marks, Part, Parts, Scores, make_marks
 from grader.errors import Stop
 from grader.intake.dates import read_moment
-from grader.intake.found import CannotTake, Found, Intake
+from grader.intake.found import CannotTake, Intake, Work
 from grader.intake.listing import open_class
 from grader.intake.lms import Page
 from grader.intake.moodle import Moodle
@@ -48,9 +48,9 @@ def put(folder: Path, files: packed.Files) -> Path:
     return folder
 
 
-def one(folder: Path, files: packed.Files) -> Found:
+def one(folder: Path, files: packed.Files) -> Work:
     put(folder / "ann", files)
-    return Found("ann", (folder / "ann",))
+    return Work("ann", (folder / "ann",))
 
 
 def people_of(path: Path, text: str | bytes) -> ClassList:
@@ -119,9 +119,9 @@ def test_the_labs_own_files_come_first_however_many_others_there_are(tmp_path: P
     assert (tmp_path / "copy" / "integrators.py").is_file() and submission.left_out
 
 
-def zipped(folder: Path, files: packed.Files) -> Found:
+def zipped(folder: Path, files: packed.Files) -> Work:
     classes.put(folder / "work.zip", packed.as_zip(files))
-    return Found("ann", (folder / "work.zip",))
+    return Work("ann", (folder / "work.zip",))
 
 
 # ---------------------------------------------------------------- archives
@@ -144,7 +144,7 @@ def raw_zip(name: bytes) -> bytes:
 )
 def test_names_in_old_letters_hide_no_program(tmp_path: Path, name: str, letters: str):
     classes.put(tmp_path / "work.zip", raw_zip(name.encode(letters) + b"integrators.py"))
-    package = read_package(Found("ann", (tmp_path / "work.zip",)))
+    package = read_package(Work("ann", (tmp_path / "work.zip",)))
     assert dict(package.files)["integrators.py"] == SOURCE.encode()
 
 
@@ -294,7 +294,7 @@ def test_a_worksheet_in_another_language_goes_back_in_it(tmp_path: Path, letters
 
 def test_windows_letters_are_asked_about(tmp_path: Path):
     classes.put(tmp_path / "list.csv", GERMAN.encode("cp1252"))
-    (fault,) = find_problems(Files(roster=tmp_path / "list.csv"))
+    fault, *_ = find_problems(Files(roster=tmp_path / "list.csv"))
     assert "is not UTF-8" in fault and "Vollständiger" in fault
 
 
@@ -416,7 +416,7 @@ def test_a_packed_rar_without_a_tool_names_what_is_missing(tmp_path: Path, monke
     monkeypatch.setenv("PATH", os.pathsep.join(str(each.parent) for each in pythons))
     classes.put(tmp_path / "work.rar", base64.b64decode(RAR))
     with pytest.raises(CannotTake, match="install one of unrar, unar and 7z"):
-        read_package(Found("ann", (tmp_path / "work.rar",)))
+        read_package(Work("ann", (tmp_path / "work.rar",)))
 
 
 @pytest.mark.skipif(
@@ -425,7 +425,7 @@ def test_a_packed_rar_without_a_tool_names_what_is_missing(tmp_path: Path, monke
 )
 def test_a_packed_rar_is_read(tmp_path: Path):
     classes.put(tmp_path / "work.rar", base64.b64decode(RAR))
-    package = read_package(Found("ann", (tmp_path / "work.rar",)))
+    package = read_package(Work("ann", (tmp_path / "work.rar",)))
     line = b"# the same line many times, so that there is something to pack\n"
     assert dict(package.files)["integrators.py"] == SOURCE.encode() + 20 * line
 

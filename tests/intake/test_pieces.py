@@ -16,7 +16,7 @@ from whole_bank import bank
 
 from grader.errors import Stop
 from grader.intake import archives, repack
-from grader.intake.found import CannotTake, Found, Package
+from grader.intake.found import CannotTake, Package, Work
 from grader.intake.listing import open_class
 from grader.intake.packing import open_submission, read_package
 from grader.judge.grade import KIT
@@ -31,7 +31,7 @@ PROGRAM: packed.Files = {
 ALL = sorted(PROGRAM)
 
 
-def write(folder: Path, files: packed.Files | bytes) -> Found:
+def write(folder: Path, files: packed.Files | bytes) -> Work:
     """Write a submission: a folder of files, or a zip."""
     if isinstance(files, bytes):
         return one(folder.parent, "work.zip", files)
@@ -39,12 +39,12 @@ def write(folder: Path, files: packed.Files | bytes) -> Found:
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(packed.as_bytes(content))
-    return Found("ann", (folder,))
+    return Work("ann", (folder,))
 
 
-def one(tmp_path: Path, name: str, content: bytes) -> Found:
+def one(tmp_path: Path, name: str, content: bytes) -> Work:
     (tmp_path / name).write_bytes(content)
-    return Found("ann", (tmp_path / name,))
+    return Work("ann", (tmp_path / name,))
 
 
 def names(package: Package) -> list[str]:
@@ -155,12 +155,12 @@ def test_all_archives_of_a_submission_share_the_seconds_of_one(tmp_path, monkeyp
     for number in range(9):
         (tmp_path / f"{number}.tar.bz2").write_bytes(bz2.compress(b""))
     with pytest.raises(CannotTake, match="archives of the submission take too long"):
-        read_package(Found("ann", (tmp_path,)))
+        read_package(Work("ann", (tmp_path,)))
     assert given == [(5, 20), (3, 12), (2, 8)]
 
 
 def test_a_library_that_is_not_here_is_named(monkeypatch):
-    with pytest.raises(repack.Refused, match=r"\.7z needs no_such_library.*pip install"):
+    with pytest.raises(repack.CannotRepack, match=r"\.7z needs no_such_library.*pip install"):
         repack.load_library("no_such_library", ".7z")
 
 
@@ -315,7 +315,7 @@ def test_what_deserves_points_is_taken_in_whole(tmp_path):
     for member in bank():
         if member.kind == "right" and member.name.startswith(("copies", "structure", "imports-m")):
             member.build(KIT, tmp_path / member.name)
-            package = read_package(Found("ann", (tmp_path / member.name,)))
+            package = read_package(Work("ann", (tmp_path / member.name,)))
             there = {
                 path.relative_to(tmp_path / member.name).as_posix()
                 for path in plain_files(tmp_path / member.name)

@@ -31,7 +31,7 @@ from grader.classroom.gradescope.autograder import Settings
 from grader.classroom.marks import load_marking
 from grader.cli.hand_in import PROGRAMS
 from grader.errors import Stop
-from grader.intake.found import Found, Intake
+from grader.intake.found import Intake, Work
 from grader.judge.course import FULL, Course, Late, WrongCourse, read_course, spread_points
 from grader.judge.grade import Options, grade, shipped_reference
 from grader.judge.result import CheckResult, Result, TodoResult
@@ -222,7 +222,7 @@ def test_a_stub_of_what_is_given_takes_nothing_from_the_whole_program(hand_in):
 
 def test_the_points_of_the_class_follow_from_the_course():
     outcome = Outcome("ann", points=30, max_points=40, todos={"8a": 10, "8b": 20, "B1": 4})
-    found = Found("ann", (), handed_in=datetime(2027, 5, 6, tzinfo=UTC))
+    found = Work("ann", (), handed_in=datetime(2027, 5, 6, tzinfo=UTC))
     due = datetime(2027, 5, 5, tzinfo=UTC)
     course = Course(todos=("8a", "8b", "8c", "B1"), bonus=3, due=due)
     run = Run(Intake([found]), Book(Path("x")), "", load_adjustments(None, course), course)
@@ -253,7 +253,7 @@ def test_the_courses_due_date_can_be_extended(tmp_path: Path):
     due = datetime(2027, 5, 5, tzinfo=UTC)
     path = tmp_path / "adjustments.toml"
     decision = "[[adjust]]\nstudent = 'ann'\nreason = 'ill'\ndue = 2027-05-0{}T00:00:00Z\n"
-    found = Found("ann", (), handed_in=due + timedelta(days=3))
+    found = Work("ann", (), handed_in=due + timedelta(days=3))
     path.write_text(decision.format(8), encoding="utf-8")
     course = Course(due=due, late=Late("10%"))
     assert load_adjustments(path, course).decide(found, 80).points == 80
@@ -273,7 +273,7 @@ def test_a_bonus_by_hand_counts_as_the_course_counts_a_bonus(tmp_path: Path):
     for bonus in ("apart", "left out", 5, 50):
         course = Course(bonus=bonus)
         run = Run(Intake([]), Book(Path("x")), "", load_adjustments(path, course), course)
-        run.record("graded", Found("ann", ()), outcome)
+        run.record("graded", Work("ann", ()), outcome)
         finals.append((run.outcomes[0].final, run.outcomes[0].bonus))
     assert finals == [(30, 6), (30, 6), (35, 6), (36, 6)]
 
@@ -285,8 +285,8 @@ def test_points_by_hand_are_the_mark_whatever_the_bonus_and_nobody_has_one_by_it
         load_adjustments(path)
     course = Course(bonus=3, todos=("8a", "8b", "B1"), points={"8a": 50, "8b": 49})
     run = Run(Intake([]), Book(Path("x")), "", load_adjustments(path, course), course)
-    run.record("graded", Found("ann", ()), Outcome("ann", todos={"B1": 9}, max_points=99))
-    run.record("trouble", Found("ben", ()), Outcome("ben", "broken"))
+    run.record("graded", Work("ann", ()), Outcome("ann", todos={"B1": 9}, max_points=99))
+    run.record("trouble", Work("ben", ()), Outcome("ben", "broken"))
     run.record_absent(["ann"])
     assert [(each.mark, each.reasons) for each in run.scale_by_hand(run.outcomes)] == [
         (101, ["seen: set to 101"]),

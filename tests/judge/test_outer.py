@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from grader.intake import packing
-from grader.intake.found import CannotTake, Found
+from grader.intake.found import CannotTake, Work
 from grader.judge import outer
 from grader.judge.grade import KIT
 from grader.judge.outer import Allowance, Exceeded, Failed, Lost, call_within
@@ -100,7 +100,7 @@ def test_a_submission_that_takes_too_long_to_read_cannot_be_taken(tmp_path: Path
     monkeypatch.setattr(packing, "READING", LITTLE)
     monkeypatch.setattr(packing, "read_package", lambda found, asked: loop())
     with pytest.raises(CannotTake, match="manual review: reading it takes more than"):
-        packing.pack(Found("ann", (tmp_path,)))
+        packing.pack(Work("ann", (tmp_path,)))
 
 
 def test_what_ended_counts_with_what_waited_for_it():

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from grader.intake import packing
-from grader.intake.found import CannotTake, Found
+from grader.intake.found import CannotTake, Work
 from grader.intake.packing import open_found, pack
 from grader.judge import plain, submission
 from grader.judge.plain import open_plain, read_plain
@@ -94,7 +94,7 @@ def test_a_link_put_in_after_the_look_is_not_packed(
 
     monkeypatch.setattr(packing, "arrange", look)
     try:
-        package = pack(Found("ann", (tree,)))
+        package = pack(Work("ann", (tree,)))
     except CannotTake:
         return
     assert SECRET.encode() not in dict(package.files).values()
@@ -110,7 +110,7 @@ def test_an_upload_that_is_no_file_has_a_sentence(tree: Path, kind: str):
         upload.symlink_to(tree / "integrators.py")
     with (
         pytest.raises(CannotTake, match=r"^it cannot be read: "),
-        open_found(Found("ann", (upload,))),
+        open_found(Work("ann", (upload,))),
     ):
         pass
 

@@ -14,7 +14,7 @@ from msgspec import Struct
 from rich.console import Console
 
 from grader.errors import Stop
-from grader.intake.found import CannotTake, Found
+from grader.intake.found import CannotTake, Work
 from grader.intake.packing import pack
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
@@ -67,7 +67,7 @@ def grade_submission(submission: Path) -> bytes:
     settings = msgspec.json.decode((KIT / "settings.json").read_bytes(), type=Settings)
     reference, course = shipped_reference(), settings.course
     options = Options(reference, settings.isolation, seed=settings.seed, course=course)
-    package = pack(Found("submission", (submission.resolve(),)), course.modules)
+    package = pack(Work("submission", (submission.resolve(),)), course.modules)
     with work_folder() as work:
         result = grade(package.unpack(work), options)
     console = Console(highlight=False, markup=False, width=100)

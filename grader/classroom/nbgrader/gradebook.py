@@ -20,7 +20,7 @@ from grader.report.files import read_result
 
 
 @dataclass(frozen=True)
-class Filled:
+class EngineMark:
     """The points of a student's engine in the gradebook, and notes on them."""
 
     student: str
@@ -41,7 +41,7 @@ def read_results(paths: Iterable[Path]) -> Iterator[tuple[str, Result | str]]:
 
 def fill_gradebook(
     course: Path, results: Iterable[tuple[str, Result | str]]
-) -> Iterator[Filled | str]:
+) -> Iterator[EngineMark | str]:
     """Write results into the gradebook, a student at a time; troubles come as sentences.
 
     Points are clamped to what the cell is worth and missing ones are 0, so nothing but a passed
@@ -82,7 +82,7 @@ def has_submission(book: Any, api: ModuleType, student: str) -> bool:
     return True
 
 
-def write_marks(book: Any, cells: list[Any], student: str, result: Result) -> Filled:
+def write_marks(book: Any, cells: list[Any], student: str, result: Result) -> EngineMark:
     todos = {f"todo-{todo.id}": todo for todo in result.todos}
     notes = []
     for cell in cells:
@@ -96,7 +96,7 @@ def write_marks(book: Any, cells: list[Any], student: str, result: Result) -> Fi
     extra = {f"todo-{todo.id}" for todo in result.counted} - {cell.name for cell in cells}
     notes += [f"{name}: no such cell in the notebook" for name in sorted(extra)]
     notebook = book.find_submission_notebook(ENGINE, ASSIGNMENT, student)
-    return Filled(student, notebook.score, notebook.max_score, tuple(notes))
+    return EngineMark(student, notebook.score, notebook.max_score, tuple(notes))
 
 
 def add_empty_submission(book: Any, student: str) -> None:

@@ -15,7 +15,7 @@ from grader.classroom.book import Book
 from grader.classroom.executor import Pool
 from grader.classroom.fingerprint import make_key
 from grader.errors import Stop
-from grader.intake.found import Found, Intake
+from grader.intake.found import Intake, Work
 from grader.intake.listing import open_class
 from grader.intake.packing import lay_out, open_found
 from grader.judge.grade import KIT, Options
@@ -29,7 +29,7 @@ NAME = re.compile(r"[^\s*?\[\]/\\.][^*?\[\]/\\]*")  # nbgrader looks students up
 
 
 @dataclass(frozen=True)
-class Taken:
+class StudentFolder:
     """A student's folder, and what was taken of it."""
 
     student: str
@@ -37,7 +37,7 @@ class Taken:
     taken: bool = True
 
 
-def collect_submissions(folder: Path, course: Path) -> Iterator[Taken]:
+def collect_submissions(folder: Path, course: Path) -> Iterator[StudentFolder]:
     """Copy each student's folder to where nbgrader looks for it.
 
     No links and nothing hidden is copied. A notebook may lie in the folder `notebooks`, as in the
@@ -48,38 +48,42 @@ def collect_submissions(folder: Path, course: Path) -> Iterator[Taken]:
         raise Stop(f"{course} is no course yet: make it with {make}")
     with open_class(folder) as intake:
         for found in intake.found:
-            answer = call_alone(READING, Taken, partial(take_found, found, course))
-            yield answer if isinstance(answer, Taken) else Taken(found.name, str(answer), False)
+            answer = call_alone(READING, StudentFolder, partial(take_found, found, course))
+            yield (
+                answer
+                if isinstance(answer, StudentFolder)
+                else StudentFolder(found.name, str(answer), False)
+            )
         for name, words in intake.troubles.items():
-            yield Taken(name, words, False)
+            yield StudentFolder(name, words, False)
 
 
-def take_found(found: Found, course: Path) -> Taken:
+def take_found(found: Work, course: Path) -> StudentFolder:
     """Take one submission, or say why it cannot be taken."""
     try:
         with open_found(found) as (folder, laid, _), lay_out(folder, laid) as path:
             return take_submission(found.name, path, folder, course)
     except Stop as error:
-        return Taken(found.name, str(error), False)
+        return StudentFolder(found.name, str(error), False)
 
 
-def take_submission(student: str, path: Path, folder: Path, course: Path) -> Taken:
+def take_submission(student: str, path: Path, folder: Path, course: Path) -> StudentFolder:
     """Lay one student's files where nbgrader looks for them, if they are not there already.
 
     `path` has the programs as the lab lays them; `folder` has all that was handed in.
     """
     if not NAME.fullmatch(student):
-        return Taken(student, "nbgrader cannot work with this name: rename it", False)
+        return StudentFolder(student, "nbgrader cannot work with this name: rename it", False)
     target = course / "submitted" / student / ASSIGNMENT
     with tempfile.TemporaryDirectory() as temporary:
         copy = Path(temporary) / ASSIGNMENT
         notebooks = copy_files(path, folder, copy)
         if target.exists() and read_files(copy) == read_files(target):
-            return Taken(student, "unchanged")
+            return StudentFolder(student, "unchanged")
         shutil.rmtree(target, ignore_errors=True)
         shutil.rmtree(course / "autograded" / student / ASSIGNMENT, ignore_errors=True)
         shutil.copytree(copy, target)
-    return Taken(student, f"{notebooks} notebooks" if notebooks else "no notebook")
+    return StudentFolder(student, f"{notebooks} notebooks" if notebooks else "no notebook")
 
 
 def copy_files(path: Path, folder: Path, target: Path) -> int:
@@ -130,7 +134,7 @@ def grade_submitted(course: Path, options: Options, jobs: int, console: Console)
     found = sorted((course / "submitted").glob(f"*/{ASSIGNMENT}"))
     if not found:
         raise Stop(f"there is nothing in {course / 'submitted'}: collect submissions first")
-    intake = Intake([Found(path.parent.name, (path,)) for path in found])
+    intake = Intake([Work(path.parent.name, (path,)) for path in found])
     results = course / "results"
     for path in results.glob("*.json"):
         if path.stem not in {each.name for each in intake.found}:
