@@ -1,4 +1,4 @@
-"""Shared by the tests: what students get, changed copies of a tree handed in, and results."""
+"""Make what tests share: what students get, changed copies of a tree, and results."""
 
 import gc
 import os
@@ -214,6 +214,6 @@ def result_of(tree: str, once: Once, todos: tuple[str, ...] = ()) -> Result:
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    """A browser, where this machine has one."""
+    """Open a browser, where this machine has one."""
     with chromium() as browser:
         yield browser

@@ -30,7 +30,7 @@ from msgspec import Struct
 from grader.bank.members import (
     Variant,
     change_files,
-    indented,
+    indent_like,
     put_regions,
     read_wrong,
     solution_code,
@@ -128,11 +128,13 @@ def put_below(code: str, todo: str, file: Path) -> None:
     text = read_source(file)
     region = next(each for each in regions_in(text) if each.id == todo)
     lines = text.splitlines()
-    lines[region.stop + 1 : region.stop + 1] = indented(code.strip("\n").splitlines(), text, region)
+    lines[region.stop + 1 : region.stop + 1] = indent_like(
+        code.strip("\n").splitlines(), text, region
+    )
     file.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def halfway(todo: str = "") -> Iterator[Halfway]:
+def list_states(todo: str = "") -> Iterator[Halfway]:
     """Yield all states, or those of one TODO; ValueError for edits that do not fit its code."""
     for path in sorted((BANK / "halfway").glob(f"{todo or '*'}.toml")):
         sheet = msgspec.toml.decode(path.read_bytes(), type=Sheet)
@@ -160,7 +162,9 @@ def first_failure(result: Result) -> CheckResult | None:
     return next((each for each in checks if each.failed or each.meaning), None)
 
 
-def graded(state: Halfway, folder: Path, worker: Worker | None, tree: str = "solution") -> Result:
+def grade_state(
+    state: Halfway, folder: Path, worker: Worker | None, tree: str = "solution"
+) -> Result:
     """Grade it as students do: without the reference and without hidden checks."""
     state.build(folder / state.name, tree)
     options = Options(reference=None, only=frozenset({state.todo}), trusted=True)

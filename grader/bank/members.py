@@ -305,7 +305,7 @@ class Member:
             return f"took {seconds:.0f} s, more than {self.entry.seconds} s"
         return ""
 
-    def misnamed(self, result: Result) -> Literal["right", "wrong", "none"]:
+    def compare_name(self, result: Result) -> Literal["right", "wrong", "none"]:
         """Return how the report names the mistake of a wrong member."""
         names = {todo.misconception for todo in result.todos} - {None}
         if not names:
@@ -510,7 +510,7 @@ def fill_every_todo(folder: Path, code: str) -> None:
     lines = tuple(code.strip().splitlines())
     for path in python_files(folder):
         text = read_source(path)
-        if here := {region.id: indented(lines, text, region) for region in regions_in(text)}:
+        if here := {region.id: indent_like(lines, text, region) for region in regions_in(text)}:
             path.write_text(replace_regions(text, here), encoding="utf-8")
 
 
@@ -535,7 +535,7 @@ def put_regions(regions: Regions, folder: Path) -> None:
     for path in python_files(folder) if wanted else ():
         text = read_source(path)
         here = {
-            region.id: indented(wanted.pop(region.id), text, region)
+            region.id: indent_like(wanted.pop(region.id), text, region)
             for region in regions_in(text)
             if region.id in wanted
         }
@@ -545,7 +545,7 @@ def put_regions(regions: Regions, folder: Path) -> None:
         raise ValueError(f"no file has TODO {', '.join(wanted)}")
 
 
-def indented(lines: Iterable[str], text: str, region: Region) -> tuple[str, ...]:
+def indent_like(lines: Iterable[str], text: str, region: Region) -> tuple[str, ...]:
     """Indent lines like those of a region of this text."""
     first = text.splitlines()[region.start]
     indent = first[: len(first) - len(first.lstrip())]

@@ -19,10 +19,10 @@ from typing import Protocol, TypeVar
 from rich.console import Console
 from rich.table import Table
 
-from grader.bank.halfway import Halfway, graded, halfway
-from grader.bank.kept import Store
+from grader.bank.halfway import Halfway, grade_state, list_states
 from grader.bank.ladders import Ladder, ladders
 from grader.bank.members import Entry, Member, members
+from grader.bank.store import Store
 from grader.bank.sync import sync
 from grader.bank.traces import watch_traces
 from grader.errors import Stop
@@ -209,7 +209,7 @@ def list_halfway(only: str, course: Course, complaints: list[str]) -> list[Halfw
     """Return the half-way states of a course; where one cannot be built, none, and a complaint."""
     todos = {todo.id for todo in course.rubric.todos}
     try:
-        states = [each for each in halfway() if each.todo in todos]
+        states = [each for each in list_states() if each.todo in todos]
     except ValueError as error:
         complaints.append(f"half-way states: {error}")
         return []
@@ -292,7 +292,7 @@ def judge_halfway(state: Halfway) -> HalfwayVerdict:
     shared = worker if isinstance(worker, WarmWorker) else None
     with tempfile.TemporaryDirectory(prefix="bank-") as folder:
         try:
-            result = graded(state, Path(folder).resolve(), shared)
+            result = grade_state(state, Path(folder).resolve(), shared)
         except ValueError as error:
             return HalfwayVerdict(state, f"cannot be built: {error}")
         return HalfwayVerdict(state, state.complaint(result))
@@ -302,7 +302,7 @@ def find_complaint(member: Member, result: Result, seconds: float) -> str:
     """Say what is wrong with its marks, or with the name of its mistake."""
     if complaint := member.complaint(result, seconds):
         return complaint
-    if member.kind == "wrong" and member.misnamed(result) == "wrong":
+    if member.kind == "wrong" and member.compare_name(result) == "wrong":
         names = sorted({todo.misconception for todo in result.todos if todo.misconception})
         return f"its mistake is named {', '.join(names)}"
     return ""
@@ -346,7 +346,7 @@ def make_row(verdict: Verdict) -> list[str]:
         member.form,
         str(result.points),
         ", ".join(lost) if len(lost) < 6 else f"{len(lost)} TODOs",
-        member.misnamed(result) if member.kind == "wrong" else "",
+        member.compare_name(result) if member.kind == "wrong" else "",
         f"{verdict.seconds:.1f}",
         verdict.complaint or "as it must",
     ]
@@ -365,7 +365,7 @@ def summarize(report: Report) -> Iterator[str]:
         bad = sum(bool(complaint) for each, complaint in counted if each == kind)
         yield f"{kind}: {count}, of which {bad} with a complaint"
     named = Count(
-        each.member.misnamed(each.result)
+        each.member.compare_name(each.result)
         for each in report.verdicts
         if each.member.kind == "wrong" and each.result is not None
     )

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import msgspec
 
-from grader.bank.kept import hash_contents, hash_lines, hash_surroundings, make_key
 from grader.bank.members import members
+from grader.bank.store import hash_contents, hash_lines, hash_surroundings, make_key
 from grader.judge.course import Course
 from grader.judge.grade import KIT
 from grader.report.files import write_whole

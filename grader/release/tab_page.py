@@ -19,7 +19,7 @@ import jinja2
 import markupsafe
 from markdown_it import MarkdownIt
 
-from grader.bank.kept import hash_contents, hash_lines
+from grader.bank.store import hash_contents, hash_lines
 from grader.errors import Stop
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT

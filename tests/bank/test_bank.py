@@ -1,4 +1,4 @@
-"""The bank: every wrong, right and hostile submission gets the marks it must."""
+"""Test that members of the bank get the marks they must."""
 
 from dataclasses import replace
 from hashlib import sha256

@@ -1,11 +1,11 @@
-"""Students half way: what the first failure says of a state, and how that is found out."""
+"""Test what the first failure says of a half-way state."""
 
 from hashlib import sha256
 from pathlib import Path
 
 import pytest
 
-from grader.bank.halfway import halfway
+from grader.bank.halfway import list_states
 from grader.bank.verify import judge_halfway
 from grader.checks.exact import Disc, Lever, Rect, Touch, circle_box
 from grader.judge.diagnosis import Diagnosis
@@ -15,7 +15,7 @@ from grader.judge.names import Names, handed_out
 from grader.judge.submission import Submission
 from grader.judge.narrowing import find_relation, read_questions
 
-STATES = [*halfway()]
+STATES = [*list_states()]
 BOX = Rect(0, 0, 40, 20)
 OUTSIDE = [Disc(-10, -25, 10), Disc(-46, 5, 10), Disc(10, 28, 10), Disc(44, -5, 10)]
 INSIDE = [Disc(5, -15, 8), Disc(-33, 4, 8), Disc(3, 12, 8), Disc(35, 1, 8)]
@@ -46,7 +46,7 @@ def test_there_are_states_of_every_todo_and_each_can_be_built(tmp_path: Path):
 
 
 def seen(disc: Disc, **changes: float) -> Observation:
-    """The right contact with some of its numbers changed."""
+    """Return the right contact with some of its numbers changed."""
     (touch,) = circle_box(disc, BOX)
     assert isinstance(touch, Touch)
     return Observation("circle_box", (disc, BOX), touch._replace(**changes))

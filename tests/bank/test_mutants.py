@@ -1,4 +1,4 @@
-"""Mutants: the operators make what they should, and the checks notice what they make."""
+"""Test that operators make their mutants, and that checks notice them."""
 
 import ast
 import importlib

@@ -17,9 +17,9 @@ from whole_bank import bank
 from msgspec.structs import replace as replace_in
 from rich.console import Console
 
-from grader.bank import kept, traces, verify
-from grader.bank.halfway import halfway
-from grader.bank.kept import Record, Store, make_key
+from grader.bank import store, traces, verify
+from grader.bank.halfway import list_states
+from grader.bank.store import Record, Store, make_key
 from grader.bank.members import BESIDES, Entry, Member
 from grader.bank.verify import (
     HalfwayVerdict,
@@ -128,16 +128,16 @@ def test_all_that_decides_about_marks_is_in_the_key(
     assert make_key(replace(member, entry=Entry(points=98))) != usual
     source.write_text("# TODO 5: damp\n\n# END TODO 5\n", encoding="utf-8")
     assert make_key(member) != usual
-    rest = kept.hash_surroundings.__wrapped__
-    monkeypatch.setattr(kept, "fingerprint", lambda: "the judge, changed")
-    assert rest() != kept.hash_surroundings()
+    rest = store.hash_surroundings.__wrapped__
+    monkeypatch.setattr(store, "fingerprint", lambda: "the judge, changed")
+    assert rest() != store.hash_surroundings()
     monkeypatch.undo()
-    assert rest() == kept.hash_surroundings()
+    assert rest() == store.hash_surroundings()
     monkeypatch.setattr(sys, "version", "another Python")
-    assert rest() != kept.hash_surroundings()
+    assert rest() != store.hash_surroundings()
     monkeypatch.undo()
-    monkeypatch.setattr(kept, "DECIDING", ("bank.py",))
-    assert rest() != kept.hash_surroundings()
+    monkeypatch.setattr(store, "DECIDING", ("bank.py",))
+    assert rest() != store.hash_surroundings()
 
 
 def test_every_file_of_a_folder_counts_but_those_left_out(tmp_path: Path):
@@ -145,10 +145,10 @@ def test_every_file_of_a_folder_counts_but_those_left_out(tmp_path: Path):
     for name in ("a.py", "mini/b.py", ".cache/c", "mini/__pycache__/b.pyc"):
         (tree / name).parent.mkdir(parents=True, exist_ok=True)
         (tree / name).write_text(name, encoding="utf-8")
-    rows = kept.hash_contents(tree, *BESIDES)
+    rows = store.hash_contents(tree, *BESIDES)
     assert [row.partition(" ")[0] for row in rows] == ["tree/a.py", "tree/mini/b.py"]
     (tree / "mini" / "b.py").write_text("other", encoding="utf-8")
-    assert kept.hash_contents(tree, *BESIDES) != rows
+    assert store.hash_contents(tree, *BESIDES) != rows
 
 
 def test_verify_grades_once_and_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
@@ -168,7 +168,7 @@ def test_verify_grades_once_and_says_so(tmp_path: Path, monkeypatch: pytest.Monk
 
 
 def test_a_half_way_state_is_judged_again_once_its_words_change(tmp_path: Path, monkeypatch):
-    state = next(halfway("5"))
+    state = next(list_states("5"))
     monkeypatch.setattr(
         verify,
         "run_in_processes",

@@ -1,4 +1,4 @@
-"""What the handouts claim of measurements is what results.json beside them has.
+"""Test that results.json bears out what the handouts claim of measurements.
 
 claims.toml names, for each such sentence, the lines it rests on and what they must say.
 """

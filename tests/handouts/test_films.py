@@ -62,7 +62,7 @@ def test_a_prediction_stands_before_the_task_and_says_what_its_films_show() -> N
 
 
 def last_places(scene: dict[str, Any]) -> list[list[float]]:
-    """Where what moves is in each third of a film: x, y and the angle."""
+    """Return x, y and the angle of what moves in each third of a film."""
     rows: dict[int, list[float]] = {}
     places, frames = [], scene["yours"]
     for number, frame in enumerate(frames, 1):

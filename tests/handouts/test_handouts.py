@@ -1,4 +1,4 @@
-"""What the handouts say is true, and students find no solution in them."""
+"""Test that the handouts say what is true, and give no solution away."""
 
 import ast
 import html
@@ -57,7 +57,7 @@ def without_code(text: str) -> str:
 
 
 def script(name: str) -> ModuleType:
-    """One of the programs that make a part of the handouts."""
+    """Load one of the programs that make a part of the handouts."""
     spec = importlib.util.spec_from_file_location(name, HANDOUTS / f"{name}.py")
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
@@ -68,7 +68,7 @@ def script(name: str) -> ModuleType:
 
 
 def table_below(text: str, heading: str) -> list[list[str]]:
-    """The cells of the first table after a heading, its two head rows left out."""
+    """Return the cells of the first table after a heading, without its two head rows."""
     rows = []
     for line in text.partition(heading)[2].splitlines():
         if line.startswith("|"):
@@ -82,7 +82,7 @@ def table_below(text: str, heading: str) -> list[list[str]]:
 
 
 def anchors(page: Path) -> set[str]:
-    """What a link to a heading of the page may name."""
+    """Return the headings of a page, as links name them."""
     found = set()
     for heading in re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.M):
         words = re.sub(r"[^\w\s-]", "", heading.replace("`", "")).strip().lower()
@@ -95,7 +95,7 @@ def links(text: str) -> list[str]:
 
 
 def trouble_with(page: Path, link: str) -> str:
-    """What is wrong with a link, or nothing."""
+    """Say what is wrong with a link; empty if nothing is."""
     target, _, anchor = link.partition("#")
     place = (page.parent / target).resolve() if target else page
     if not place.is_file():
@@ -142,7 +142,7 @@ def test_pictures_are_small() -> None:
 
 
 def shown_words(page: Path) -> int:
-    """How many words of a page are shown, the menus around it left out."""
+    """Count the words of a page, without the menus around it."""
     text = page.read_text(encoding="utf-8")
     text = re.sub(r"<(script|style|head|header|footer)\b.*?</\1>", "", text, flags=re.S)
     return len(re.findall(r"\w[\w'.-]*", html.unescape(re.sub(r"<[^>]+>", " ", text))))
@@ -193,7 +193,7 @@ def test_every_task_with_a_picture_has_two() -> None:
 
 
 def function_around(path: Path, line: int) -> str:
-    """The name of the last function, with its class, that begins above a line of a file."""
+    """Return the last function, with its class, that begins above a line of a file."""
     names = {}
     for node in ast.parse(path.read_text(encoding="utf-8")).body:
         if isinstance(node, ast.FunctionDef):
@@ -205,7 +205,7 @@ def function_around(path: Path, line: int) -> str:
 
 
 def places(tree: Path) -> dict[str, tuple[str, str]]:
-    """Where each TODO stands in a tree: its file and function."""
+    """Return the file and function of each TODO of a tree."""
     return {
         region.id: (path.relative_to(tree).as_posix(), function_around(path, region.start + 1))
         for path in python_files(tree)
@@ -215,7 +215,7 @@ def places(tree: Path) -> dict[str, tuple[str, str]]:
 
 @pytest.fixture(scope="module")
 def plan() -> dict[str, dict[str, Any]]:
-    """The lab sheet's table of tasks."""
+    """Read the lab sheet's table of tasks."""
     return {
         re.sub(r"\[(.+)\].*", r"\1", todo): {
             "minutes": int(minutes),
@@ -250,7 +250,7 @@ def test_the_plan_says_where_each_todo_stands(plan: dict[str, Any], tree: Path) 
 
 
 def bonus_rows() -> list[dict[str, Any]]:
-    """The table of the bonus tasks."""
+    """Read the table of the bonus tasks."""
     return [
         {
             "todo": re.sub(r"\[(.+)\].*", r"\1", todo),

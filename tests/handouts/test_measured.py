@@ -1,4 +1,4 @@
-"""Figures of what was measured: they say what results.json has, and answer pointer and keys."""
+"""Test that figures of measurements say what results.json has, and obey pointer and keys."""
 
 import json
 import re
@@ -26,7 +26,7 @@ def screen(handout_pages: Path) -> Iterator[Screen]:
 
 
 def opened(screen: Screen, name: str) -> Any:
-    """A figure as it is when its page has just been loaded."""
+    """Load the page of a figure; return the figure."""
     page = name.partition("-")[0]
     screen.page.goto(re.sub(r"[\w-]+\.html.*", f"{page}.html", screen.page.url))
     figure = screen.page.locator(f'figure[data-figure="{name}"]')
@@ -108,7 +108,7 @@ def test_a_curve_says_what_the_lines_say(name: str, look: str, place: int, line:
 
 
 def told(curve: dict[str, Any], place: int, unit: str) -> str:
-    """How the figure begins to say a point."""
+    """Return the start of a figure's words about a point."""
     number = float(f"{curve['points'][place][1]:.3g}")
     return f"{curve['name']}: sink {number:g}{unit}; work (the engine as it is: 1): "
 

@@ -1,4 +1,4 @@
-"""What results.json has of errors is what the engines give now: no table is older than they are."""
+"""Test that results.json has the errors that the engines give now."""
 
 import json
 import re

@@ -32,7 +32,7 @@ def list_loads(page: Path) -> list[str]:
 
 @pytest.fixture(scope="module")
 def sites(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder with both sites."""
+    """Build both sites; return their folder."""
     folder = tmp_path_factory.mktemp("handouts")
     program = KIT / "handouts" / "make_site.py"
     done = subprocess.run(

@@ -69,7 +69,7 @@ def screen(browser: Any, handout_pages: Path) -> Iterator[Screen]:
 
 
 def computed(screen: Screen, law: str, inputs: list[Any]) -> list[Any]:
-    """What a law of the page makes of each input, a list of its arguments."""
+    """Return the page's result for each input, a list of arguments."""
     source = f"inputs => inputs.map(each => ({law})(...each))"
     answers: list[Any] = json.loads(json.dumps(screen.page.evaluate(source, inputs)))
     assert len(answers) == len(inputs)
@@ -103,7 +103,7 @@ def test_damping_is_that_of_the_grader(screen: Screen) -> None:
 
 
 class Counted:
-    """Stands in for a world, which is not looked at here."""
+    """A world that has a step and nothing else."""
 
     def step(self, dt: float) -> None:
         pass

@@ -1,4 +1,4 @@
-"""Runs a command where namespaces are forbidden, or the kernel has no Landlock, or both.
+"""Run a command where namespaces are forbidden, or the kernel has no Landlock, or both.
 
     python bare_container.py namespaces,landlock COMMAND ...
 
@@ -28,7 +28,7 @@ class Program(ctypes.Structure):
 
 
 def instruction(code: int, value: int, otherwise: int = 0) -> bytes:
-    """One of the filter; `otherwise` is how many to leave out where a comparison fails."""
+    """Return an instruction; `otherwise` is the number to skip if a comparison fails."""
     return struct.pack("HBBI", code, 0, otherwise, value)
 
 

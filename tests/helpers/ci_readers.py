@@ -1,4 +1,4 @@
-"""How other systems read what the grader writes: their own rules, each in a few lines."""
+"""Read what the grader writes as other systems do, each by its own rules."""
 
 import base64
 import json
@@ -18,7 +18,7 @@ Command = tuple[str, dict[str, str], str]  # its name, its properties, its messa
 
 
 def commands_in(log: str) -> list[Command]:
-    """What GitHub's runner obeys in a log: `::name p=v,p=v::message`, and `##[name]` anywhere."""
+    """List what GitHub's runner obeys in a log: `::name p=v::message`, and `##[name]` anywhere."""
     known, token, found = set(COMMANDS), "", []
     for line in re.split(r"\r\n|\r|\n", log):
         modern = re.match(r"\s*::(?P<info>.*?)::(?P<data>.*)", line)
@@ -48,7 +48,7 @@ def unescaped(words: str) -> str:
 
 
 def outputs_in(text: str) -> dict[str, str]:
-    """The outputs of a step: `name=value` lines, or `name<<END` with lines up to END."""
+    """Return the outputs of a step: `name=value` lines, or `name<<END` with lines up to END."""
     found, lines = {}, iter(text.splitlines())
     for line in lines:
         if "=" in line.partition("<<")[0]:
@@ -61,7 +61,7 @@ def outputs_in(text: str) -> dict[str, str]:
 
 
 def reported(encoded: str) -> dict[str, Any]:
-    """What the reporter takes from an output, held to the form that it reads."""
+    """Return what the reporter reads from an output, in the form that it demands."""
     results = json.loads(base64.b64decode(encoded, validate=True))
     assert results["version"] == 1 and results["status"] in ("pass", "fail", "error")
     assert type(results["max_score"]) is int and results["tests"]
@@ -72,7 +72,7 @@ def reported(encoded: str) -> dict[str, Any]:
 
 
 def reporter_log(results: dict[str, Any]) -> str:
-    """What the reporter prints into the log of its job."""
+    """Return what the reporter prints into the log of its job."""
     lines = []
     for test in results["tests"]:
         line = f" - line {test['line_no']}" if test["line_no"] else ""
@@ -86,7 +86,7 @@ def reporter_log(results: dict[str, Any]) -> str:
 
 
 def junit_cases(content: bytes) -> list[ET.Element]:
-    """The test cases of a file in the form of the schema junit-10 of Jenkins' xunit plugin."""
+    """Return the test cases of a file in the schema junit-10 of Jenkins' xunit plugin."""
     root = ET.fromstring(content)
     allowed = {
         "testsuites": ({"name", "time", "tests", "failures", "errors"}, {"testsuite"}),
@@ -113,13 +113,13 @@ def junit_cases(content: bytes) -> list[ET.Element]:
 
 
 def markdown_tokens(text: str) -> list[Any]:
-    """The text as GitHub's kind of Markdown takes it apart."""
+    """Parse a text as GitHub's Markdown."""
     blocks = MarkdownIt("commonmark", {"html": True}).enable(["table", "strikethrough"]).parse(text)
     return [token for block in blocks for token in (block, *(block.children or ()))]
 
 
 def classroom50_marks(marks: dict[str, Any]) -> int:
-    """The score in a result.json that keeps the rules of classroom50/result/v1."""
+    """Return the score of a result.json that keeps the rules of classroom50/result/v1."""
     needed = {
         *("schema", "classroom", "assignment", "assignment_type", "owner", "submission"),
         *("commit", "release", "review", "datetime", "score", "max-score", "tests"),
@@ -143,7 +143,7 @@ def classroom50_marks(marks: dict[str, Any]) -> int:
 
 
 def gradescope_tests(results: dict[str, Any]) -> list[dict[str, Any]]:
-    """The tests in a results.json that keeps Gradescope's rules and shows the student a total."""
+    """Return the tests of a results.json that keeps Gradescope's rules and shows a total."""
     formats = ("text", "html", "simple_format", "md", "ansi")
     assert results["output_format"] in formats and results["test_output_format"] in formats
     assert results["visibility"] == "visible"

@@ -1,4 +1,4 @@
-"""Trees in which some TODOs are done and others are not."""
+"""Make trees in which some TODOs are done and others are not."""
 
 import shutil
 from collections.abc import Collection
@@ -9,7 +9,7 @@ from grader.source.regions import python_files, regions_in, replace_regions
 
 
 def mixed(folder: Path, base: str, donor: str, todos: Collection[str]) -> Path:
-    """The tree `base`, with these TODOs as they stand in the tree `donor`."""
+    """Copy the tree `base`, with these TODOs from the tree `donor`."""
     shutil.copytree(KIT / base, folder, ignore=shutil.ignore_patterns("__pycache__", "notebooks"))
     for path in python_files(KIT / donor):
         regions = regions_in(path.read_text(encoding="utf-8"))

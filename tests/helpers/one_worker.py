@@ -1,4 +1,4 @@
-"""Children of any tree, by the one worker of this process: to start another takes half a second."""
+"""Open children of any tree by the one worker of this process, since starting one takes time."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

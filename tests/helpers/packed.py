@@ -1,4 +1,4 @@
-"""Archives of every kind, made for the tests."""
+"""Make archives of every kind."""
 
 import io
 import tarfile
@@ -21,7 +21,7 @@ def as_zip(files: Files) -> bytes:
 
 
 def as_zip_of(members: Iterable[tuple[str, str | bytes]]) -> bytes:
-    """A zip with these members, of which two may have one name."""
+    """Make a zip with these members, of which two may have one name."""
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in members:
@@ -51,7 +51,7 @@ def as_7z(files: Files, password: str | None = None) -> bytes:
 
 
 def as_rar(files: Files) -> bytes:
-    """RAR 5 with its files as they are: no packing that only its makers' program knows."""
+    """Make a RAR 5 archive of uncompressed files."""
     out = bytearray(b"Rar!\x1a\x07\x01\x00" + block(number(1) + number(0) + number(0)))
     for name, content in files.items():
         body, title = as_bytes(content), name.encode()
@@ -68,7 +68,7 @@ def block(head: bytes) -> bytes:
 
 
 def number(value: int) -> bytes:
-    """As RAR 5 writes it: seven bits a byte, the lowest first."""
+    """Encode a number as RAR 5 does: seven bits a byte, the lowest first."""
     out = bytearray()
     while value > 0x7F:
         out.append(value & 0x7F | 0x80)

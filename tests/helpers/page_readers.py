@@ -1,4 +1,4 @@
-"""Reading the pages that the grader writes: as a parser does, and in a real browser."""
+"""Read the pages that the grader writes, with a parser and in a real browser."""
 
 import html.parser
 import shutil
@@ -40,13 +40,13 @@ class Reader(html.parser.HTMLParser):
 
     @property
     def handlers(self) -> list[str]:
-        """Attributes that would run something."""
+        """Return attributes that would run something."""
         return [name for _, attributes in self.tags for name in attributes if name[:2] == "on"]
 
 
 @contextmanager
 def chromium() -> Iterator[Any]:
-    """A browser, where this machine has one."""
+    """Open a browser, where this machine has one."""
     sync_api = pytest.importorskip(
         "playwright.sync_api", reason="needs playwright, of the extra `dev`"
     )
@@ -63,7 +63,7 @@ def chromium() -> Iterator[Any]:
 
 
 def barriers(browser: Any, *paths: Path) -> list[str]:
-    """What axe calls serious or critical for those who cannot see, point or tell colours apart.
+    """List what axe calls a serious or critical barrier.
 
     All that is folded is opened, in light and in dark, on a desk and on a phone.
     """
@@ -104,5 +104,5 @@ class Screen:
 
     @property
     def position(self) -> int:
-        """The frame that a replay shows."""
+        """Return the frame that a replay shows."""
         return int(self.page.locator("#picture").get_attribute("data-position"))

@@ -14,7 +14,7 @@ FULL = 20
 
 
 def stand_in(package: Package, options: Options) -> Answer:
-    """The number in integrators.py, under the name that it must have by now."""
+    """Return a result with the number in integrators.py as its points."""
     text = dict(package.files)["integrators.py"].decode()
     found = re.search(r"points = (\d+)", text)
     points = int(found[1]) if found else 0

@@ -1,4 +1,4 @@
-"""Leaves some cases of a large family in `make test` and the rest to `make soak`."""
+"""Leave some cases of a large family in `make test` and the rest to `make soak`."""
 
 from collections.abc import Iterable
 from typing import Any

@@ -1,4 +1,4 @@
-"""The bank, read once by each process that runs tests: reading it takes half a second."""
+"""Read the bank once in each process that runs tests."""
 
 from dataclasses import replace
 from functools import cache

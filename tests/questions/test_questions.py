@@ -53,7 +53,7 @@ RIGHT = [each for each in bank() if each.kind == "right" and not each.bonus]
 
 @contextmanager
 def program_of(folder: Path, result: Result) -> Iterator[Program]:
-    """A program that is taken to be right where the result says so."""
+    """Open a program that is right where the result says so."""
     with open_program(folder, OPTIONS, shared_worker(), result) as program:
         yield program
 
@@ -77,7 +77,7 @@ def test_each_case_is_answered_in_two_ways_and_no_wrong_answer_counts(solution: 
 
 
 def program_with(right: Iterable[str], given: Iterable[str] = ()) -> Program:
-    """A program that is never run."""
+    """Make a program that is never run."""
     nothing: Any = None
     return Program(nothing, nothing, frozenset(right), frozenset(given))
 
@@ -180,7 +180,7 @@ def test_a_program_that_keeps_ending_is_left_alone(hand_in: HandIn, solution: Re
 
 @pytest.fixture(scope="module")
 def whole_sheet(solution: Result) -> Sheet:
-    """The sheet of somebody who has the solution."""
+    """Make the sheet of a student with the solution."""
     with program_of(KIT / "solution", solution) as program:
         return make_sheet(program, "ada", "5", Asked())
 
@@ -210,7 +210,7 @@ def test_films_are_different_pictures_that_run_no_script(whole_sheet: Sheet):
 
 
 def film_of(heights: Iterable[float], turns: float = 0.0) -> Film:
-    """A ball that goes through these heights, and turns as often from the first to the last."""
+    """Make a film of a ball at these heights that turns so often in all."""
     ups = list(heights)
     each = 2 * math.pi * turns / (len(ups) - 1)
     rows = [[50.0, -up, 0.0, 0.0, each * row, 0.0] for row, up in enumerate(ups)]
@@ -279,7 +279,7 @@ def test_a_program_whose_films_lie_is_not_asked_about_them(
 
 @pytest.fixture
 def handed_back(tmp_path: Path, whole_sheet: Sheet) -> Path:
-    """A folder with the key of one student."""
+    """Write the key of one student; return the folder."""
     key = tmp_path / "out" / "keys" / "ada.json"
     write_whole(msgspec.json.encode(whole_sheet), key)
     return tmp_path / "out"
@@ -523,7 +523,7 @@ def test_what_a_course_cannot_ask_is_said(text: str, words: str, tmp_path: Path)
 
 
 def solution_lines() -> set[str]:
-    """What only the solution says: the lines of its regions that say something of their own."""
+    """Return the lines of the solution's regions that are long enough to tell."""
     texts = [read_source(path) for path in python_files(KIT / "solution")]
     lines = {line.strip() for text in texts for r in regions_in(text) for line in r.lines}
     return {line for line in lines if len(line) > 12 and not line.startswith("#")}

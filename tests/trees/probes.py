@@ -1,4 +1,4 @@
-"""Experiments on a tree: `python -m probes slide 16`, started in its folder, prints JSON."""
+"""Run experiments on a tree: `python -m probes slide 16`, started in its folder, prints JSON."""
 
 import contextlib
 import importlib
@@ -17,12 +17,12 @@ from mini_engine import STEP, Body, Box, Circle, World
 
 
 def still_world(**options):
-    """A world without gravity and damping, unless the options say otherwise."""
+    """Make a world without gravity and damping, unless the options say otherwise."""
     return World(**{"gravity": (0, 0), "linear_damping": 0, "angular_damping": 0, **options})
 
 
 def slide(radius, friction=0.6, seconds=2.0):
-    """A ball starts along the floor at 300 px/s: (speed, omega) after every step."""
+    """Slide a ball at 300 px/s; return (speed, omega) after every step."""
     world = still_world(gravity=(0, 980))
     world.add(Body(Box((5000, 20)), (0, 20), friction=friction))
     ball = Body(Circle(radius), (0, -radius), mass=radius**2 / 100, friction=friction)
@@ -35,12 +35,12 @@ def slide(radius, friction=0.6, seconds=2.0):
 
 
 def slip(trail, radius):
-    """The largest slip of a slide between 1 s and 2 s, as a share of the rolling speed."""
+    """Return the largest slip of a slide between 1 s and 2 s, as a share of the rolling speed."""
     return max(abs(speed - omega * radius) / abs(omega * radius) for speed, omega in trail[120:])
 
 
 def coast(rate, dt, seconds=1.0):
-    """The shares of speed and spin that a free body keeps."""
+    """Return the shares of speed and spin that a free body keeps."""
     world = still_world(linear_damping=rate, angular_damping=rate)
     body = world.add(Body(Circle(10), (0, 0), mass=1))
     body.vel.x, body.omega = 1, 1
@@ -50,7 +50,7 @@ def coast(rate, dt, seconds=1.0):
 
 
 def lab_scene(seconds):
-    """The mini engine's scene after some time: moving bodies as (x, y), and boxes ever touched."""
+    """Run the mini engine's scene; return moving bodies as (x, y), and boxes ever touched."""
     world = mini_engine.make_world(random.Random(12))
     touched = set()
     for _ in range(round(seconds / STEP)):
@@ -60,7 +60,7 @@ def lab_scene(seconds):
 
 
 def pymunk_lab_scene(seconds):
-    """The pymunk scene after some time: moving bodies as (x, y, angle)."""
+    """Run the pymunk scene; return moving bodies as (x, y, angle)."""
     space, _ = pymunk_scene.make_space(random.Random(12))
     for _ in range(round(seconds / STEP)):
         space.step(STEP)

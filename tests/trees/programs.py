@@ -19,7 +19,7 @@ MINI, PYMUNK, INTEGRATORS = ["-m", "mini_engine"], ["pymunk_scene.py"], ["integr
 
 
 def run_in(tree: Path, *arguments: str, **environment: str) -> str:
-    """What a Python program prints that is started in the tree; it must not fail."""
+    """Return what a Python program prints in the tree; it must not fail."""
     done = subprocess.run(
         [sys.executable, *arguments],
         cwd=tree,
@@ -40,13 +40,13 @@ def run_in(tree: Path, *arguments: str, **environment: str) -> str:
 
 
 def probe(tree: Path, name: str, *arguments: Any) -> Any:
-    """What a function of probes.py finds out about the tree."""
+    """Return the result of a function of probes.py, run in the tree."""
     values = map(json.dumps, arguments)
     return json.loads(run_in(tree, "-m", "probes", name, *values, PYTHONPATH=str(HERE)))
 
 
 def regions(tree: Path) -> dict[str, tuple[str, Any]]:
-    """Every TODO id of a tree with its file and its region."""
+    """Return the file and the region of every TODO of a tree."""
     return {
         region.id: (path.relative_to(tree).as_posix(), region)
         for path in python_files(tree)

@@ -15,7 +15,7 @@ LONG = 1e5  # px
 
 
 def swing(stiffness: float, damping: float, mass: float, steps: int) -> list[float]:
-    """How far a mass on a spring is from where it rests (px), step by step, after 30 px at first.
+    """Return the distance of a mass on a spring from its rest (px) by step, 30 px at first.
 
     The spring is so long that it always points the same way.
     """

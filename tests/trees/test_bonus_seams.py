@@ -53,7 +53,7 @@ def test_the_engine_can_be_read_in_an_hour():
 
 
 def bits(world):
-    """Every number of every body, to the last bit."""
+    """Return every number of every body, to the last bit."""
     return [
         number.hex()
         for body in world.bodies
@@ -77,7 +77,7 @@ def test_a_world_without_bonus_tasks_or_with_a_grid_is_the_plain_one_to_the_last
 
 
 def room(*bodies):
-    """A world without gravity and damping, and these bodies in it."""
+    """Make a world of these bodies without gravity and damping."""
     world = BonusWorld((0, 0), 0, 0)
     for body in bodies:
         world.add(body)

@@ -44,7 +44,7 @@ def disc(x=0.0, y=0.0, radius=10.0, mass=2.0, vel=(0, 0), omega=0.0, **surface):
 
 
 def as_numbers(contact):
-    """normal, depth and point in one flat tuple."""
+    """Return normal, depth and point in one flat tuple."""
     return (*contact.normal, contact.depth, *contact.point)
 
 
@@ -175,7 +175,7 @@ def test_an_impulse_leaves_a_static_body_alone():
 
 
 def ball_on_the_floor(vel, jn=0.0, friction=0.6):
-    """A world with a contact of a static body (A) and a ball of mass 2 above it (B)."""
+    """Make a world with a contact of a static body (A) and a ball of mass 2 above it (B)."""
     floor = Body(Circle(10), (0, 10), friction=0.9)
     one = disc(0, -10, mass=2, vel=vel, friction=friction)
     contact = Contact(floor, one, Vector2(0, -1), 0.0, Vector2(0, 0))
@@ -290,7 +290,7 @@ def test_contacts_are_searched_in_every_pair_with_a_moving_body():
 
 
 def state(world):
-    """Every number of every body, to the last bit."""
+    """Return every number of every body, to the last bit."""
     return [
         value.hex()
         for body in world.bodies
@@ -361,7 +361,7 @@ def test_the_scene_depends_on_nothing_but_the_seed():
 
 
 class Draws(random.Random):
-    """A random.Random that keeps what it was asked for."""
+    """A random.Random that records its calls."""
 
     def __init__(self):
         super().__init__(12)
@@ -430,7 +430,7 @@ def test_closing_the_window_ends_the_program():
 
 
 def drawn(body):
-    """A surface with nothing but the body on it."""
+    """Draw a body on an empty surface."""
     window = Window()
     window.screen = pygame.Surface((60, 60))
     window.draw_body(body, body.color)

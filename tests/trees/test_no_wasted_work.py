@@ -12,7 +12,7 @@ from mini_engine import ITERATIONS, STEP, Body, Box, Circle, DistanceJoint, make
 
 
 def calls_in_step(world):
-    """How often each function of the engine runs in one step, as "module.function"."""
+    """Count the calls of each function of the engine in one step, as "module.function"."""
     calls = Counter()
 
     def record(frame, event, _argument):
@@ -34,7 +34,7 @@ def modules(calls):
 
 
 def falling_balls(count, **options):
-    """So many balls in the air, far from each other."""
+    """Make a world of balls in the air, far from each other."""
     world = still_world(gravity=(0, 980), **options)
     for i in range(count):
         world.add(Body(Circle(10), (100 * i, 0), mass=1))
@@ -48,7 +48,7 @@ def with_rods(world, count):
 
 
 def with_floor(world, ball_friction=0.6, floor_friction=0.6):
-    """A floor that every ball of falling_balls is pressed into."""
+    """Add a floor that every ball of falling_balls is pressed into."""
     world.add(Body(Box((1e4, 10)), (0, 19), friction=floor_friction))
     for body in world.moving_bodies():
         body.friction = ball_friction

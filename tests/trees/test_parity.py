@@ -23,7 +23,7 @@ TREES = pytest.mark.parametrize("tree", [SOLUTION, STARTER], ids=["solution", "s
 
 
 def emptied(path: Path) -> bytes:
-    """A file with nothing inside its regions."""
+    """Return a file without the lines of its regions."""
     content = path.read_bytes()
     if path.suffix != ".py":
         return content
@@ -81,7 +81,7 @@ def test_regions_hold_whole_statements(tree):
 
 @pytest.fixture
 def copies(tmp_path, monkeypatch):
-    """Copies of solution and starter in step, with a copy of the stubs that the checks know."""
+    """Copy solution and starter in step, with the stubs that the checks know."""
     monkeypatch.setattr(sync_module, "CHECKS", tmp_path)
     trees = copy_of(SOLUTION, tmp_path), copy_of(STARTER, tmp_path)
     sync(*trees, write=True)

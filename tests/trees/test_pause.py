@@ -19,7 +19,7 @@ def press(*keys):
 
 @pytest.fixture(autouse=True)
 def no_events():
-    """A queue of events with nothing in it, and nothing left in it afterwards."""
+    """Empty the queue of events before and after."""
     pygame.init()
     pygame.event.clear()
     yield

@@ -9,7 +9,7 @@ X0 = 100.0  # px
 
 
 def exact_step(name, x, v, dt, accel):
-    """The right (x, v) after one step."""
+    """Return the right (x, v) after one step."""
     if name == "semi_implicit_euler":
         v = v + accel(x) * dt
         return x + v * dt, v
@@ -24,7 +24,7 @@ def exact_step(name, x, v, dt, accel):
 
 
 def want_steps(name, method):
-    """One step under any force."""
+    """Check one step under any force."""
     rng = random.Random(8)
     for _ in range(EXAMPLES):
         x, v, *force = (rng.randint(-32, 32) / 8 for _ in range(6))
@@ -39,7 +39,7 @@ def want_steps(name, method):
 
 
 def swing(method, steps, seconds):
-    """Where the spring's body is after so many steps; it is let go at X0."""
+    """Return the state of the spring's body after so many steps; it is released at X0."""
     x, v = X0, 0.0
     for _ in range(steps):
         x, v = method(x, v, seconds / steps, lambda x: -(OMEGA**2) * x)
@@ -47,7 +47,7 @@ def swing(method, steps, seconds):
 
 
 def want_spring(method, order, error, energy_change):
-    """Half the step divides the error by 2^order; the figures of the lesson's table."""
+    """Check that half the step divides the error by 2^order, and the lesson's table."""
     exact_x = X0 * math.cos(OMEGA * 0.65)
     coarse, fine = (abs(swing(method, steps, 0.65)[0] - exact_x) for steps in (26, 52))
     ratio = 2**order

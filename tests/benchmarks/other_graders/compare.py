@@ -384,7 +384,7 @@ def make_cost_table(costs: dict[str, Cost], size: int) -> Table:
 
 
 def compare(values: list[float], ours: list[float]) -> str:
-    """A median, and the median and the range of the ratios of the rounds."""
+    """Return a median, with the median and the range of the rounds' ratios."""
     times = [one / other for one, other in zip(values, ours, strict=True)]
     spread = f"{statistics.median(times):.1f} times, {min(times):.1f} to {max(times):.1f}"
     return f"{statistics.median(values):.3g} ({spread})"
