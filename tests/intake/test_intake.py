@@ -226,18 +226,18 @@ def test_nothing_is_dropped_in_silence(classroom):
         assert taken.notes == ["read me.txt is no submission: skipped"]
 
 
-def test_one_zip_is_laid_out_as_one_of_a_class_is(tmp_path):
-    path = tmp_path / "ann.zip"
-    path.write_bytes(zipped(under("work")))
-    with open_submission(path) as folder:
+def test_one_submission_is_laid_out_as_one_of_a_class_is(tmp_path):
+    path, said = tmp_path / "ann.zip", []
+    path.write_bytes(zipped(under("work") | {"work/old/integrators.py": "x = 0\n"}))
+    with open_submission(path, said.append) as folder:
         assert folder.name == "ann"
         assert {name for name in PROGRAM if (folder / name).is_file()} == set(PROGRAM)
-    assert not folder.exists()
-    path.write_bytes(zipped({"../up.py": ""}))
-    with pytest.raises(Stop, match="reaches outside"), open_submission(path):
-        pass
-    with pytest.raises(CannotGrade, match="reaches outside"), open_submission(tmp_path):
-        pass
+    assert not folder.exists() and "old/integrators.py was left out" in said[0]
+    for files, words in (({"../up.py": ""}, "reaches outside"), ({"a.txt": ""}, "nothing of the")):
+        path.write_bytes(zipped(files))
+        for each in (path, tmp_path):
+            with pytest.raises(CannotGrade, match=words), open_submission(each):
+                pass
 
 
 def test_one_submission_is_not_taken_for_a_class(classroom):

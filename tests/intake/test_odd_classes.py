@@ -108,11 +108,11 @@ def shut(monkeypatch, path: Path) -> None:
 def test_the_labs_own_files_come_first_however_many_others_there_are(tmp_path: Path):
     many: packed.Files = {f"aaa/m{n}.py": "x = 1\n" for n in range(MAX_FILES + 100)}
     lab: packed.Files = {"mini_engine/__init__.py": "x = 1\n", **WORK}
-    for files in (many | lab, {f"deep/{name}": content for name, content in (many | lab).items()}):
-        for found in (one(tmp_path / "folder", files), zipped(tmp_path, files)):
-            package = read_package(found)
-            assert lab.keys() <= {name for name, _ in package.files}
-            assert any("files: size limit reached" in note for note in package.notes)
+    deep = {f"deep/{name}": content for name, content in (many | lab).items()}
+    for found in (one(tmp_path / "folder", many | lab), zipped(tmp_path, deep)):
+        package = read_package(found)
+        assert lab.keys() <= {name for name, _ in package.files}
+        assert any("files: size limit reached" in note for note in package.notes)
     inner = many | {"zzz/work.zip": packed.as_zip(WORK)}
     assert dict(read_package(zipped(tmp_path, inner)).files)["integrators.py"] == SOURCE.encode()
     submission = take_in(put(tmp_path / "plain", many | lab), tmp_path / "copy", load_rubric(), {})

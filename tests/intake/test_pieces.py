@@ -18,7 +18,7 @@ from grader.errors import Stop
 from grader.intake import archives, repack
 from grader.intake.found import CannotTake, Package, Work
 from grader.intake.listing import open_class
-from grader.intake.packing import open_submission, read_package
+from grader.intake.packing import read_package
 from grader.judge.grade import KIT
 from grader.judge.submission import MAX_BYTES, plain_files
 
@@ -325,26 +325,6 @@ def test_what_deserves_points_is_taken_in_whole(tmp_path):
 
 def backups(names: set[str]) -> set[str]:
     return {name for name in names if " copy" in name or "Copy" in name}
-
-
-# ---------------------------------------------------------------- one submission
-
-
-def test_one_folder_is_laid_out_as_one_of_a_class_is(tmp_path):
-    write(tmp_path / "well", PROGRAM | {"old/integrators.py": "x = 0\n"})
-    write(tmp_path / "deep", under("work", {"integrators (1).py": "x = 1\n"}))
-    write(tmp_path / "two", PROGRAM | {"integrators (1).py": "x = 2\n"})
-    write(tmp_path / "none", {"notes.txt": ""})
-    said: list[str] = []
-    with open_submission(tmp_path / "well", said.append) as folder:
-        assert folder.name == "well" and said.pop().startswith("old/integrators.py was left out")
-    with pytest.raises(Stop, match="nothing of the lab"), open_submission(tmp_path / "none"):
-        pass
-    with open_submission(tmp_path / "deep", said.append) as folder:
-        assert folder.name == "deep" and (folder / "integrators.py").read_text() == "x = 1\n"
-    assert said == ["work/integrators (1).py is taken as integrators.py"]
-    with pytest.raises(Stop, match="more than one"), open_submission(tmp_path / "two"):
-        pass
 
 
 SHUT_IN = """
