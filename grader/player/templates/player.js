@@ -70,21 +70,21 @@
         if (own !== null && own !== undefined) rows.push([name === "moment" ? "moment of inertia" : name, UNITS[name], own, other ?? undefined]);
       }
     }
-    const body = byId("values").tBodies[0];
-    body.replaceChildren(...rows.map(([name, unit, own, other]) => {
-      const row = document.createElement("tr");
-      row.append(cell("th", `${name} (${unit})`), cell("td", digits(own)), cell("td", digits(other)));
-      const known = other !== undefined && other !== null;
-      if (own === null || (known && Math.abs(own - other) > 1e-3 * Math.max(0.01, Math.abs(other)))) row.className = "off";
-      return row;
-    }));
+    byId("values").tBodies[0].replaceChildren(...rows.map(([name, unit, own, other]) => makeRow(
+      `${name} (${unit})`, own, other, own === null || (Number.isFinite(other) && differs(own, other)))));
   }
 
-  function cell(tag, text) {
-    const made = document.createElement(tag);
-    made.textContent = text;
-    if (tag === "th") made.scope = "row";
-    return made;
+  const differs = (own, other) => own !== other && !(Math.abs(own - other) <= 1e-3 * Math.max(0.01, Math.abs(other)));
+
+  // Make the row of a table: a number of both runs, highlighted if it `isOff`.
+  function makeRow(name, own, other, isOff) {
+    const row = document.createElement("tr"), head = document.createElement("th");
+    head.scope = "row";
+    head.textContent = name;
+    row.append(head);
+    for (const value of [own, other]) row.insertCell().textContent = digits(value);
+    if (isOff) row.className = "off";
+    return row;
   }
 
   function showTouches(now) {
@@ -92,10 +92,8 @@
     const rows = [];
     for (let index = 0; index < Math.min(4, Math.max(yours.length, expected.length)); index += 1) {
       for (const [name, place, unit] of [["depth", 4, "px"], ["jn", 5, "kg px/s"], ["jt", 6, "kg px/s"]]) {
-        const own = yours[index]?.[place], other = expected[index]?.[place], row = document.createElement("tr");
-        row.append(cell("th", `contact ${index + 1}: ${name} (${unit})`), cell("td", digits(own)), cell("td", digits(other)));
-        if (now.expected && own !== other && !(Math.abs(own - other) <= 1e-3 * Math.max(1e-3, Math.abs(other)))) row.className = "off";
-        rows.push(row);
+        const own = yours[index]?.[place], other = expected[index]?.[place];
+        rows.push(makeRow(`contact ${index + 1}: ${name} (${unit})`, own, other, now.expected && differs(own, other)));
       }
     }
     byId("touches").hidden = !rows.length;

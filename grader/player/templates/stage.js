@@ -34,30 +34,30 @@ function stageOn(canvas) {
 
   // ---------------------------------------------------------------- the view
 
+  // A box is [left, top, right, bottom].
   const NOTHING = [Infinity, Infinity, -Infinity, -Infinity];
+  const isEmpty = (box) => box[0] > box[2];
+  const merge = (a, b) => [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])];
+  const clip = (a, b) => [Math.max(a[0], b[0]), Math.max(a[1], b[1]), Math.min(a[2], b[2]), Math.min(a[3], b[3])];
+  const grow = ([left, top, right, bottom], x, y = x) => [left - x, top - y, right + x, bottom + y];
+
   const isFinitePlace = (state) => Number.isFinite(state[0]) && Number.isFinite(state[1]);
   const reach = (look) => Math.max(0, ...(look?.shapes ?? []).flatMap(
     ([points, radius]) => points.map(([x, y]) => Math.hypot(x, y) + radius)));
 
-  // Return the reach of a body: left, up, right, down.
+  // Return the box of a body at [0, 0]; of a moving body in any direction.
   function extent(look) {
-    if (look?.mass !== null) return [reach(look), reach(look), reach(look), reach(look)];
-    let box = NOTHING;
-    for (const [points, radius] of look.shapes) for (const [x, y] of points) box = around(box, x, y, radius);
-    return [-box[0], -box[1], box[2], box[3]];
+    if (look?.mass !== null) return grow([0, 0, 0, 0], reach(look));
+    return look.shapes.flatMap(([points, radius]) => points.map(([x, y]) => grow([x, y, x, y], radius))).reduce(merge, NOTHING);
   }
 
-  function around(box, x, y, r) {
-    return [Math.min(box[0], x - r), Math.min(box[1], y - r), Math.max(box[2], x + r), Math.max(box[3], y + r)];
-  }
   function boundsOf(moments, looks, wanted) {
     let box = NOTHING;
     for (const moment of moments) {
       for (const [number, state] of moment.bodies) {
-        const look = looks[number];
-        if (!isFinitePlace(state) || !wanted(look)) continue;
-        const [left, up, right, down] = extent(look);
-        box = [Math.min(box[0], state[0] - left), Math.min(box[1], state[1] - up), Math.max(box[2], state[0] + right), Math.max(box[3], state[1] + down)];
+        if (!isFinitePlace(state) || !wanted(looks[number])) continue;
+        const [x, y] = state, [left, top, right, bottom] = extent(looks[number]);
+        box = merge(box, [x + left, y + top, x + right, y + bottom]);
       }
     }
     return box;
@@ -65,44 +65,30 @@ function stageOn(canvas) {
 
   // Show all that moves and bodies of similar size; of the rest, the near part.
   function viewOf(scene) {
-    const both = [[scene.yours, scene.looks], [scene.expected, scene.expected_looks]];
-    const moves = (look) => look && look.mass !== null;
-    const join = (wanted) => both.reduce((box, [moments, looks]) => {
-      const other = boundsOf(moments, looks, wanted);
-      return [Math.min(box[0], other[0]), Math.min(box[1], other[1]), Math.max(box[2], other[2]), Math.max(box[3], other[3])];
-    }, NOTHING);
-    let core = scene.expected.length ? boundsOf(scene.expected, scene.expected_looks, moves) : NOTHING;
-    if (core[0] > core[2]) core = boundsOf(scene.yours, scene.looks, moves);
-    if (core[0] > core[2]) core = join(() => true);
-    if (core[0] > core[2]) core = [-50, -50, 50, 50];
+    const moves = (look) => look && look.mass !== null, all = () => true;
+    const yours = (wanted) => boundsOf(scene.yours, scene.looks, wanted);
+    const expected = (wanted) => boundsOf(scene.expected, scene.expected_looks, wanted);
+    const both = (wanted) => merge(yours(wanted), expected(wanted));
+    const core = [expected(moves), yours(moves), both(all), [-50, -50, 50, 50]].find((box) => !isEmpty(box));
     const size = Math.max(core[2] - core[0], core[3] - core[1], 2);
-    const most = 1.5 * size;
-    const limit = [core[0] - most, core[1] - most, core[2] + most, core[3] + most];
-    const small = (look) => {
-      const [left, up, right, down] = extent(look);
-      return Math.max(left + right, up + down) <= 5 * size;
+    const isSmall = (look) => {
+      const [left, top, right, bottom] = extent(look);
+      return Math.max(right - left, bottom - top) <= 5 * size;
     };
-    const near = join((look) => !moves(look) && small(look)), far = join(() => true);
-    core = [0, 1, 2, 3].map((side) => {
-      const outer = side < 2 ? Math.min : Math.max, inner = side < 2 ? Math.max : Math.min;
-      const rim = core[side] + (side < 2 ? -size : size) / 3;
-      return outer(core[side], inner(near[side], limit[side]), inner(far[side], rim));
-    });
-    const rim = Math.max(core[2] - core[0], core[3] - core[1]) * 0.06;
-    return [core[0] - rim, core[1] - rim, core[2] + rim, core[3] + rim];
+    const near = clip(both((look) => !moves(look) && isSmall(look)), grow(core, 1.5 * size));
+    const far = clip(both(all), grow(core, size / 3));
+    const view = merge(core, merge(near, far));
+    return grow(view, 0.06 * Math.max(view[2] - view[0], view[3] - view[1]));
   }
 
   function curveView(scene) {
     let box = NOTHING;
-    for (const moments of [scene.yours, scene.expected]) {
-      for (const moment of moments) {
-        const state = moment.bodies.get(1);
-        if (state && Number.isFinite(state[0])) box = around(box, moment.time, state[0], 0);
-      }
+    for (const { time, bodies } of [...scene.yours, ...scene.expected]) {
+      const x = bodies.get(1)?.[0];
+      if (Number.isFinite(x)) box = merge(box, [time, x, time, x]);
     }
-    if (box[0] > box[2]) return [0, -1, 1, 1];
-    const tall = (box[3] - box[1] || 1) * 0.08, wide = (box[2] - box[0] || 1) * 0.04;
-    return [box[0] - wide, box[1] - tall, box[2] + wide, box[3] + tall];
+    if (isEmpty(box)) return [0, -1, 1, 1];
+    return grow(box, (box[2] - box[0] || 1) * 0.04, (box[3] - box[1] || 1) * 0.08);
   }
 
   // ---------------------------------------------------------------- drawing
