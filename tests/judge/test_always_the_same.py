@@ -1,4 +1,4 @@
-"""The same submission gives the same JSON, whatever the machine is like (most in `make soak`)."""
+"""Grade a submission on different machines: the JSON is the same (most in `make soak`)."""
 
 import multiprocessing
 import os

@@ -1,4 +1,4 @@
-"""What other programs import: the names of the package `grader`, and the guide's example."""
+"""Test what other programs import: the names of `grader`, and the guide's example."""
 
 import re
 import subprocess

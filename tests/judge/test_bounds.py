@@ -1,5 +1,6 @@
-"""What a submission costs the judge is bounded: the memory of its children, of its answers, texts,
-sources and results. Thresholds are far above what honest work takes and far below what hurts.
+"""Limit the memory that a submission costs the judge, by children, answers, sources and results.
+
+Thresholds are far above the needs of honest work, and far below what hurts.
 """
 
 import socket
@@ -11,6 +12,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
+from one_worker import NoWorker
 from whole_bank import bank
 
 from grader.bank.verify import shared_worker
@@ -81,17 +83,6 @@ def test_every_text_and_list_that_a_child_sends_has_a_greatest_length(message: t
     unbounded = (msgspec.inspect.AnyType, msgspec.inspect.SetType, msgspec.inspect.VarTupleType)
     assert found and not any(isinstance(each, unbounded) for each in found)
     assert all(each.max_length for each in found if isinstance(each, kind))
-
-
-class NoWorker:
-    """Ends children that are no processes."""
-
-    def end(self, child: Child, gone: bool) -> int:
-        child.channel.close()
-        return 0
-
-    def pid_of(self, child: Child) -> int:
-        return 0
 
 
 def played(**fields: object) -> Played:
@@ -268,6 +259,7 @@ MEASURE = """
 import resource, sys
 import msgspec
 from pathlib import Path
+from grader.bank.verify import shared_worker
 from grader.judge.grade import Options, grade, shipped_reference
 from grader.judge.result import MAX_JSON
 only = frozenset(sys.argv[1].split(","))

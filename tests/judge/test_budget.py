@@ -1,4 +1,4 @@
-"""What a submission may use up in all: little is left for who has used much, and then nothing."""
+"""Limit the time of a submission: the budget of each check shrinks as it is spent, down to none."""
 
 import os
 import shutil
@@ -35,7 +35,7 @@ LINUX = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells of 
 
 @dataclass
 class Used:
-    """Stands in for a connection that has ended."""
+    """The costs of a connection that has ended."""
 
     cpu: float = 0.0
     rested: float = 0.0

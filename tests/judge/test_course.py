@@ -1,4 +1,4 @@
-"""A course of one's own: what it takes, what follows from it, and what is wrong in its file."""
+"""Read a course file, follow its settings in every room, and report its mistakes."""
 
 import importlib
 import io

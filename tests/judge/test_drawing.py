@@ -1,4 +1,4 @@
-"""Properties draw by the name of the check and the seed, and by nothing else."""
+"""Draw examples by the name of the check and the seed alone."""
 
 import subprocess
 import sys
@@ -39,7 +39,7 @@ show("a_large_number", a_large_number)
 
 
 def examples_of_all(folder: Path, *modules: str) -> tuple[list[str], list[str]]:
-    """The examples of all properties in a process of its own, and those of large integers."""
+    """Return the examples of all properties in a new process, and those of large integers."""
     command = [sys.executable, "-c", ALL_EXAMPLES, *modules]
     path = {"PYTHONPATH": f"{KIT}:{folder}", "PATH": ""}
     done = subprocess.run(command, capture_output=True, text=True, check=True, env=path)

@@ -1,4 +1,4 @@
-"""What an error of Python's means, by its message and the text around its line."""
+"""Explain Python's errors by their message and the text around the line."""
 
 import pytest
 

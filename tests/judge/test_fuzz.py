@@ -1,4 +1,4 @@
-"""The judge survives whatever a child may send: every message ends in an answer or in words."""
+"""Send spoilt messages to the judge: each ends in an answer or in words."""
 
 import random
 import socket
@@ -10,6 +10,7 @@ from itertools import count
 
 import msgspec
 import pytest
+from one_worker import NoWorker
 
 from grader.judge.children import Child
 from grader.judge.failures import Broke, NotYet
@@ -32,17 +33,6 @@ from grader.protocol import (
 )
 
 QUICK, CAMPAIGN = 1_500, 100_000  # messages
-
-
-class NoWorker:
-    """Ends children that are no processes."""
-
-    def end(self, child: Child, gone: bool) -> int | None:
-        child.channel.close()
-        return 0
-
-    def pid_of(self, child: Child) -> int:
-        return 0
 
 
 VALUES = [
@@ -83,7 +73,7 @@ ODD = [
 
 
 def spoil(rng: random.Random, thing: object) -> object:
-    """One part of a message, somewhere in it, put in another's place, doubled or left out."""
+    """Replace, double or drop one part of a message."""
     if isinstance(thing, dict) and thing and rng.random() < 0.9:
         key = rng.choice(list(thing))
         if rng.random() < 0.15:
@@ -98,7 +88,7 @@ def spoil(rng: random.Random, thing: object) -> object:
 
 
 def message(rng: random.Random, number: int) -> tuple[bytes, bool]:
-    """What a child sends instead of its answer, and whether its frame is whole."""
+    """Return bytes instead of a child's answer, and whether their frame is complete."""
     answered = Answered(number, rng.choice(REPLIES), rng.choice(["", "printed"]))
     body = msgspec.msgpack.encode(answered)
     kind = rng.choice(
@@ -127,7 +117,7 @@ def message(rng: random.Random, number: int) -> tuple[bytes, bool]:
 
 
 def misbehave(sock: socket.socket, rng: random.Random) -> None:
-    """A child that starts well, and then answers each question with a spoilt message."""
+    """Answer the first question well, and the others with spoilt messages."""
     channel = Channel(sock)
     channel.send(Ready(1, []))
     with suppress(ChannelClosed, OSError):
@@ -142,7 +132,7 @@ def misbehave(sock: socket.socket, rng: random.Random) -> None:
 
 
 def asked(lab: Lab, rng: random.Random) -> None:
-    """Any one of the ways in which a check puts a question."""
+    """Ask one question in any of the ways that a check has."""
     thing = lab.thing(Ref(1))
     rng.choice(
         [
@@ -160,7 +150,7 @@ def asked(lab: Lab, rng: random.Random) -> None:
 
 
 def survive(messages: int, seed: int) -> Counter[str]:
-    """Let so many spoilt messages meet a lab; how its questions ended."""
+    """Send spoilt messages to a lab; count how its questions ended."""
     rng = random.Random(seed)
     ended: Counter[str] = Counter()
     while ended.total() < messages:

@@ -1,4 +1,4 @@
-"""Grading one submission: the marks, the reasons, and that they are always the same."""
+"""Grade one submission: marks and reasons, the same each time."""
 
 import json
 import os
@@ -33,7 +33,7 @@ ONLY = {todo: Options(shipped_reference(), only=frozenset({todo})) for todo in "
 
 
 def graded(submission: Path, options: Options = WITH_REFERENCE) -> Result:
-    """Grade by a worker that serves all tests, which takes half a second less."""
+    """Grade by a worker that all tests share, which saves half a second."""
     return grade(submission, options, shared_worker())
 
 
@@ -99,18 +99,14 @@ def test_the_portable_worker_gives_the_same_json(solution_graded: Graded, todos:
     assert grade(KIT / "solution", options).todos == solution_graded(todos).todos
 
 
-@pytest.mark.parametrize("todos", [("8b",), pytest.param((), marks=SOAK)])
-def test_the_hash_seed_and_the_locale_change_nothing(
-    solution_graded: Graded, tmp_path: Path, todos: tuple[str, ...]
-):
+def test_the_hash_seed_and_the_locale_change_nothing(solution_graded: Graded, tmp_path: Path):
     target = tmp_path / "result.json"
     environment = {**os.environ, "PYTHONHASHSEED": "1", "LC_ALL": "C", "TZ": "Asia/Kolkata"}
-    command = [sys.executable, "-m", "grader", "grade", "solution", "--json", str(target)]
-    command += [f"--todo={todo}" for todo in todos]
-    done = subprocess.run(command, cwd=KIT, env=environment, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
+    command = ["-m", "grader", "grade", "solution", "--todo=8b", "--json", str(target)]
+    done = subprocess.run([sys.executable, *command], cwd=KIT, env=environment, capture_output=True)
+    assert done.returncode == 0, done
     result = msgspec.json.decode(target.read_bytes(), type=Result)
-    assert result.todos == solution_graded(todos).todos
+    assert result.todos == solution_graded(("8b",)).todos
 
 
 @pytest.mark.parametrize(
@@ -176,7 +172,7 @@ def test_one_finished_todo_earns_its_own_points(
 
 
 def earned_in_the_whole(todo: str) -> set[str]:
-    """Return the checks of the whole that need this TODO at most; guards alone earn nothing."""
+    """Return the checks of the whole that need no other TODO; guards alone earn nothing."""
     (whole,) = [each for each in load_rubric().todos if each.id == "whole"]
     free = [check for check in whole.checks if set(check.needs) <= {todo}]
     return set() if all(check.guard for check in free) else {check.id for check in free}
@@ -202,7 +198,7 @@ def test_in_one_file_too_an_unfinished_todo_costs_its_own_points(
 
 
 def stubs_of(todo: str) -> list[tuple[str, str]]:
-    """Return the TODO with code that ends it, and with what the starter has there."""
+    """Return a TODO with code that raises, and with the starter's stub."""
     (lines,) = (
         region.lines
         for path in python_files(KIT / "starter")

@@ -1,4 +1,4 @@
-"""What the judge spends on a submission grows little faster than the submission, whatever it is."""
+"""Measure how the judge's work grows with its input: little faster than the input itself."""
 
 import io
 import json
@@ -53,7 +53,7 @@ ENOUGH = Cost(FEW_CALLS, FEW_SECONDS, FEW_BYTES)
 
 
 class Shape(NamedTuple):
-    """A text that repeats itself, as long as somebody wants it."""
+    """A text of any length that repeats itself."""
 
     start: str
     unit: str
@@ -87,7 +87,7 @@ def find_growth(work: Callable[[str], object], shape: Shape, length: int) -> lis
 
 
 def check_growth(work: Callable[[str], object], shape: Shape, length: int) -> None:
-    """Fail where a cost grows too fast each time it is measured: once may be the machine."""
+    """Fail if a cost grows too fast in three measurements: one may be the machine's fault."""
     for _ in range(3):
         found = find_growth(work, shape, length)
         if not found:
@@ -103,7 +103,7 @@ def draw_shapes(pieces: Iterable[str]) -> st.SearchStrategy[Shape]:
 
 
 def encodable(work: Callable[[str], object]) -> Callable[[str], object]:
-    """Return the work, done on what of a text UTF-8 can have."""
+    """Return the work, done on the characters that UTF-8 can encode."""
     return lambda text: work(text.encode("utf-8", "ignore").decode("utf-8"))
 
 
@@ -119,7 +119,7 @@ EVERYBODY = ClassList()
 
 
 def read_name(name: str) -> None:
-    """Do all that is done with the name of a file or folder of a class."""
+    """Read the name of a file or folder of a class in every way."""
     path = Path("/class") / (name.replace("/", "_").replace("\0", "_") or "_")
     for system in SYSTEMS:
         system.match(path)
@@ -130,7 +130,7 @@ def read_name(name: str) -> None:
 
 
 def read_entry_name(name: str) -> None:
-    """Do all that is done with a name in an archive, which may be longer."""
+    """Read a name in an archive, which may be longer, in every way."""
     for work in (names.make_portable, names.fold, names.strip_zeros, names.split_login):
         work(name)
     with suppress(CannotTake, Misnamed):
@@ -176,7 +176,7 @@ STUB = "return position, velocity\n"
 
 
 def read_source(text: str) -> None:
-    """Do what is done with a program before it runs."""
+    """Read a program as the judge does before it runs."""
     find_bad_bytes(text.encode())
     name_type(text.encode())
     find_flaw(text)
@@ -200,7 +200,7 @@ def read_tokens(text: str) -> None:
 
 
 def find_comment(text: str) -> None:
-    """Look for the line of a comment, where it is as it was and where it has changed."""
+    """Look for the line of a comment, if it is unchanged and if it has changed."""
     for code in (text.partition("\n")[0], "something else"):
         comment = Comment("ann", "Why?", "a.py", 3, code, "pass", "x = 1")
         place_comment(comment, {"a.py": text.encode()})

@@ -1,4 +1,4 @@
-"""A grade holds no more memory than the security page says, by the kernel's own account of it.
+"""Measure by the kernel that a grade takes no more memory than the security page says.
 
 The page adds up what a child may have, what the kernel keeps for it and what the judge needs. Here
 a submission takes all of that, in a control group that ends whoever takes more.
@@ -57,7 +57,7 @@ while True:
 
 @contextmanager
 def group_with(megabytes: int) -> Iterator[Path]:
-    """A control group with so much memory, swap not counted; skips where none can be made."""
+    """Make a control group with a limit of memory without swap; skip the test if that fails."""
     group = (GROUPS if UNIFIED else GROUPS / "memory") / f"physics-grader-{os.getpid()}"
     try:
         group.mkdir()
@@ -78,7 +78,7 @@ def group_with(megabytes: int) -> Iterator[Path]:
 
 
 def killed_in(group: Path) -> int:
-    """How many processes of a group were ended for want of memory."""
+    """Return how many processes of a group the kernel ended for lack of memory."""
     told = group / ("memory.events" if UNIFIED else "memory.oom_control")
     return int(re.search(r"^oom_kill (\d+)$", told.read_text(), re.MULTILINE)[1])
 
@@ -93,7 +93,7 @@ def grade_in(group: Path, tree: Path, out: Path) -> None:
 
 
 def take_one_core() -> None:
-    """As many checks run at a time as there are cores, and each has the memory of one."""
+    """Use one core: as many checks run at a time as there are cores."""
     os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
 
 

@@ -1,4 +1,4 @@
-"""The judge's own mishaps: it is told to end, killed, or has nowhere to write."""
+"""Stop or kill the judge, or take away its place to write."""
 
 import os
 import signal
@@ -23,13 +23,13 @@ posix = pytest.mark.skipif(os.name == "nt", reason="signals and locks of POSIX")
 
 
 def hear_all_signals() -> None:
-    """What runs in the background, or under nohup, has some of them ignored from the start."""
+    """Undo that background processes and nohup ignore some signals."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
 
 
 def started(place: Path, *arguments: str) -> "subprocess.Popen[str]":
-    """A grade with a temporary folder of its own, when the submission lies there."""
+    """Start a grade with its own temporary folder, and wait until a child has been opened."""
     place.mkdir(exist_ok=True)
     process = subprocess.Popen(
         [sys.executable, "-m", "grader", "grade", *(arguments or ("solution",))],

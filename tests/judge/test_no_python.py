@@ -1,4 +1,4 @@
-"""Code that Python refuses costs its own TODO, or the program as a whole, and no other one."""
+"""Take points for code that Python refuses from its own TODO, or from the whole, alone."""
 
 import random
 import shutil
@@ -26,7 +26,7 @@ def take(tree: Path, copy: Path) -> Submission:
 
 
 def refused(tree: Path, copy: Path) -> tuple[set[str], set[str]]:
-    """Return the TODOs and programs in which something is no Python; check that the rest is."""
+    """Return the TODOs and programs with code that is no Python; check that the rest compiles."""
     taken = take(tree, copy)
     for path in copy.rglob("*.py"):
         compile(path.read_bytes(), path.name, "exec")

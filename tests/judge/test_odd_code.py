@@ -1,4 +1,4 @@
-"""Code that nobody wrote by hand costs its own points: no words about it stop a grade."""
+"""Grade generated code: finding words about it must not stop a grade."""
 
 import re
 import shutil

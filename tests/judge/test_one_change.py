@@ -1,4 +1,4 @@
-"""The line in which one small change mends a TODO is told, to who checks their own work."""
+"""Name the line in which one small change mends a TODO, in checks of one's own work."""
 
 import difflib
 from pathlib import Path
@@ -60,7 +60,7 @@ def test_the_line_is_told_to_who_checks_their_own_work_and_marks_stay(hand_in: H
 
 
 def tell_line(member: Member, tree: Path) -> tuple[int | None, set[int]]:
-    """Return the line that is told of a wrong member, and those that differ from the solution."""
+    """Return the line that the report names, and the lines that differ from the solution."""
     member.build(KIT, tree)
     (todo,) = member.todos
     told = [c for c in checked(tree, todo).checks if "look there" in c.meaning and c.where]

@@ -1,4 +1,4 @@
-"""One outer limit for a submission and the judge that reads it, measured from outside."""
+"""Limit a submission and the judge that reads it, measured from outside."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""No program of the bank runs twice, and what is remembered of one changes no result."""
+"""Remember programs that have passed, which changes no result."""
 
 import shutil
 from dataclasses import replace

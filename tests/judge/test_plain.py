@@ -1,4 +1,4 @@
-"""A file of a submission is what it was when it was looked at, or it is not read."""
+"""Read files of a submission only if they are no links, also when somebody swaps them."""
 
 import os
 from pathlib import Path
@@ -19,7 +19,7 @@ SECRET = "SECRET = 1\n"
 
 @pytest.fixture
 def tree(tmp_path: Path) -> Path:
-    """A submission, and a file and a folder outside of it."""
+    """Return a submission, beside a file and a folder outside of it."""
     for name in ("ann/integrators.py", "ann/mini_engine/__init__.py", "out/__init__.py"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(SECRET if name.startswith("out") else "mine = 1\n")

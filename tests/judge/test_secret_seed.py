@@ -1,4 +1,4 @@
-"""Under an instructor's secret seed nothing can be answered by heart."""
+"""Grade under a secret seed, where recorded answers earn nothing."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -38,7 +38,7 @@ def graded(seed: int | None, only: frozenset[str]) -> Result:
 
 
 def right_answers(only: frozenset[str], patch: pytest.MonkeyPatch) -> dict[Asked, Answered]:
-    """What the solution answers to the usual questions."""
+    """Return the solution's answers to the usual questions."""
     answers: dict[Asked, Answered] = {}
 
     def ask_and_note(child: Child, request: Request | Record) -> Answered:
@@ -105,7 +105,7 @@ Marks = list[tuple[str, int]]
 
 
 def marks_under(seed: int | None, member: Member, folder: Path) -> Marks:
-    """The points of each check of the mistake's TODO."""
+    """Return the points of each check of the mistake's TODO."""
     todo = member.name.partition("-")[0]
     options = Options(shipped_reference(), seed=seed, only=frozenset({todo}))
     result = grade(folder, options, shared_worker())

@@ -1,4 +1,4 @@
-"""How many checks run at a time changes no result."""
+"""Run several checks at a time, which changes no result."""
 
 import shutil
 from dataclasses import replace

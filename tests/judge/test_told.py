@@ -1,4 +1,4 @@
-"""Nothing that is told of a submission comes from a run in which the reference took part."""
+"""Report no words or numbers of a run in which the reference took part."""
 
 import shutil
 from collections import Counter
@@ -31,7 +31,7 @@ READS = """
 
 
 def telling(tree: Path, told: str) -> Path:
-    """The solution, but that circle_box tells by its depth whether the reference is there."""
+    """Return a solution whose circle_box reports by its depth whether the reference is there."""
     shutil.copytree(KIT / "solution", tree, ignore=shutil.ignore_patterns("notebooks"))
     path = tree / CONTACTS
     text = path.read_text(encoding="utf-8")
@@ -165,7 +165,7 @@ def test_the_function_that_is_asked_for_is_never_sent_along(tmp_path: Path, todo
 
 
 def given_lines() -> set[str]:
-    """Lines that tell nothing: they were handed out, or stand in more than one TODO."""
+    """Return lines that give nothing away: given ones, and those of more than one TODO."""
     rubric = load_rubric()
     sources = [each.source for each in Reference(shipped_reference(), rubric).pieces.values()]
     often = Counter(line.strip() for each in sources for line in set(each.splitlines()))

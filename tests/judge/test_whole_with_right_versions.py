@@ -1,4 +1,4 @@
-"""A mistake costs once: the program as a whole runs with right versions of what failed."""
+"""Run the whole program with right versions of failed TODOs, so that a mistake costs once."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""A check that is wrong itself is blamed, and not the submission."""
+"""Blame a check that is wrong itself, and not the submission."""
 
 from pathlib import Path
 from types import ModuleType
@@ -32,7 +32,7 @@ RIGHT = '(end,) = lab.integrate("rk4", (1.0, 0.0), 0.1, [0.0])'
 def graded(
     body: str, tree: Path, patched: pytest.MonkeyPatch, function: str = "integrators:rk4"
 ) -> str:
-    """The state of the check; the sentence where it is refused."""
+    """Return the state of the check, or the sentence that refuses it."""
     checks = ModuleType("checks")
     exec(HEAD + body, vars(checks))
     patched.setattr(jobs, "load_checks", lambda todo: checks)

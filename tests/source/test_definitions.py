@@ -1,4 +1,4 @@
-"""Which of a submission's files says how far a TODO is: the one whose function runs."""
+"""Find the function that runs among the files of a submission."""
 
 import shutil
 from pathlib import Path

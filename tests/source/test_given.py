@@ -1,4 +1,4 @@
-"""Given code that was changed: named for what it does, and put back by its name."""
+"""Find changed given code, name it in reasons, and put it back by its name."""
 
 from pathlib import Path
 from types import SimpleNamespace
@@ -149,7 +149,7 @@ def told(tree: Path, *todos: str, reference: Path | None = None) -> dict[str, li
 
 
 def passed(tree: Path, todo: str, reference: Path | None = None) -> list[CheckResult]:
-    """Return the checks of a TODO, all of which have passed, that say something all the same."""
+    """Return the checks of a TODO that has passed which have a sentence all the same."""
     options = Options(reference=reference, only=frozenset({todo}), trusted=True)
     (result,) = grade(tree, options, shared_worker()).todos
     assert result.state == "passed" and result.points == result.max_points
@@ -215,7 +215,7 @@ RIGHT = "    v = explicit_euler(x, v, dt, accel)[1]\n    return x + v * dt, v"
 
 
 def integrators(tree: Path, region: str, given: str) -> None:
-    """Return TODO 8a with a region that calls given code, which is another one."""
+    """Write TODO 8a so that it calls changed given code."""
     path = tree / "integrators.py"
     text = path.read_text(encoding="utf-8").replace(EULER, given, 1)
     path.write_text(replace_regions(text, {"8a": tuple(region.splitlines())}), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Lines of a TODO's region that look wrong, and what never runs there."""
+"""Find lines of a TODO's region that look wrong, or never run."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The markers that both trees, the bank and the judge live by."""
+"""Read the markers of TODO regions, which both trees, the bank and the judge use."""
 
 from pathlib import Path
 
