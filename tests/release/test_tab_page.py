@@ -20,7 +20,7 @@ from typing import Any
 
 import msgspec
 import pytest
-from command_line import run_grader
+from command_line import start_grader
 from firefox import Firefox, firefox
 from msgspec.structs import replace
 from page_readers import PATIENCE
@@ -218,7 +218,7 @@ def asked(has_pymunk: bool) -> dict[str, str]:
 def list_passed(zipped: Path) -> set[str]:
     """Grade a submission as an instructor; return the TODOs that pass."""
     out = zipped.with_suffix(".json")
-    run_grader("grade", zipped, "--json", out)
+    start_grader("grade", zipped, "--json", out)
     result = msgspec.json.decode(out.read_bytes(), type=Result)
     return {todo.id for todo in result.todos if todo.state == "passed"}
 
