@@ -154,37 +154,36 @@ class Translator:
     def _assign(self, value: Value, code: str, target: str = "") -> str:
         """Assign the result of the code to a name if it is a new object."""
         match value:
-            case BodyValue(ref=ref) | SpaceBody(ref=ref) if ref not in self.names:
-                return f"{self._name_new(ref, 'body')} = {code}"
-            case ContactValue(ref=ref) if ref not in self.names:
-                return f"{self._name_new(ref, 'contact')} = {code}"
-            case SpaceValue(ref=ref) if ref not in self.names:
-                name = self._name_new(ref, "space")
-                self._name_contents(value, name)
-                return f"{name} = {code}"
-            case Ref(id=ref, kind=kind) if ref not in self.names:
-                name = self._name_new(ref, "rod" if "joint" in kind.lower() else "thing")
-                return f"{name} = {code}"
+            case None if target.rpartition(":")[2] in FINDERS:
+                name = "contact"
             case Items(items) if any(isinstance(each, SpaceValue) for each in items):
-                parts = [self._name_part(each) for each in items]
-                return f"{', '.join(parts)} = {code}"
+                name = ", ".join(
+                    (isinstance(each, SpaceValue) and self._name_value(each)) or "_"
+                    for each in items
+                )
+            case _:
+                name = self._name_value(value)
+        return f"{name} = {code}" if name else code
+
+    def _name_value(self, value: Value) -> str:
+        """Name an object, and the bodies in a space; return the name if it is new."""
+        match value:
+            case BodyValue(ref=ref) | SpaceBody(ref=ref):
+                kind = "body"
+            case ContactValue(ref=ref):
+                kind = "contact"
             case SpaceValue(ref=ref):
-                self._name_contents(value, self.names[ref])
-        if value is None and target.rpartition(":")[2] in FINDERS:
-            return f"contact = {code}"
-        return code
-
-    def _name_part(self, value: Value) -> str:
-        if not isinstance(value, SpaceValue):
-            return "_"
-        name = self._name_new(value.ref, "space")
-        self._name_contents(value, name)
-        return name
-
-    def _name_contents(self, space: SpaceValue, name: str) -> None:
-        for number, body in enumerate(space.bodies):
+                kind = "space"
+            case Ref(id=ref, kind=type_name):
+                kind = "rod" if "joint" in type_name.lower() else "thing"
+            case _:
+                return ""
+        is_new = ref not in self.names
+        name = self._name_new(ref, kind) if is_new else self.names[ref]
+        for number, body in enumerate(value.bodies if isinstance(value, SpaceValue) else ()):
             place = f"list({name}.bodies)[{number - 1}]" if number else f"{name}.static_body"
             self.names.setdefault(body.ref, place)
+        return name if is_new else ""
 
     def _write_target(self, target: str) -> str:
         if target.startswith("#"):
