@@ -357,27 +357,21 @@ def summarize(report: Report) -> Iterator[str]:
 
     A ladder counts as one, whatever the number of its rungs.
     """
-    rungs = [each for each in report.verdicts if each.is_rung]
-    counted = [(each.member.kind, each.complaint) for each in report.verdicts if not each.is_rung]
-    counted += [("ladder", each.complaint) for each in rungs if each.result is None]
-    counted += [("ladder", each.complaint) for each in report.ladders]
-    for kind, count in Count(kind for kind, _ in counted).items():
-        bad = sum(bool(complaint) for each, complaint in counted if each == kind)
-        yield f"{kind}: {count}, of which {bad} with a complaint"
-    named = Count(
-        each.member.compare_name(each.result)
-        for each in report.verdicts
-        if each.member.kind == "wrong" and each.result is not None
-    )
-    yield (
-        f"mistakes named rightly: {named['right']}, not named: {named['none']}, "
-        f"named wrongly: {named['wrong']}"
-    )
-    count, earlier = len(report.verdicts), sum(each.earlier for each in report.verdicts)
+    judged = [(v.member.kind, v.complaint) for v in report.verdicts if not v.is_rung]
+    judged += [("ladder", v.complaint) for v in report.verdicts if v.is_rung and v.complaint]
+    judged += [("ladder", ladder.complaint) for ladder in report.ladders]
+    bad = Count(kind for kind, complaint in judged if complaint)
+    for kind, count in Count(kind for kind, _ in judged).items():
+        yield f"{kind}: {count}, of which {bad[kind]} with a complaint"
+    wrong = [v for v in report.verdicts if v.member.kind == "wrong"]
+    named = Count(v.member.compare_name(v.result) for v in wrong if v.result is not None)
+    right, none = named["right"], named["none"]
+    yield f"mistakes named rightly: {right}, not named: {none}, named wrongly: {named['wrong']}"
+    count, earlier = len(report.verdicts), sum(v.earlier for v in report.verdicts)
     yield f"{count} members: {count - earlier} graded now, {earlier} taken from an earlier run"
     if report.halfway:
-        helped = sum(not each.complaint for each in report.halfway)
-        again = sum(each.earlier for each in report.halfway)
+        helped = sum(not state.complaint for state in report.halfway)
+        again = sum(state.earlier for state in report.halfway)
         yield (
             f"half-way states: {len(report.halfway)}, told what is wrong: {helped}; "
             f"{again} taken from an earlier run"

@@ -1,4 +1,4 @@
-// A purse of time: frames put in what they took, steps take out 1/120 s.
+// The accumulator: each frame adds its time, and each step takes 1/120 s away.
 "use strict";
 
 touch.figure("accumulator", (figure) => {
@@ -20,7 +20,7 @@ touch.figure("accumulator", (figure) => {
     for (const [words, y] of [["frame", 30], ["counted", 66], ["steps", 130], ["waiting", 226]]) {
       figure.text(4, y, words, { bold: true });
     }
-    const frames = laws.purse(length.value, many);
+    const frames = laws.runFrames(length.value, many);
     frames.forEach(({ counted, steps, waiting }, n) => {
       const x = left + n * room;
       figure.rect(x, 16, ms(length.value), 20, "pale", "grey");

@@ -33,7 +33,7 @@ const laws = {
   damped: (rate, seconds) => Math.exp(-rate * seconds),
 
   /** Frames of a length in ms, each counted up to the cap: steps they pay for, ms that wait. */
-  purse(frame, frames) {
+  runFrames(frame, frames) {
     const step = 1000 * laws.STEP;
     const counted = Math.min(frame, laws.MAX_STEPS * step);
     const paid = (n) => Math.floor((n * counted) / step + 1e-9);

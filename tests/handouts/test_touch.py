@@ -110,10 +110,10 @@ class Counted:
 
 
 @pytest.mark.soak
-def test_the_purse_is_that_of_the_reference(screen: Screen) -> None:
+def test_frames_run_the_steps_of_the_reference(screen: Screen) -> None:
     lengths = [4 + 0.25 * n for n in range(POINTS)]  # ms
     for length, frames in zip(
-        lengths, computed(screen, "laws.purse", [[each, 10] for each in lengths]), strict=True
+        lengths, computed(screen, "laws.runFrames", [[each, 10] for each in lengths]), strict=True
     ):
         rest, paid, seconds = 0.0, 0, 0.0
         for frame in frames:
