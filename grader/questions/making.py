@@ -105,7 +105,6 @@ class Making:
             return
         write_whole(make_page(sheet, title, "sheet").encode(), self.out / "sheets" / f"{name}.html")
         write_whole(make_page(sheet, title, "key").encode(), self.out / "keys" / f"{name}.html")
-        write_whole(write_moodle([sheet], title), self.out / "moodle" / f"{name}.xml")
         key = msgspec.json.format(msgspec.json.encode(sheet))
         write_whole(key + b"\n", self.out / "keys" / f"{name}.json")
 
