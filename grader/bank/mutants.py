@@ -109,15 +109,10 @@ def split_lines(code: str) -> list[str]:
     return re.split(r"\n|(?<=\)), (?=\()", code)
 
 
-def choose_mutants(todos: Collection[str] = (), operators: Collection[str] = ()) -> list[Mutant]:
-    """Return the mutants of these TODOs and operators; of all where none is named."""
-    return [
-        each
-        for todo in load_rubric().todos
-        if todo.function and (not todos or todo.id in todos)
-        for each in mutants_of(todo.id)
-        if not operators or each.operator in operators
-    ]
+def list_mutants(todos: Collection[str] = ()) -> list[Mutant]:
+    """List the mutants of these TODOs, or of all where none is named."""
+    named = [todo.id for todo in load_rubric().todos if todo.function]
+    return [each for id in named if not todos or id in todos for each in mutants_of(id)]
 
 
 # ---------------------------------------------------------------- the ones that change nothing

@@ -14,7 +14,6 @@ from grader.cli.shared import (
     require_checkout,
     require_folder_target,
 )
-from grader.errors import Stop
 from grader.judge.course import read_course
 from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric
@@ -120,9 +119,6 @@ def mutants_command(
     seed: Annotated[int, typer.Option(help="Chooses which.")] = 1,
     jobs: MembersAtATime = 0,
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
-    operator: Annotated[
-        list[str] | None, typer.Option(help="Only this kind of change; may be repeated.")
-    ] = None,
     alone: Annotated[
         bool, typer.Option("--alone", help="A mutant's own TODO only, and no names: much faster.")
     ] = False,
@@ -137,14 +133,9 @@ def mutants_command(
     One with the same results is listed, with its reason, in grader/bank/equivalent.toml.
     """
     require_checkout("mutants")
-    from grader.bank.mutants import choose_mutants, run_mutants
+    from grader.bank.mutants import list_mutants, run_mutants
 
-    todos = check_todos(todo)
-    operators = sorted({mutant.operator for mutant in choose_mutants()})
-    for name in operator or ():
-        if name not in operators:
-            raise Stop(f"there is no operator {name}; there are {', '.join(operators)}")
-    mutants = choose_mutants(todos, operator or ())
+    mutants = list_mutants(check_todos(todo))
     if count:
         mutants = random.Random(seed).sample(mutants, min(count, len(mutants)))
     outcomes = run_mutants(mutants, jobs, console, alone)
