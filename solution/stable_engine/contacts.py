@@ -115,8 +115,10 @@ class Contacts(Effect):
         phase.renew(self.world.g, held, dt, self.last_dt if self.lets_none_pass else 0.0, margin)
         if self.ignored:
             phase.pairs = [p for p in phase.pairs if pair_number(p.a, p.b) not in self.ignored]
-        self.near = [one.body for one in phase.moving if one.near]
-        self.alone = [one.body for one in phase.moving if not one.near]
+        self.near.clear()
+        self.alone.clear()
+        for one in phase.moving:
+            (self.near if one.near else self.alone).append(one.body)
         self.beside_static = list(dict.fromkeys([p.a for p in phase.pairs if not p.b.inv_mass]))
         for c in self.touching:
             self.unpaired[pair_number(c.a, c.b)] = c

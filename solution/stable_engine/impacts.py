@@ -100,8 +100,7 @@ class Impacts:
         due, done = self.due, set[Contact]()
         for c, impact in due.items():
             if self.is_alone(c):
-                self.due = {c: impact}
-                self.resolve_first(law, {})
+                self.resolve_alone(law, c, impact.ago)
             elif c not in done:
                 island = self.contacts_from(c)
                 done.update(island)
@@ -111,9 +110,20 @@ class Impacts:
     def is_alone(self, c: Contact) -> bool:
         """Return whether an impact reaches no other contact."""
         for body in (c.a, c.b):
-            if body in self.frame_of or len(self.beside.get(body, [])) > 1:
+            if body in self.frame_of or (body in self.beside and len(self.beside[body]) > 1):
                 return False
         return True
+
+    def resolve_alone(self, law: Law, c: Contact, ago: float) -> None:
+        """Resolve an impact so long (s) ago that reaches no other contact."""
+        hit = [c.a] if c.b.is_static else [c.a, c.b]
+        turns_back = ago > 0 and self.free.issuperset(hit)
+        if turns_back:
+            self.fly_on(hit, -ago)
+        self.resolve([c], law, [])
+        if turns_back:
+            self.fly_on(hit, ago)
+            c.nx, c.ny, c.gap = collide(c.a, c.b)
 
     def contacts_from(self, c: Contact) -> list[Contact]:
         """Return the contacts that an impact of this one may reach, over balls and rods."""
@@ -173,7 +183,9 @@ class Impacts:
                 if share < 1:
                     share = max(share - BEFORE * body.r / hypot(x, y), 0.0)
                     self.free.discard(body)
-            fly([body], share * seconds)
+            body.x += body.vx * share * seconds
+            body.y += body.vy * share * seconds
+            body.angle += body.w * share * seconds
 
     def look_around(self, hit: list[Body], moved: bool) -> None:
         """Look anew at all contacts of balls that were hit."""
@@ -191,8 +203,11 @@ class Impacts:
                     self.beside.setdefault(body, []).append(c)
         held = {c.a for c in self.touching if c.b.is_static}
         stopped = self.contacts.was_stopped
-        held |= {body for body in self.beside if body in self.frame_of or stopped(body)}
-        self.free = self.beside.keys() - held
+        self.free = {
+            body
+            for body in self.beside
+            if not (body in held or body in self.frame_of or stopped(body))
+        }
 
     def take_first(self) -> tuple[list[Contact], float]:
         """Return the earliest contacts, of these the hardest, and how long (s) ago they touched."""
@@ -339,11 +354,3 @@ def passes_for(count: int, frames: list[Frame]) -> int:
 def balls_of(group: list[Contact]) -> list[Body]:
     """Return the balls of contacts, each once."""
     return list(dict.fromkeys([b for c in group for b in (c.a, c.b) if not b.is_static]))
-
-
-def fly(bodies: list[Body], seconds: float) -> None:
-    """Have bodies fly straight on for a time, or back."""
-    for body in bodies:
-        body.x += body.vx * seconds
-        body.y += body.vy * seconds
-        body.angle += body.w * seconds
