@@ -105,7 +105,7 @@ def connect(address: str, options: Options) -> Iterator[Cluster]:
 
 
 def find_scheduler(address: str) -> None:
-    """Stop unless a scheduler answers; a client without one waits for a minute."""
+    """Stop unless a scheduler answers: Dask's own client may wait for many minutes."""
     from distributed import Security, rpc
 
     async def ask() -> None:

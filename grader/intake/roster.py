@@ -129,9 +129,7 @@ class ClassList:
         self.groups: dict[str, list[str]] = {}  # students, by the group's name
         self.times: dict[str, datetime] = {}  # of handing in, without a zone, where the list has it
         self.full_names: dict[str, str] = {}  # as lists have them, by the names of results
-        self.chosen: list[
-            tuple[str, str]
-        ] = []  # students, and the work that a person says is theirs
+        self.chosen: list[tuple[str, str]] = []  # students, and the work chosen for them
         self.participants: dict[str, str] = {}  # what Moodle calls students in names of files
         self._students: dict[tuple[str, str], set[str]] = {}  # by column and spelling
         self._columns = set(roster.columns) if roster else set()
