@@ -37,8 +37,7 @@ class Bounce(Effect):
     def impact(self, h: float) -> None:
         self.slow = self.slow_speed(h * self.world.substep_count)
         touching, slow = self.contacts.touching, self.slow
-        fastest = max([abs(c.closing_speed()) for c in touching], default=0)
-        if fastest <= slow and not self.contacts.begun:
+        if not self.contacts.begun and all(abs(c.closing_speed()) <= slow for c in touching):
             return
         self.h = h
         impacts = Impacts(self.contacts, self.rods, slow)

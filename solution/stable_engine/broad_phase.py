@@ -174,6 +174,7 @@ class BroadPhase:
         lanes: list[list[Bounds]] = [[] for _ in range(count)]
         per_px = count / (bottom - top)
         pairs: list[Pair] = []
+        spare = self.pairs
         for one in self.bounds:
             low, side_low, side_high = one.low, one.side_low, one.side_high
             if low >= right:
@@ -194,8 +195,15 @@ class BroadPhase:
                         and (lane is first_lane or lane is other.first_lane)
                     ):
                         b = other.body
-                        if not (a.idle and b.idle):
-                            one.near = other.near = True
+                        if a.idle and b.idle:
+                            continue
+                        one.near = other.near = True
+                        if spare:  # used again: that costs less than a new one
+                            pair = spare.pop()
+                            pair.a, pair.b = (a, b) if a.id > b.id else (b, a)
+                            pair.contact = None
+                            pairs.append(pair)
+                        else:
                             pairs.append(Pair(a, b) if a.id > b.id else Pair(b, a))
                 lane.append(one)
         return pairs
