@@ -80,7 +80,7 @@ def film_without_end(folder: Path) -> None:
 
 def answer_by_the_megabyte(folder: Path) -> None:
     found = {each.name: each for each in attacks(KIT / "tests" / "bank")}
-    write(folder, "\n".join(found["answers-by-the-megabyte"].regions["8a"]))
+    found["answers-by-the-megabyte"].build(KIT, folder)
 
 
 def resemble_everything(folder: Path) -> None:
