@@ -82,14 +82,21 @@ class Impacts:
             self.due[c] = Impact(ago, speed)
 
     def turn_back(self, c: Contact) -> float:
-        """Turn a contact's normal to where it was when the two touched. Return how long (s) ago."""
-        if self.last_dt <= 0:
+        """Turn a contact's normal to where it was when the two touched. Return how long (s) ago.
+
+        A ball that swings fast has not flown straight: its normal stays.
+        """
+        if self.last_dt <= 0 or self.swings(c.a) or self.swings(c.b):
             return 0.0
         ago, nx, ny = moment_of_touch(c.a, c.b, self.flown.get(c.a, self.last_dt))
         if ago > 0 and (nx, ny) != (c.nx, c.ny):
             c.nx, c.ny = nx, ny
             c.gap = -c.closing_speed() * ago
         return ago
+
+    def swings(self, body: Body) -> bool:
+        """Return whether a ball is so fast on a rod that it may not have flown straight."""
+        return body in self.frame_of and hypot(body.vx, body.vy) * self.last_dt > body.r
 
     def resolve_all(self, law: Law) -> None:
         """Resolve the impacts that are due, and those they lead to.

@@ -4,6 +4,7 @@ from math import hypot, sqrt
 
 from .body import Body
 from .contacts import Contacts
+from .effect import WorldState
 from .joint import Joint, Joints
 from .network import Network, connect
 from .soft import SAME_DIRECTION, Pace, softness
@@ -13,32 +14,41 @@ FREQUENCY = 0.25  # of a rod, per substep
 DAMPING_RATIO = 5.0
 STIFFENING = 0.02  # of a substep, per step
 PASSES = 6  # of Newton's method: a length is no linear function of the speeds
-NEAR = 1e-5  # share of a length; a pass that begins so near is the last
+NEAR = 1e-6  # share of a length; a pass that begins so near is the last
 EXACT = 1e-10  # share of a length, at which the passes end
+SLOW = 0.03  # share of an error that a pass may leave; more tells of rods that turn too far
+TURNED = 0.97  # cosine of what a rod may turn by in a substep or part
+TORN = 0.02  # share of a length; a rod that is further off is torn
 LOOSE = 0.003  # share of a length; if the last pass is off by more, it is soft
 GUARDED = 0.9  # cosine; where a rod turns further in a substep, none may gain energy
-TURNED = 0.8  # cosine of what a rod may turn by in a substep
+LOST = 0.8  # cosine; where a rod turns further in a substep, Newton's method gets lost
+SOON = 8.0  # substeps in which a ball may turn and get faster
+PARTS = 4  # into which a substep is cut at first
+MOST_PARTS = 64
 FIRM = 1 + 1e-9  # times a pivot: where there are more rods than needed, a matrix has no inverse
 ROUNDING = 1e-9  # share of a length
+
+Velocity = tuple[float, float]
 
 
 class Rod(Joint):
     """A rigid rod that keeps the distance a and b start with. It pulls and pushes."""
 
-    __slots__ = ("j",)
+    __slots__ = ("given", "j")
     effect = "Rods"
 
     def __init__(self, a: Body, b: Body) -> None:
         super().__init__(a, b)
         self.fitting(self.rest)
-        self.j = 0.0  # kg px/s, accumulated impulse, positive when it pushes
+        self.j = 0.0  # kg px/s, accumulated impulse before the move, positive when it pushes
+        self.given = 0.0  # kg px/s, with the impulse after the move
 
     @property
     def impulse(self) -> float:
         """Return the impulse (kg px/s) of the latest substep: positive if it pushes, negative if it
         pulls. Divide it by the length of a substep for the force.
         """
-        return self.j
+        return self.given
 
     def fitting(self, length: float) -> float:
         found = super().fitting(length)
@@ -52,10 +62,10 @@ class Rods(Joints[Rod]):
     With the speed along the axis alone, a swinging rod would stretch in every move. relax works
     along the axis after the move: along the one before, a pendulum would lose energy.
 
-    An error of length that is there is taken back softly. Where a rod of a frame turns far in one
-    substep, the speeds of its balls are scaled, so that rods do no work. Where it turns even
-    further, all are soft, and may take energy. If its ends would pass each other, use the speed
-    along the present axis; the direction after the move would drive them on.
+    Where a rod of a frame turns far in a substep, or light balls between heavy ones are thrown
+    about, the frame takes the substep in parts. An error of length that is there is taken back
+    softly. If its ends would pass each other, use the speed along the present axis; the direction
+    after the move would drive them on.
     """
 
     rank = 2
@@ -106,7 +116,7 @@ class Rods(Joints[Rod]):
         """Find the rods that balls connect, if there are others than before."""
         if self.is_stale:
             self.is_stale = False
-            self.frames = [Frame(network) for network in connect(self.awake)]
+            self.frames = [Frame(network, self.world) for network in connect(self.awake)]
             self.frame_of = {ball: frame for frame in self.frames for ball in frame.balls}
 
     def warm_start(self, h: float) -> None:
@@ -127,30 +137,205 @@ class Rods(Joints[Rod]):
 class Frame:
     """Rods that balls connect."""
 
-    def __init__(self, network: Network[Rod]) -> None:
+    def __init__(self, network: Network[Rod], world: WorldState) -> None:
+        self.world = world
         self.network = network
         self.rods = network.joints
         ends = dict.fromkeys([body for rod in self.rods for body in (rod.end_a, rod.end_b)])
         self.balls = [body for body in ends if not body.is_static]
+        self.ends = list(ends)
         self.hangs = len(self.balls) < len(ends)
         self.most = -1.0  # kg px²/s², the energy that it may have, or -1 for any
         self.lost = 0.0  # kg px²/s², what it has lost while it turned fast, and may gain again
         self.work = 0.0  # kg px²/s², that its rods have done in this substep, if they are firm
         self.is_off = False  # whether a rod was torn or hit before this substep
         self.gave_way = False  # whether its rods may take energy in this substep
+        # the velocities (px/s) of a substep in parts, during the move and after it
+        self.later: list[tuple[Body, Velocity, Velocity]] = []
 
     def keep_lengths(self, h: float, bias: float, soft: float) -> None:
-        """Choose velocities with which all rods have their lengths after the move (SHAKE).
+        """Choose velocities with which all rods have their lengths after the move.
 
         bias is the share per second of an error of length that is taken back, soft by how much
-        more a rod gives way where it turns too far in a substep for Newton's method.
+        more a rod gives way where a substep cannot be cut finely enough.
+        """
+        if self.find_impulses(h, bias):
+            return
+        if not (self.is_whole() and self.is_free(h) and self.go_in_parts(h, bias)):
+            self.give_way(h, bias, soft)
+
+    def find_impulses(self, h: float, bias: float, slow: float = SLOW) -> bool:
+        """Find the impulses with which all rods keep their length in a move of h seconds (SHAKE).
+
+        Return whether there are any: Newton's method fails where rods turn too far. A pass may
+        leave the share slow of the error.
+        """
+        last = 0.0
+        before = [rod.j for rod in self.rods]
+        for left in range(PASSES - 1, -1, -1):
+            off, turned = self.look_ahead(h, bias)
+            if off <= EXACT:
+                return True
+            if turned < TURNED or left == 0 or (last and off > slow * last):
+                break
+            self.apply()
+            for rod in self.rods:
+                rod.j += rod.rhs
+            if off < NEAR:
+                return True
+            last = off
+        for rod, j in zip(self.rods, before, strict=True):
+            rod.apply_impulse(j - rod.j)
+            rod.j = j
+        return False
+
+    def go_in_parts(self, h: float, bias: float) -> bool:
+        """Cut a substep into parts so short that each rod turns only a little in one of them.
+
+        The balls get the velocities that take them to where they are then. In relax they get those
+        that they have then, unless a contact was in the way. Return whether the parts are short
+        enough; else nothing is changed.
+        """
+        before = [(ball, (ball.x, ball.y), (ball.vx, ball.vy)) for ball in self.balls]
+        impulses = [rod.j for rod in self.rods]
+        for rod in self.rods:
+            rod.apply_impulse(-rod.j)
+            rod.j = 0.0
+        self.fall(-h / 2)
+        self.hold()
+        energy = self.energy(*self.velocity()) - self.fallen()
+        count, done = PARTS, 0  # of equal parts, how many are done
+        while done < count <= MOST_PARTS:
+            part = h / count
+            self.fall(part / 2)
+            if not self.find_impulses(part, bias, SLOW if count < MOST_PARTS else 1.0):
+                self.fall(-part / 2)
+                count, done = 2 * count, 2 * done
+                continue
+            for ball in self.balls:
+                ball.x += ball.vx * part
+                ball.y += ball.vy * part
+            self.fall(part / 2)
+            self.hold()
+            for rod in self.rods:
+                rod.j += rod.rhs
+            self.scale_speeds(energy + self.fallen())
+            done += 1
+        self.fall(-h / 2)
+        for ball, (x, y), velocity in before:
+            if count <= MOST_PARTS:
+                velocity = (ball.x - x) / h, (ball.y - y) / h
+                self.later.append((ball, velocity, (ball.vx, ball.vy)))
+            ball.x, ball.y = x, y
+            ball.vx, ball.vy = velocity
+        if count > MOST_PARTS:
+            for rod, j in zip(self.rods, impulses, strict=True):
+                rod.j = j
+                rod.measure()
+        return count <= MOST_PARTS
+
+    def fall(self, seconds: float) -> None:
+        """Give the balls the speed of so long a fall."""
+        gx, gy = self.world.g
+        for ball in self.balls:
+            ball.vx += gx * seconds
+            ball.vy += gy * seconds
+
+    def velocity(self) -> tuple[float, float]:
+        """Return the velocity (px/s) of the whole frame, 0 where it hangs on something static."""
+        if self.hangs:
+            return 0.0, 0.0
+        mass = sum([ball.m for ball in self.balls])
+        momentum_x = sum([ball.m * ball.vx for ball in self.balls])
+        return momentum_x / mass, sum([ball.m * ball.vy for ball in self.balls]) / mass
+
+    def fallen(self) -> float:
+        """Return twice the energy (kg px²/s²) that gravity has given, but for a constant."""
+        gx, gy = self.world.g
+        return 2 * sum([b.m * (gx * b.x + gy * b.y) for b in self.balls]) if self.hangs else 0.0
+
+    def scale_speeds(self, wanted: float) -> None:
+        """Scale the speeds of the balls as seen from the whole to twice an energy (kg px²/s²)."""
+        vx, vy = self.velocity()
+        energy = self.energy(vx, vy)
+        if energy > 0 and wanted != energy:
+            share = sqrt(max(wanted, 0.0) / energy)
+            for ball in self.balls:
+                ball.vx = vx + (ball.vx - vx) * share
+                ball.vy = vy + (ball.vy - vy) * share
+
+    def energy(self, vx: float, vy: float) -> float:
+        """Return twice the energy (kg px²/s²) of the balls, seen at a velocity."""
+        return sum([b.m * ((b.vx - vx) ** 2 + (b.vy - vy) ** 2) for b in self.balls])
+
+    def energy_before(self, h: float) -> float:
+        """Return the energy that the balls had before the rods acted in this substep.
+
+        Find out as well whether any rod is off its length, or would be without impulses: one that
+        was torn or hit takes energy.
+        """
+        self.is_off = False
+        for rod in self.rods:
+            rod.apply_impulse(-rod.j)
+        for rod in self.rods:
+            off = abs(rod.distance - rod.rest) + abs(rod.speed()) * h
+            self.is_off = self.is_off or off > LOOSE * rod.rest
+        energy = self.energy(*self.velocity())
+        for rod in self.rods:
+            rod.apply_impulse(rod.j)
+        return energy
+
+    def keep_energy(self) -> None:
+        """Have rods do no work in a substep in which they were soft.
+
+        Some may take energy, see energy_before. The balls never get more than they had.
+        """
+        energy = self.energy(*self.velocity())
+        most = self.most + self.lost
+        wanted = min(energy if self.gave_way else max(-self.work, 0.0), most)
+        self.lost = most - wanted
+        self.scale_speeds(wanted)
+        self.most = -1.0
+
+    def is_whole(self) -> bool:
+        """Return whether all rods have about their lengths."""
+        return all([abs(rod.distance - rod.rest) < TORN * rod.rest for rod in self.rods])
+
+    def is_free(self, h: float) -> bool:
+        """Return whether nothing is in the way of the balls, and nothing carries the frame along.
+
+        Contacts are not solved within parts of a substep.
+        """
+        if any([body.is_kinematic for body in self.ends]):
+            return False
+        contacts = self.world.effects.get("Contacts")
+        if not isinstance(contacts, Contacts):
+            return True
+        touched = {body for c in contacts.touching for body in (c.a, c.b)}
+        return touched.isdisjoint(self.balls) and not any([self.is_near(b, h) for b in self.balls])
+
+    def is_near(self, ball: Body, h: float) -> bool:
+        """Return whether a ball may soon come to a static body that the frame does not hang on."""
+        far = SOON * h * hypot(ball.vx, ball.vy) + ball.r
+        return any(
+            [
+                abs(s.x - ball.x) < s.hx + far and abs(s.y - ball.y) < s.hy + far
+                for s in self.world.statics
+                if s not in self.ends
+            ]
+        )
+
+    def give_way(self, h: float, bias: float, soft: float) -> None:
+        """Choose velocities for a frame that is torn, or in touch and turns far in a substep.
+
+        It is soft where it turns too far for Newton's method, and its rods do no work.
         """
         is_soft = False
         for left in range(PASSES - 1, -1, -1):
             off, turned = self.look_ahead(h, bias)
             if off <= EXACT:
                 break
-            is_soft = turned < TURNED or (left == 0 and off > LOOSE)
+            is_soft = turned < LOST or (left == 0 and off > LOOSE)
             if self.most < 0 and (is_soft or turned < GUARDED):
                 self.most = self.energy_before(h)
             if is_soft:
@@ -179,7 +364,7 @@ class Frame:
             turn = ahead / distance if distance else -1.0  # a cosine
             speed = (distance - rod.distance) / h if ahead > 0 else rod.speed()
             speed += bias * (rod.distance - rod.rest)
-            rod.pivot, rod.rhs = FIRM / rod.m, -speed / turn if turn > TURNED else -speed
+            rod.pivot, rod.rhs = FIRM / rod.m, -speed / turn if turn > LOST else -speed
             off = max(off, abs(speed) * h / rod.rest)
             turned = min(turned, turn)
         return off, turned
@@ -191,7 +376,7 @@ class Frame:
             rod.apply_impulse(rod.rhs)
 
     def hold(self) -> None:
-        """Pass an impact on: take from the balls all speed along the rods."""
+        """Take from the balls all speed along the rods, at this instant."""
         for rod in self.rods:
             rod.measure()
             rod.pivot, rod.rhs = FIRM / rod.m, -rod.speed()
@@ -199,8 +384,12 @@ class Frame:
 
     def take_back_stretching(self) -> None:
         """Take from the balls all speed along the rods, where these are now (RATTLE)."""
+        if self.later and all([(b.vx, b.vy) == way for b, way, _ in self.later]):
+            for body, _, velocity in self.later:
+                body.vx, body.vy = velocity
+        self.later = []
         for rod in self.rods:
-            nx, ny = rod.nx, rod.ny
+            nx, ny, rod.given = rod.nx, rod.ny, rod.j
             rod.measure()
             if nx * rod.nx + ny * rod.ny < SAME_DIRECTION:
                 rod.j = 0.0
@@ -208,56 +397,12 @@ class Frame:
         if self.most < 0:
             self.apply()
             self.lost = 0.0
-            return
-        self.work -= self.energy(*self.velocity())
-        self.apply()
-        self.keep_energy()
-
-    def energy_before(self, h: float) -> float:
-        """Return the energy that the balls had before the rods acted in this substep.
-
-        Find out as well whether any rod is off its length, or would be without impulses: one that
-        was torn or hit takes energy.
-        """
-        self.is_off = False
+        else:
+            self.work -= self.energy(*self.velocity())
+            self.apply()
+            self.keep_energy()
         for rod in self.rods:
-            rod.apply_impulse(-rod.j)
-        for rod in self.rods:
-            off = abs(rod.distance - rod.rest) + abs(rod.speed()) * h
-            self.is_off = self.is_off or off > LOOSE * rod.rest
-        energy = self.energy(*self.velocity())
-        for rod in self.rods:
-            rod.apply_impulse(rod.j)
-        return energy
-
-    def velocity(self) -> tuple[float, float]:
-        """Return the velocity (px/s) of the whole frame, 0 where it hangs on something static."""
-        if self.hangs:
-            return 0.0, 0.0
-        mass = sum([ball.m for ball in self.balls])
-        momentum_x = sum([ball.m * ball.vx for ball in self.balls])
-        return momentum_x / mass, sum([ball.m * ball.vy for ball in self.balls]) / mass
-
-    def energy(self, vx: float, vy: float) -> float:
-        """Return twice the energy (kg px²/s²) of the balls, seen at a velocity."""
-        return sum([b.m * ((b.vx - vx) ** 2 + (b.vy - vy) ** 2) for b in self.balls])
-
-    def keep_energy(self) -> None:
-        """Scale the speeds of the balls as seen from the whole, so that rods do no work.
-
-        Some may take energy, see energy_before. The balls never get more than they had.
-        """
-        vx, vy = self.velocity()
-        energy = self.energy(vx, vy)
-        most = self.most + self.lost
-        wanted = min(energy if self.gave_way else max(-self.work, 0.0), most)
-        self.lost = most - wanted
-        if energy > 0 and wanted != energy:
-            share = sqrt(wanted / energy)
-            for ball in self.balls:
-                ball.vx = vx + (ball.vx - vx) * share
-                ball.vy = vy + (ball.vy - vy) * share
-        self.most = -1.0
+            rod.given += rod.rhs
 
 
 def may_touch(rod: Rod) -> bool:

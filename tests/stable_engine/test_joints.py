@@ -47,6 +47,48 @@ def test_a_whip_keeps_its_energy(length):
     assert energy_error(swinging(40, length), 5) < 0.03
 
 
+def test_a_light_ball_between_two_rods_takes_no_energy():
+    scene = swinging(2, 100.0)
+    scene.bodies[1].mass = 0.01
+    assert energy_error(scene, 20) < 0.01
+    scene.bodies[1].mass = 0.001
+    engine = Stable(scene)
+    assert max(watch(engine, 5, lambda: worst_stretch(engine))) < 0.5
+
+
+def test_a_chain_keeps_its_energy_with_a_heavy_ball_at_its_end():
+    engine = Stable(chain(10, (20.0, 0.0), bob=100.0))
+    start = energy(engine, DT)
+    seen = watch(engine, 5, lambda: abs(energy(engine, DT) - start))
+    assert max(seen) < 0.01 * 100 * G * 200
+    assert worst_stretch(engine) < 0.5
+
+
+@pytest.mark.parametrize("fast", [300.0, 3000.0, 10_000.0, 30_000.0])
+def test_a_dumbbell_turns_as_fast_as_it_likes(fast):
+    ends = [Ball((25 * side, 0), 5, vel=(0, fast * side)) for side in (-1, 1)]
+    engine = Stable(Scene(ends, ("Rods",), [(0, 1)], gravity=(0, 0)))
+    start = energy(engine, DT)
+    assert max(watch(engine, 1, lambda: worst_stretch(engine))) < 0.01
+    assert energy(engine, DT) == pytest.approx(start, rel=1e-6)
+
+
+@pytest.mark.parametrize("fast", [300.0, 3000.0])
+def test_a_rod_tells_the_whole_force_that_turns_a_ball(fast):
+    """It pulls by m v² / r."""
+    world = build(
+        Scene(
+            [Ball((0, 0), 5, mass=0), Ball((100, 0), 5, 2.0, (0, fast))],
+            ("Rods",),
+            [(0, 1)],
+            gravity=(0, 0),
+        )
+    )
+    run(world, 0.1)
+    (rod,) = world.effects["Rods"].joints
+    assert rod.impulse * world.substeps / DT == pytest.approx(-2 * fast**2 / 100, rel=0.01)
+
+
 @pytest.mark.parametrize("ratio", sample([1.0, 100.0, 1000.0, 10_000.0, 100_000.0], 4))
 def test_no_rod_of_a_hanging_chain_stretches_whatever_hangs_on_it(ratio):
     engine = Stable(chain(10, (0.0, 20.0), bob=ratio))
