@@ -23,10 +23,10 @@ from rich.table import Table
 from grader.bank.members import Entry, Member
 from grader.bank.slips import SCOPES, Scope, make_slips
 from grader.bank.verify import collect, run_in_processes, shared_worker
-from grader.judge import misconceptions
+from grader.judge.explain import misconceptions
+from grader.judge.explain.misconceptions import Undecided
 from grader.judge.grade import KIT, Options, grading, shipped_reference
 from grader.judge.lab import Observation
-from grader.judge.misconceptions import Undecided
 from grader.judge.result import CheckResult, Result
 from grader.judge.rubric import Rubric, load_rubric
 from grader.source.definitions import function_named, statements

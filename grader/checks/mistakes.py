@@ -5,7 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Protocol, TypeVar
 
-from grader.judge.misconceptions import Model, mistake
+from grader.judge.explain.misconceptions import Model, mistake
 
 MEANINGS: dict[str, dict[str, str]] = tomllib.loads(
     Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")

@@ -25,7 +25,7 @@ from grader.intake.found import Work
 from grader.intake.names import fold
 from grader.intake.roster import ClassList, find_student, is_same_student
 from grader.judge.course import END_OF_DAY, EXAMPLE, FULL, Course, Late
-from grader.judge.outer import READING, call_within
+from grader.judge.wall.outer import READING, call_within
 from grader.report.html import Remark
 from grader.text import plural
 

@@ -21,8 +21,8 @@ from grader.intake.names import list_names, make_portable
 from grader.intake.packing import pack
 from grader.intake.roster import ClassList
 from grader.judge.course import FULL, Course
-from grader.judge.outer import Exceeded, Failed
 from grader.judge.result import Result
+from grader.judge.wall.outer import Exceeded, Failed
 from grader.report.files import as_json
 from grader.report.html import Remark
 from grader.report.progress import Counter

@@ -20,8 +20,8 @@ from grader.classroom.marks import USUAL_TOTAL, compute_mark, make_parts, mark_b
 from grader.classroom.similarity import read_pairs
 from grader.errors import Stop
 from grader.judge.course import FULL, Course
-from grader.judge.outer import Allowance, call_each_within, call_within
 from grader.judge.result import Result, State, TodoResult
+from grader.judge.wall.outer import Allowance, call_each_within, call_within
 from grader.judge.wording import withhold_reasons
 from grader.player.page import clean_line, fill_template
 from grader.report.files import write_whole

@@ -17,7 +17,7 @@ import msgspec
 from grader.classroom.adjustments import load_adjustments
 from grader.errors import Stop
 from grader.judge.course import Course
-from grader.judge.workplace import work_folder
+from grader.judge.wall.workplace import work_folder
 from grader.report.files import write_whole
 
 HEADER = re.compile(r"^[ \t]*\[\[?[ \t]*([\w-]+)[ \t]*\]\]?[ \t]*(#.*)?$")

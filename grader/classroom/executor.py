@@ -12,10 +12,10 @@ from typing import Protocol, Self
 
 from grader.errors import Stop
 from grader.intake.found import Package
-from grader.judge.children import Worker, count_cores, start_worker
 from grader.judge.grade import Options, grade
-from grader.judge.outer import GRADING, Failed, Lost, WatchedProcess
-from grader.judge.workplace import work_folder
+from grader.judge.wall.children import Worker, count_cores, start_worker
+from grader.judge.wall.outer import GRADING, Failed, Lost, WatchedProcess
+from grader.judge.wall.workplace import work_folder
 from grader.report.files import as_json
 
 AHEAD = 2  # submissions that wait, packed, for each one being graded

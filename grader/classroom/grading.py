@@ -22,8 +22,8 @@ from grader.intake.roster import ClassList
 from grader.intake.systems import find_file, read_class_list
 from grader.judge.course import Course
 from grader.judge.grade import Options
-from grader.judge.outer import Exceeded, Failed, Lost
 from grader.judge.result import is_bonus
+from grader.judge.wall.outer import Exceeded, Failed, Lost
 from grader.text import printable
 
 LONGEST = 300  # rows in a terminal; the file of the table has all

@@ -29,7 +29,7 @@ from grader.intake.listing import open_class
 from grader.intake.packing import pack
 from grader.intake.roster import ClassList
 from grader.judge.grade import KIT
-from grader.judge.outer import READING, Allowance, Exceeded, Failed, Lost, call_within
+from grader.judge.wall.outer import READING, Allowance, Exceeded, Failed, Lost, call_within
 from grader.player.page import fill_template
 from grader.report.files import write_whole
 from grader.source.regions import python_files

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from grader.judge.children import Worker
 from grader.judge.grade import Options
 from grader.judge.result import Result
+from grader.judge.wall.children import Worker
 from grader.player.page import fill_template
 from grader.questions.films import make_film
 from grader.questions.page import TEMPLATES

@@ -29,10 +29,10 @@ from grader.cli.student import (
 )
 from grader.cli.watch import Watch, wait_for_saves
 from grader.errors import Stop
-from grader.judge.children import start_worker
 from grader.judge.course import Course, read_course
 from grader.judge.result import TodoResult
 from grader.judge.rubric import load_rubric
+from grader.judge.wall.children import start_worker
 from grader.judge.wording import command
 from grader.report.screen import Screen, Tasks, choose_failure, choose_todo, load_tasks
 from grader.report.terminal import find_replay, say, wrap, write

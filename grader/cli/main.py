@@ -32,11 +32,11 @@ from grader.cli.shared import (
     require_folder_target,
 )
 from grader.errors import Stop
-from grader.judge.children import count_cores
 from grader.judge.course import read_course
 from grader.judge.grade import KIT, Options, shipped_reference
-from grader.judge.outer import MOST_MEMORY, WHOLE, go_on_within
 from grader.judge.result import Result
+from grader.judge.wall.children import count_cores
+from grader.judge.wall.outer import MOST_MEMORY, WHOLE, go_on_within
 from grader.report.files import write_json
 from grader.report.terminal import Printer, show_isolation
 

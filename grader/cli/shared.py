@@ -13,8 +13,8 @@ from rich.console import Console
 from grader.errors import Stop
 from grader.judge.course import COURSE_FILE, FULL, Course
 from grader.judge.grade import KIT, Options, grade
-from grader.judge.isolation import Isolation
 from grader.judge.result import Result
+from grader.judge.wall.isolation import Isolation
 from grader.text import printable
 
 CHECKOUT = ("solution/mini_engine", "starter/mini_engine", "tests/bank", "handouts/instructor")

@@ -23,9 +23,9 @@ from grader.intake.found import CannotTake
 from grader.intake.names import fold, make_portable
 from grader.intake.pieces import rank_file
 from grader.intake.places import ARCHIVES, SIGNS, is_system_file
-from grader.judge.children import command, reaped_seconds
 from grader.judge.submission import IGNORED, MAX_BYTES, MAX_DEPTH, MAX_FILES
-from grader.judge.workplace import work_folder
+from grader.judge.wall.children import command, reaped_seconds
+from grader.judge.wall.workplace import work_folder
 from grader.text import plural
 
 # Of one submission, over all of its archives: many small ones cost no more than a large one.

@@ -18,8 +18,8 @@ from grader.intake.packing import pack, read_first_name
 from grader.intake.places import cut_suffix, has_program, is_archive, list_folder
 from grader.intake.roster import CALLED, ClassList, find_student
 from grader.intake.systems import ANY_OTHER, SYSTEMS
-from grader.judge.outer import Allowance, Exceeded, Failed, Lost, call_within
-from grader.judge.workplace import work_folder
+from grader.judge.wall.outer import Allowance, Exceeded, Failed, Lost, call_within
+from grader.judge.wall.workplace import work_folder
 
 SIDE_FILES = {"adjustments.toml", "roster.csv"}.union(*(each.side_files for each in SYSTEMS))
 WORK = {".py", ".ipynb"}  # the suffixes of students' work

@@ -34,10 +34,10 @@ from grader.intake.places import (
     list_modules,
 )
 from grader.intake.systems import SYSTEMS
-from grader.judge.outer import READING, Exceeded, Failed, Lost, call_within
 from grader.judge.plain import copy_plain, open_plain, size_of
 from grader.judge.submission import CannotGrade, explain_unreadable, module_of, plain_files
-from grader.judge.workplace import work_folder
+from grader.judge.wall.outer import READING, Exceeded, Failed, Lost, call_within
+from grader.judge.wall.workplace import work_folder
 from grader.source.flaws import find_bad_bytes
 
 COPY = re.compile(r"-\d+(?=\.\w+$)")  # what an LMS adds to the name of a file handed in again

@@ -12,8 +12,8 @@ from collections import defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
-from grader.judge.children import REST_SECONDS, Child
-from grader.judge.connection import Connection
+from grader.judge.wall.children import REST_SECONDS, Child
+from grader.judge.wall.connection import Connection
 
 TODO_CPU, SUBMISSION_CPU = 10.0, 40.0  # s; then each check has little
 TODO_REST, SUBMISSION_REST = 8.0, 16.0  # s

@@ -11,30 +11,30 @@ from typing import TYPE_CHECKING
 
 from msgspec import structs
 
-from grader.judge.blame import CauseSearch, GivenCause, find_changes, undo
-from grader.judge.children import Child, Worker, start_worker
 from grader.judge.course import FULL, Course
+from grader.judge.explain.blame import CauseSearch, GivenCause, find_changes, undo
+from grader.judge.explain.misconceptions import Mistake
+from grader.judge.explain.names import Names
 from grader.judge.failures import Failing
-from grader.judge.isolation import Isolation, load_everything
 from grader.judge.jobs import Key
 from grader.judge.lab import Lab, Observation
-from grader.judge.misconceptions import Mistake
-from grader.judge.names import Names
 from grader.judge.passed import PassedPrograms
 from grader.judge.reference import Reference
 from grader.judge.result import MAX_FILE, CheckResult, Result, TodoResult, state_of
 from grader.judge.rubric import Check, Rubric, Todo, load_rubric
-from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission, attempt, handed_out, take_in
-from grader.judge.workplace import work_folder
+from grader.judge.wall.children import Child, Worker, start_worker
+from grader.judge.wall.isolation import Isolation, load_everything
+from grader.judge.wall.sandbox import Sandbox
+from grader.judge.wall.workplace import work_folder
 from grader.protocol import cut
 from grader.source.given import GivenChange
 from grader.source.regions import python_files, shape_of
 from grader.text import defuse
 
 if TYPE_CHECKING:
+    from grader.judge.explain.reasons import Reasons
     from grader.judge.loop import CheckLoop
-    from grader.judge.reasons import Reasons
 
 KIT = Path(__file__).parents[2]
 
@@ -193,8 +193,8 @@ class Grading:
         if self.options.isolation == "none":
             load_everything()
         # Imported here to save 0.2 s: hypothesis loads while the worker loads.
+        from grader.judge.explain.reasons import Reasons
         from grader.judge.loop import CheckLoop
-        from grader.judge.reasons import Reasons
 
         self.loop = CheckLoop(self)
         self.loop.run()

@@ -14,10 +14,10 @@ from typing import Any, Literal, NamedTuple
 
 import msgspec
 
-from grader.judge.children import Child
-from grader.judge.connection import Answer, Connection, Send, ask_child
 from grader.judge.decode import Decoder, Pair, Thing
 from grader.judge.failures import TRESPASS, Broke, NotYet
+from grader.judge.wall.children import Child
+from grader.judge.wall.connection import Answer, Connection, Send, ask_child
 from grader.protocol import (
     Argument,
     BodyValue,

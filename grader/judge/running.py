@@ -10,7 +10,6 @@ from hypothesis.errors import Flaky
 from msgspec import UNSET, structs
 
 from grader.judge.budget import LITTLE_CPU, Budget, for_words
-from grader.judge.children import Child
 from grader.judge.drawing import Example, kept_examples
 from grader.judge.failures import REMEMBERS, Broke, Failing, NotYet, secret_of
 from grader.judge.jobs import Job
@@ -18,6 +17,7 @@ from grader.judge.lab import Lab, Observation
 from grader.judge.result import CheckResult, in_bounds
 from grader.judge.rubric import Todo
 from grader.judge.verdict import last_lines, make_result, word_failure
+from grader.judge.wall.children import Child
 from grader.protocol import Piece
 
 if TYPE_CHECKING:

@@ -11,9 +11,9 @@ from string import ascii_letters
 
 import msgspec
 
-from grader.judge.children import Child
 from grader.judge.failures import Failing
 from grader.judge.lab import Lab
+from grader.judge.wall.children import Child
 from grader.player.runs import Line, Mark, Run, describe_body, describe_reply
 from grader.player.script import Step, Translator, signature_of
 from grader.protocol import (

@@ -11,14 +11,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-from grader.judge.children import Worker
 from grader.judge.course import Course
 from grader.judge.grade import Options, grading
 from grader.judge.lab import Lab
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
-from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission
+from grader.judge.wall.children import Worker
+from grader.judge.wall.sandbox import Sandbox
 from grader.player.replay import MAX_DEATHS
 from grader.source.definitions import Program as Modules
 from grader.source.regions import python_files, read_source

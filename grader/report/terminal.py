@@ -12,8 +12,8 @@ from rich.console import Console
 from rich.text import Text
 
 from grader.judge.failures import ENDLESS
-from grader.judge.isolation import list_unconfined
 from grader.judge.result import FAILED, CheckResult, Result, State, TodoResult
+from grader.judge.wall.isolation import list_unconfined
 from grader.judge.wording import (
     MEANINGS,
     NAMES,

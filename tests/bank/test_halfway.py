@@ -8,12 +8,12 @@ import pytest
 from grader.bank.halfway import list_states
 from grader.bank.verify import judge_halfway
 from grader.checks.exact import Disc, Lever, Rect, Touch, circle_box
-from grader.judge.diagnosis import Diagnosis
+from grader.judge.explain.diagnosis import Diagnosis
 from grader.judge.lab import Observation
-from grader.judge.misconceptions import load_known
-from grader.judge.names import Names, handed_out
+from grader.judge.explain.misconceptions import load_known
+from grader.judge.explain.names import Names, handed_out
 from grader.judge.submission import Submission
-from grader.judge.narrowing import find_relation, read_questions
+from grader.judge.explain.narrowing import find_relation, read_questions
 
 STATES = [*list_states()]
 BOX = Rect(0, 0, 40, 20)

@@ -30,7 +30,7 @@ from grader.bank.mutants import (
 )
 from grader.bank.slips import SCOPES, Scale, Scope, make_slips
 from grader.checks.exact import Disc, Rect, Rod, rod_solved
-from grader.judge import misconceptions
+from grader.judge.explain import misconceptions
 from grader.judge.lab import Observation
 from grader.judge.rubric import load_rubric
 from grader.source.definitions import function_named, statements

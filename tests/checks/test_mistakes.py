@@ -1,7 +1,7 @@
 """The sentences of mistakes.toml, and the models that recognise a mistake."""
 
 from grader.checks.mistakes import MEANINGS, meaning_of
-from grader.judge.misconceptions import known_mistakes, load_known
+from grader.judge.explain.misconceptions import known_mistakes, load_known
 from grader.judge.rubric import load_rubric
 
 

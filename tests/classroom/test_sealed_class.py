@@ -19,7 +19,7 @@ from grader.classroom.similarity import Prints, find_pairs
 from grader.errors import Stop
 from grader.intake import archives, listing
 from grader.judge.grade import KIT, Options, shipped_reference
-from grader.judge.outer import Allowance, Exceeded
+from grader.judge.wall.outer import Allowance, Exceeded
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux", reason="forks are watched where the system tells of all processes"

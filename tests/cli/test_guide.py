@@ -16,9 +16,9 @@ import grader.cli.guide
 from grader.cli.guide import Guide, Quit, Running
 from grader.cli.keys import read_key, read_windows_key
 from grader.cli.student import load_hints
-from grader.judge.children import WarmWorker, start_worker
 from grader.judge.course import FULL
 from grader.judge.grade import KIT, Options
+from grader.judge.wall.children import WarmWorker, start_worker
 from grader.release.handouts import make_handouts, make_tasks
 
 TASKS = {"5": ["Make them lose a rate per second."], "8a": ["Change the velocity first."]}

@@ -16,12 +16,12 @@ from one_worker import NoWorker
 from whole_bank import bank
 
 from grader.bank.verify import shared_worker
-from grader.judge.children import Child, ChildEnded
+from grader.judge.explain.names import LONGEST, MOST, Names
 from grader.judge.grade import KIT, Options, shipped_reference
-from grader.judge.names import LONGEST, MOST, Names
 from grader.judge.result import MAX_JSON, CheckResult, Result, TodoResult, Where
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, find_todos
+from grader.judge.wall.children import Child, ChildEnded
 from grader.player.replay import grade_with_replays
 from grader.protocol import (
     MAX_ITEMS,

@@ -11,7 +11,6 @@ from types import SimpleNamespace
 
 import pytest
 
-from grader.judge import children
 from grader.judge.budget import (
     END_CPU,
     END_REST,
@@ -25,9 +24,10 @@ from grader.judge.budget import (
     WORDS_REST,
     Budget,
 )
-from grader.judge.children import REST_SECONDS, busy_seconds
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.rubric import load_rubric
+from grader.judge.wall import children
+from grader.judge.wall.children import REST_SECONDS, busy_seconds
 from grader.player.replay import grade_with_replays
 
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells of queues")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from grader.judge.error_words import explain_error
+from grader.judge.explain.error_words import explain_error
 
 TEXT = """import math
 

@@ -12,9 +12,9 @@ import msgspec
 import pytest
 from one_worker import NoWorker
 
-from grader.judge.children import Child
 from grader.judge.failures import Broke, NotYet
 from grader.judge.lab import Lab
+from grader.judge.wall.children import Child
 from grader.protocol import (
     Answered,
     BodyValue,

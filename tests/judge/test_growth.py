@@ -28,7 +28,7 @@ from grader.intake.found import CannotTake
 from grader.intake.pieces import is_renamed, name_type, rank_file, strip_additions
 from grader.intake.roster import ClassList
 from grader.intake.systems import SYSTEMS
-from grader.judge.error_words import find_similar
+from grader.judge.explain.error_words import find_similar
 from grader.judge.submission import load_given
 from grader.protocol import NOT_A_MESSAGE, Answered
 from grader.source.definitions import Program

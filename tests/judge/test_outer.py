@@ -12,9 +12,9 @@ import pytest
 
 from grader.intake import packing
 from grader.intake.found import CannotTake, Work
-from grader.judge import outer
 from grader.judge.grade import KIT
-from grader.judge.outer import Allowance, Exceeded, Failed, Lost, call_within
+from grader.judge.wall import outer
+from grader.judge.wall.outer import Allowance, Exceeded, Failed, Lost, call_within
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux", reason="forks are watched where the system tells of all processes"
@@ -126,7 +126,7 @@ def test_other_systems_are_measured_too(monkeypatch):
 
 WHOLE = """
 import os, sys, time
-from grader.judge import outer
+from grader.judge.wall import outer
 from grader.errors import Stop
 try:
     outer.go_on_within(outer.Allowance("grading it", cpu=0.5, memory=200, seconds=30))

@@ -9,10 +9,10 @@ from whole_bank import bank
 
 from grader.bank.members import Member
 from grader.bank.verify import shared_worker
-from grader.judge.children import Child, ChildEnded
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.lab import Lab
 from grader.judge.result import Result
+from grader.judge.wall.children import Child, ChildEnded
 from grader.protocol import Answered, Import, Record, Request
 
 SOME = frozenset({"8b", "B4"})

@@ -24,8 +24,9 @@ from grader.bank.members import Member
 from grader.bank.sync import is_laid_in, list_students_files
 from grader.bank.verify import shared_worker
 from grader.checks import exact
-from grader.judge import misconceptions, recorded
+from grader.judge import recorded
 from grader.judge.course import FULL, Course
+from grader.judge.explain import misconceptions
 from grader.judge.grade import KIT, Options, grade
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import CHECKS, Rubric, drop_hidden, load_rubric
@@ -59,7 +60,7 @@ ASKED = frozenset({"8a"}).union(*(member.todos for member in SAMPLE))  # of the 
 GRADE = """
 import json, sys
 from pathlib import Path
-from grader.judge.children import start_worker
+from grader.judge.wall.children import start_worker
 from grader.judge.course import read_course
 from grader.judge.grade import grade
 from grader.report.files import as_json

@@ -78,7 +78,7 @@ process.exit(0);
 BY_PROCESSES = """
 import json, shutil, sys
 from pathlib import Path
-from grader.judge.children import start_worker
+from grader.judge.wall.children import start_worker
 from grader.judge.grade import Options, grade
 from grader.report.files import as_json
 folder, work, handed_out = map(Path, sys.argv[1:])

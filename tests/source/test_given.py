@@ -9,7 +9,7 @@ from counting import count_calls
 
 from grader.bank.verify import shared_worker
 from grader.cli.restore import find_changes
-from grader.judge.blame import MOST_ASKED, CauseSearch
+from grader.judge.explain.blame import MOST_ASKED, CauseSearch
 from grader.judge.failures import NotYet
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import CheckResult

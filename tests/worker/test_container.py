@@ -12,10 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from grader.judge.children import WarmWorker
 from grader.judge.grade import KIT, Options, grade, shipped_reference
-from grader.judge.isolation import KEEPS_FILES, find_refusal
 from grader.judge.submission import CannotGrade
+from grader.judge.wall.children import WarmWorker
+from grader.judge.wall.isolation import KEEPS_FILES, find_refusal
 from grader.protocol import ChildSetup
 
 BARE = ["processes", "process-group", "rlimits"]  # as on macOS
@@ -55,9 +55,9 @@ def test_the_refusal_comes_before_a_line_of_it_runs(monkeypatch: pytest.MonkeyPa
 @pytest.mark.soak
 def test_without_isolation_all_of_the_judge_is_loaded_before_a_submission_runs():
     program = (
-        "import sys; from grader.judge.isolation import load_everything; load_everything(); "
+        "import sys; from grader.judge.wall.isolation import load_everything; load_everything(); "
         "before = set(sys.modules); import grader.report.html, grader.player.replay, "
-        "grader.judge.reasons, grader.classroom.dashboard, grader.report.sinks.markdown; "
+        "grader.judge.explain.reasons, grader.classroom.dashboard, grader.report.sinks.markdown; "
         "exit(any(name.startswith('grader') for name in set(sys.modules) - before))"
     )
     assert subprocess.run([sys.executable, "-c", program], cwd=KIT).returncode == 0

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from grader.judge.children import Child, start_worker
 from grader.judge.grade import KIT
+from grader.judge.wall.children import Child, start_worker
 from grader.protocol import Call, ChildSetup, Import, Limits, Raised, Returned
 from grader.worker import filter as wall
 

@@ -8,9 +8,9 @@ import pytest
 from conftest import HandIn
 
 from grader.bank.verify import shared_worker
+from grader.judge.explain.meaning import Evidence, Failure, explain
 from grader.judge.failures import REMEMBERS
 from grader.judge.grade import Options, grade, shipped_reference
-from grader.judge.meaning import Evidence, Failure, explain
 from grader.judge.result import CheckResult
 from grader.judge.rubric import load_rubric
 from grader.source.definitions import Program

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.judge.children import start_worker
 from grader.judge.grade import Options, as_in_reference, sandbox_for, take_in, work_folder
 from grader.judge.rubric import load_rubric
+from grader.judge.wall.children import start_worker
 from grader.protocol import Call, Import, Items, Raised, Returned
 
 PROGRAM = """

@@ -17,9 +17,9 @@ import msgspec
 import pytest
 from whole_bank import bank
 
-from grader.judge.children import Child, WarmWorker, Worker, start_worker
 from grader.judge.grade import KIT
-from grader.judge.isolation import list_unconfined
+from grader.judge.wall.children import Child, WarmWorker, Worker, start_worker
+from grader.judge.wall.isolation import list_unconfined
 from grader.protocol import Call, ChildSetup, Import, Limits, Raised, Returned
 from grader.worker import confinement
 from grader.worker.filter import ALLOWED, AUDIT_ARCH, CHECKED

@@ -16,10 +16,10 @@ from whole_bank import bank, member_named
 
 from grader.bank.verify import shared_worker
 from grader.judge.grade import Options, grade
-from grader.judge.inline import InlineWorker
-from grader.judge.isolation import ONE_PROCESS, find_refusal
 from grader.judge.result import CheckResult, Result
 from grader.judge.submission import CannotGrade
+from grader.judge.wall.inline import InlineWorker
+from grader.judge.wall.isolation import ONE_PROCESS, find_refusal
 from grader.source.regions import read_source
 from grader.worker.tab import TabChannel
 

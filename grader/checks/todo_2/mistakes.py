@@ -6,7 +6,7 @@ from collections.abc import Callable
 from grader.checks import exact
 from grader.checks.exact import Lever, Pair, cross, inverse
 from grader.checks.mistakes import known_in
-from grader.judge.misconceptions import Undecided, truth
+from grader.judge.explain.misconceptions import Undecided, truth
 
 Sum = Callable[[Lever, Lever, Pair], float]
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from grader.checks import exact
 from grader.checks.exact import Pair, Rod
 from grader.checks.mistakes import known_in
-from grader.judge.misconceptions import Undecided, truth
+from grader.judge.explain.misconceptions import Undecided, truth
 
 Ends = tuple[Pair, Pair]
 Model = Callable[[Rod], Ends]

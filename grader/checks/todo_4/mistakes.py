@@ -6,7 +6,7 @@ from collections.abc import Callable
 from grader.checks import exact
 from grader.checks.exact import Pair, clamped
 from grader.checks.mistakes import known_in
-from grader.judge.misconceptions import Undecided, truth
+from grader.judge.explain.misconceptions import Undecided, truth
 
 Limit = Callable[[Pair, float], float]  # both frictions, jn -> the limit
 Rule = Callable[[float, float, float], float]  # total so far, total wanted, limit -> new total

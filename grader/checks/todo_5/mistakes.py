@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from grader.checks import exact
 from grader.checks.mistakes import known_in
-from grader.judge.misconceptions import truth
+from grader.judge.explain.misconceptions import truth
 
 Shares = tuple[float, float]
 Model = Callable[[float, float, float, int], Shares]  # both rates, dt, the number of steps

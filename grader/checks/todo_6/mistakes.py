@@ -7,8 +7,8 @@ from collections.abc import Callable
 from fractions import Fraction
 
 from grader.checks.mistakes import known_in
+from grader.judge.explain.misconceptions import Undecided, truth
 from grader.judge.lab import STEP as STEP_SECONDS
-from grader.judge.misconceptions import Undecided, truth
 from grader.protocol import MAX_STEP_SIZES, RUNAWAY
 
 STEP, CAP, SECOND = 25, 200, 3000

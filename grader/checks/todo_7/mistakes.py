@@ -8,8 +8,8 @@ from collections.abc import Callable
 
 from grader.checks import exact
 from grader.checks.mistakes import known_in
+from grader.judge.explain.misconceptions import Model, Undecided, always, are_close, truth
 from grader.judge.lab import STEP, Pair
-from grader.judge.misconceptions import Model, Undecided, always, are_close, truth
 
 # ---------------------------------------------------------------- 7a: the gravity, px/s²
 

@@ -7,7 +7,7 @@ from itertools import product
 from grader.checks import exact
 from grader.checks.exact import Accel, State, polynomial
 from grader.checks.mistakes import known_in
-from grader.judge.misconceptions import right_models, truth
+from grader.judge.explain.misconceptions import right_models, truth
 
 SEMI_IMPLICIT, VERLET, RK4 = "semi_implicit_euler", "velocity_verlet", "rk4"
 SAMPLES = "samples of accel"

@@ -25,7 +25,7 @@ from grader.checks.todo_b1.checks import (
     SPINNING,
     STATIC,
 )
-from grader.judge.misconceptions import Undecided, truth
+from grader.judge.explain.misconceptions import Undecided, truth
 
 HELD, ANEW = (ON_A_ROD, ON_A_SPRING), (AFTER_A_PUSH, AFTER_THE_AIR)
 HIT, LEFT = (AFTER_A_HIT, AFTER_A_SPIN), (FLOOR_GONE, CARRIED_AWAY, ONE_OF_TWO_GONE)

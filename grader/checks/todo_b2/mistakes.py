@@ -5,7 +5,7 @@ import math
 from grader.checks import exact
 from grader.checks.exact import Pair, Spring
 from grader.checks.mistakes import known_in
-from grader.judge.misconceptions import Undecided, truth
+from grader.judge.explain.misconceptions import Undecided, truth
 
 Ends = tuple[Pair, Pair]  # velocities of A and B, px/s
 

@@ -6,7 +6,7 @@ from itertools import product
 
 from grader.checks.exact import Disc, Rect
 from grader.checks.mistakes import known_in
-from grader.judge.misconceptions import always, truth
+from grader.judge.explain.misconceptions import always, truth
 
 CELL = 48.0  # px; who has chosen another is not told the mistake's name
 

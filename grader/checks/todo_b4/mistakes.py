@@ -6,7 +6,7 @@ at a peg. And in a new space, after so many hits in the space before.
 """
 
 from grader.checks.mistakes import known_in
-from grader.judge.misconceptions import Undecided, always, truth
+from grader.judge.explain.misconceptions import Undecided, always, truth
 
 truth("hits", lambda what, steps: int(what != "leave"))
 truth("others", always([0, 0, 0]))

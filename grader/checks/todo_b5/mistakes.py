@@ -3,8 +3,8 @@
 from grader.checks import exact
 from grader.checks.exact import Pair, Place
 from grader.checks.mistakes import known_in
+from grader.judge.explain.misconceptions import truth
 from grader.judge.lab import STEP
-from grader.judge.misconceptions import truth
 
 
 def find_place(before: Place, now: Place, share: float) -> Pair:

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from grader.checks.mistakes import known_in
 from grader.checks.todo_b6.checks import CLICKS
-from grader.judge.misconceptions import always, truth
+from grader.judge.explain.misconceptions import always, truth
 
 HEAVY = 10.0
 

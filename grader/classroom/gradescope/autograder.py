@@ -18,11 +18,11 @@ from grader.intake.found import CannotTake, Work
 from grader.intake.packing import pack
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
-from grader.judge.isolation import Isolation
-from grader.judge.outer import WHOLE, call_within
 from grader.judge.submission import CannotGrade
+from grader.judge.wall.isolation import Isolation
+from grader.judge.wall.outer import WHOLE, call_within
+from grader.judge.wall.workplace import work_folder
 from grader.judge.wording import withhold_reasons
-from grader.judge.workplace import work_folder
 from grader.report.files import write_whole
 from grader.report.sinks.gradescope import SHOWN, write_gradescope
 from grader.report.terminal import Printer, show_isolation

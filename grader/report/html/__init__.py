@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from grader.judge.isolation import list_unconfined
 from grader.judge.result import Result, TodoResult
+from grader.judge.wall.isolation import list_unconfined
 from grader.judge.wording import list_reasons
 from grader.player.page import clean_line, fill_template
 from grader.report.files import write_whole

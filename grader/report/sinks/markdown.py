@@ -3,8 +3,8 @@
 import re
 from itertools import accumulate
 
-from grader.judge.isolation import list_unconfined
 from grader.judge.result import CheckResult, Result, TodoResult
+from grader.judge.wall.isolation import list_unconfined
 from grader.judge.wording import (
     add_task,
     format_reasons,

@@ -10,8 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import combinations, islice
 
-from grader.judge.lab import Observation
-from grader.judge.misconceptions import (
+from grader.judge.explain.misconceptions import (
     Mistake,
     Undecided,
     are_close,
@@ -22,7 +21,8 @@ from grader.judge.misconceptions import (
     predict,
     separate_questions,
 )
-from grader.judge.narrowing import FEWEST, Narrowing, Question, join, narrow, read_questions
+from grader.judge.explain.narrowing import FEWEST, Narrowing, Question, join, narrow, read_questions
+from grader.judge.lab import Observation
 from grader.judge.recorded import key
 
 

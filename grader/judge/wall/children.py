@@ -15,7 +15,7 @@ from typing import Protocol
 import msgspec
 import psutil
 
-from grader.judge.processes import end_family
+from grader.judge.wall.processes import end_family
 from grader.protocol import (
     ENVIRONMENT,
     NOT_A_MESSAGE,
@@ -270,7 +270,7 @@ def command(module: str, *args: str) -> list[str]:
 
 
 def program(module: str, *args: str) -> str:
-    root = str(Path(__file__).parents[2])
+    root = str(Path(__file__).parents[3])
     return BOOT.format(root=root, args=list(args), module=module)
 
 

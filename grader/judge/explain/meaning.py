@@ -8,12 +8,12 @@ from functools import cached_property
 
 import msgspec
 
-from grader.judge.blame import GivenCause
-from grader.judge.diagnosis import Diagnosis
+from grader.judge.explain.blame import GivenCause
+from grader.judge.explain.diagnosis import Diagnosis
+from grader.judge.explain.misconceptions import Mistake
+from grader.judge.explain.one_change import Mend
 from grader.judge.failures import ENDLESS, KEPT, MOST_NAMES, TRESPASS
 from grader.judge.lab import Observation
-from grader.judge.misconceptions import Mistake
-from grader.judge.one_change import Mend
 from grader.judge.result import CheckResult, Where
 from grader.judge.rubric import Todo
 from grader.judge.submission import load_given

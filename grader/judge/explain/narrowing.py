@@ -11,8 +11,7 @@ from functools import cached_property
 from itertools import combinations
 from typing import Any
 
-from grader.judge.lab import Observation
-from grader.judge.misconceptions import (
+from grader.judge.explain.misconceptions import (
     Undecided,
     are_close,
     part_names,
@@ -20,6 +19,7 @@ from grader.judge.misconceptions import (
     right_models,
     trait_models,
 )
+from grader.judge.lab import Observation
 from grader.judge.recorded import key
 
 WHOLE = "the answer"  # the part of an answer without parts, or of the wrong kind

@@ -7,13 +7,13 @@ costs the program as a whole. Code that Python loads from elsewhere is not put b
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from grader.judge.children import Child
 from grader.judge.failures import Broke, NotYet
 from grader.judge.jobs import Key
 from grader.judge.lab import Lab, Observation
 from grader.judge.numbers import shorten_both, shorten_numbers
 from grader.judge.result import CheckResult, Where
 from grader.judge.submission import Submission, load_given
+from grader.judge.wall.children import Child
 from grader.source.given import GivenChange, compare_files, compare_whole_file, undo_changes
 from grader.source.regions import read_source
 

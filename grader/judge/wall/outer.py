@@ -30,9 +30,9 @@ import psutil
 from msgspec import Struct
 
 from grader.errors import Stop, say_error
-from grader.judge.children import command
-from grader.judge.processes import end_family
-from grader.judge.workplace import work_folder
+from grader.judge.wall.children import command
+from grader.judge.wall.processes import end_family
+from grader.judge.wall.workplace import work_folder
 
 try:
     import resource
@@ -319,7 +319,9 @@ class WatchedProcess:
         place = self.stack.enter_context(work_folder())
         place.chmod(0o711)  # a child that is a user of its own passes through
         process = subprocess.Popen(
-            command("grader.judge.outer", str(place)), stdin=subprocess.PIPE, stdout=subprocess.PIPE
+            command("grader.judge.wall.outer", str(place)),
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
         )
         self.send(process, sys.path)
         return process

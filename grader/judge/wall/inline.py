@@ -6,8 +6,8 @@ This confines nothing, so it is for one's own work; `grade` refuses it for other
 import os
 from collections.abc import Callable, Sequence
 
-from grader.judge.children import Child, Worker
-from grader.judge.isolation import ONE_PROCESS
+from grader.judge.wall.children import Child, Worker
+from grader.judge.wall.isolation import ONE_PROCESS
 from grader.protocol import ChildSetup, InnerChannel
 
 

@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NoReturn
 
-from grader.judge.children import Child, ChildEnded
 from grader.judge.failures import Broke, NotYet
+from grader.judge.wall.children import Child, ChildEnded
 from grader.protocol import (
     MAX_OUTPUT,
     Answered,

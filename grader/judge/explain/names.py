@@ -15,7 +15,7 @@ from pathlib import Path
 
 import msgspec
 
-from grader.judge.error_words import explain_error
+from grader.judge.explain.error_words import explain_error
 from grader.judge.result import CheckResult
 from grader.judge.rubric import CHECKS, Todo, load_rubric
 from grader.judge.submission import Submission, load_given

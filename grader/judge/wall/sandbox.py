@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from grader.judge.children import Child, ChildEnded, Worker
-from grader.judge.isolation import ONE_PROCESS, Isolation, find_refusal
 from grader.judge.submission import CannotGrade
-from grader.judge.workplace import remove
+from grader.judge.wall.children import Child, ChildEnded, Worker
+from grader.judge.wall.isolation import ONE_PROCESS, Isolation, find_refusal
+from grader.judge.wall.workplace import remove
 from grader.protocol import ChildSetup, Limits
 from grader.source.regions import encode
 

@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING
 
 from msgspec import structs
 
-from grader.judge import misconceptions
-from grader.judge.blame import GivenCause, find_changes
+from grader.judge.explain import misconceptions
+from grader.judge.explain.blame import GivenCause, find_changes
+from grader.judge.explain.meaning import BadLine, Evidence, Failure, explain, is_unexplained
+from grader.judge.explain.misconceptions import Mistake
+from grader.judge.explain.one_change import Mend, find_mend
 from grader.judge.failures import REMEMBERS, TRESPASS
 from grader.judge.jobs import Key
 from grader.judge.lab import Observation
 from grader.judge.loop import CheckLoop
-from grader.judge.meaning import BadLine, Evidence, Failure, explain, is_unexplained
-from grader.judge.misconceptions import Mistake
-from grader.judge.one_change import Mend, find_mend
 from grader.judge.result import CheckResult, Where
 from grader.judge.rubric import Todo
 from grader.judge.running import Outcome

@@ -57,7 +57,7 @@ def load_everything() -> None:
 
     Modules whose packages are not installed, such as Dask, are skipped.
     """
-    for found in pkgutil.walk_packages([str(Path(__file__).parents[1])], "grader."):
+    for found in pkgutil.walk_packages([str(Path(__file__).parents[2])], "grader."):
         if not found.name.startswith("grader.worker") and not found.name.endswith("__main__"):
             with suppress(ImportError):
                 importlib.import_module(found.name)
