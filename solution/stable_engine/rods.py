@@ -252,7 +252,9 @@ class Frame:
     def fallen(self) -> float:
         """Return twice the energy (kg px²/s²) that gravity has given, but for a constant."""
         gx, gy = self.world.g
-        return 2 * sum([b.m * (gx * b.x + gy * b.y) for b in self.balls]) if self.hangs else 0.0
+        if not self.hangs:
+            return 0.0
+        return sum([2 * b.m * (gx * b.x + gy * b.y) for b in self.balls])
 
     def scale_speeds(self, wanted: float) -> None:
         """Scale the speeds of the balls as seen from the whole to twice an energy (kg px²/s²)."""
