@@ -20,9 +20,10 @@ def want_answer(
     expected: str = "{}",
     meaning: str = "",
 ) -> None:
-    """Fail the check unless it `holds`, with an answer and the right one in words that differ.
+    """Fail the check unless it `holds`; print the answer and the right one with enough digits.
 
-    The text `expected` stands around the right one. Most checks pass, so words are made on demand.
+    `expected` is a template for the right answer. Most checks pass, so the words are made on
+    demand.
     """
     if not holds:
         wanted, came = say_apart(say, right, got, digits)
@@ -32,7 +33,7 @@ def want_answer(
 def say_apart(
     say: Callable[[Answer, int], str], right: Answer, got: Answer, digits: int = 3
 ) -> tuple[str, str]:
-    """Return both answers in words, with so many digits, or as many as it takes to differ."""
+    """Return both answers in words, with `digits` digits or as many as they need to differ."""
     both = without_minus_zero(say(right, digits)), without_minus_zero(say(got, digits))
     if both[0] == both[1] and digits < FLOAT_DIGITS:
         return say_apart(say, right, got, digits + 1)

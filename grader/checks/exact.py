@@ -1,6 +1,6 @@
 """The right answers, in closed form: plain numbers in, plain numbers out.
 
-What is as good as the code of a TODO is marked as an oracle. Students get its recorded answers.
+An oracle is a function that would give away the code of a TODO. Students get its recorded answers.
 """
 
 import math
@@ -50,7 +50,7 @@ def circle_box(disc: Disc, rect: Rect) -> list[Touch | None]:
 
 
 def equally_near(disc: Disc, rect: Rect) -> bool:
-    """Return whether a centre inside has two nearest faces: either way out is right then."""
+    """Return whether a centre inside has two nearest faces; then both ways out are right."""
     across, down = rect.hx - abs(disc.x - rect.x), rect.hy - abs(disc.y - rect.y)
     if min(across, down) < 0:
         return False
@@ -73,25 +73,25 @@ def ways_out(disc: Disc, rect: Rect) -> list[Touch]:
 
 MAX_STEPS = 8  # in a frame
 STEP_SIZES = [1 / 30, 1 / 60, 1 / 120, 1 / 240, 1 / 480]  # s
-# What properties ask about damping: rates per second, and steps in s.
+# Values that properties draw for damping: rates per second, and steps in s.
 RATES = [0.001, 0.05, 0.0625, *(number / 8 for number in range(25)), *map(float, range(4, 21))]
 DAMPED_STEPS = [*STEP_SIZES, 1 / 24, 1 / 50, 1 / 118, 1 / 100, 1 / 1000, 0.1, 0.25]
 
 
 @recorded.oracle(RATES, DAMPED_STEPS)
 def damped(rate: float, seconds: float) -> float:
-    """Return the share of a speed that is left after so many seconds at a rate per second."""
+    """Return the share of a speed that remains after some seconds at a rate per second."""
     return math.exp(-rate * seconds)
 
 
 # ---------------------------------------------------------------- impulses: TODO 2, 3 and 4
 
-BETA = 0.2  # share of an error put right in one step
+BETA = 0.2  # share of an error corrected in one step
 Pair = tuple[float, float]
 
 
 def inverse(mass: float) -> float:
-    """Return 1 / mass, in 1/kg; a mass of 0 is a static body's, which no impulse moves."""
+    """Return 1 / mass, in 1/kg. A mass of 0 marks a static body, which no impulse moves."""
     return 1 / mass if mass else 0.0
 
 
@@ -152,20 +152,21 @@ class Rod(NamedTuple):
 
     @property
     def turned(self) -> "Rod":
-        """Return the same rod with A for B and B for A."""
+        """Return the same rod with its ends swapped."""
         x, y = self.offset
         ends = self.mass_b, self.mass_a, self.length, (-x, -y), self.vel_b, self.vel_a
         return Rod(*ends, self.dt)
 
     @property
     def bias(self) -> float:
-        """Return the speed of B away from A that takes the share BETA of the error away, px/s."""
+        """Return the speed of B away from A that corrects the share BETA of the error, px/s."""
         return -BETA / self.dt * (math.hypot(*self.offset) - self.length)
 
 
 @recorded.oracle()
 def pushed(rod: Rod, impulse: float) -> tuple[Pair, Pair]:
-    """Return the velocities of A and B after an impulse along the axis; above 0 it parts them."""
+    """Return the velocities of A and B after an impulse along the axis; above 0, it pushes them
+    apart."""
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
     a, b = impulse * inverse(rod.mass_a), impulse * inverse(rod.mass_b)
     return (ax - a * x, ay - a * y), (bx + b * x, by + b * y)
@@ -178,7 +179,7 @@ def rod_solved(rod: Rod) -> tuple[Pair, Pair]:
 
 
 class Spring(NamedTuple):
-    """A spring between the ends of a rod; its length is that of rest."""
+    """A spring between the ends of a rod; `length` is its rest length."""
 
     rod: Rod
     stiffness: float  # kg/s²
@@ -263,7 +264,8 @@ def rk4(x: float, v: float, dt: float, accel: Accel) -> State:
 
 
 def pymunk_fall(gravity: float, dt: float, steps: int) -> tuple[float, float]:
-    """Return the way and speed of a fall from rest; pymunk moves a body before it speeds it up."""
+    """Return distance and speed of a fall from rest; pymunk moves a body before it accelerates
+    it."""
     return gravity * dt**2 * steps * (steps - 1) / 2, gravity * dt * steps
 
 
@@ -272,7 +274,7 @@ def disc_moment(mass: float, radius: float) -> float:
 
 
 def rolling_speed(speed: float) -> float:
-    """Return the speed that a full disc keeps once it rolls; friction decides only how soon."""
+    """Return the speed of a full disc once it rolls; friction only decides when that is."""
     return speed * 2 / 3
 
 

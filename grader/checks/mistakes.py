@@ -1,4 +1,4 @@
-"""Register known mistakes by the sentences of `mistakes.toml`, which name them to students."""
+"""Register known mistakes with their sentences for students in `mistakes.toml`."""
 
 import tomllib
 from collections.abc import Callable
@@ -22,7 +22,7 @@ class Known(Protocol):
 
 
 def meaning_of(todo: str, name: str) -> str:
-    """Return the sentence of a mistake; of two at once, `one+other`, both sentences."""
+    """Return the sentence of a mistake, or both sentences for `one+other`."""
     meanings = MEANINGS[todo]
     if name in meanings:
         return meanings[name]

@@ -1,7 +1,7 @@
-"""Fixed steps out of frames of any length: what TODO 6 and TODO 7d have in common.
+"""Test fixed steps with frames of any length, for TODO 6 and TODO 7d.
 
-A program may read the time as it likes, and may simulate a frame's time in that frame or in the
-next one. Frames are whole milliseconds, as pygame's are.
+A program may read the time in any way, and simulate a frame's time in that frame or the next.
+Frames are whole milliseconds, as pygame's are.
 """
 
 import math
@@ -14,8 +14,8 @@ from grader.protocol import RUNAWAY, Played
 
 STEP_MS = 1000 * STEP
 ROUNDING = 1e-6  # ms
-TINY = 1e-5  # s: who counts in microseconds is right, and who keeps clear of rounding
-DRIFT = 1e-4  # of the time: STEP is 8333 or 8334 whole microseconds
+TINY = 1e-5  # s: allows programs that count in microseconds or add a margin for rounding
+DRIFT = 1e-4  # share of the time: STEP is 8333 or 8334 whole microseconds
 OFF_BEAT = [2]  # ms: no later sum is a whole number of steps, where rounding would decide
 BELOW_ZERO = (
     "The accumulator falls below 0: the frame's time is added to it, and a step takes STEP from it "
@@ -23,7 +23,7 @@ BELOW_ZERO = (
 )
 ENDLESS = "The loop of steps does not end: each step must take STEP from the accumulator."
 SETTLE = [1, 1]  # ms: time for a program that is a frame behind
-LONGEST_FRAME = 58  # ms: of those that are meant to stay below the cap
+LONGEST_FRAME = 58  # ms: of the frames that stay below the cap
 STEP_TAKES = 2.5  # ms, where steps are slow; they fit into every frame
 LONGEST_UNCUT, LONGEST_WAIT = 66, 50  # ms: below the cap of 66.7, and with room between them
 
@@ -37,19 +37,19 @@ def frames_at(rate: int, seconds: float) -> list[int]:
 
 
 def ever_longer_frames() -> list[int]:
-    """Return frames of all lengths below the cap, 6 of each, so that a wrong length shows."""
+    """Return 6 frames of each length below the cap, to expose a wrong length."""
     return [length for length in range(1, LONGEST_FRAME + 1) for _ in range(6)]
 
 
 @dataclass
 class Pace:
-    """Hold what a program made of its frames, frame by frame."""
+    """Holds the steps that a program ran in each frame."""
 
     lengths: list[float]  # ms, as scripted, or longer where the program slept longer
-    steps: list[int]  # that ran once this frame was over, and before the next one was
+    steps: list[int]  # that ran after this frame and before the end of the next
     sizes: list[float]  # s, the different step sizes
     waiting: float  # ms that had passed before the first of these frames and were not simulated
-    by_advance: bool  # every step ran in a function advance as the lab sheet has it
+    by_advance: bool  # every step ran in `advance`, as on the lab sheet
 
     @property
     def time(self) -> float:
@@ -68,11 +68,11 @@ class Pace:
 
     @property
     def slack(self) -> float:
-        """Return how much a program that is a frame behind may not have seen yet, ms."""
+        """Return the time that a program one frame behind may not know yet, ms."""
         return sum(self.lengths[-len(SETTLE) :])
 
     def out_of_step(self, frames: int | None = None) -> int | None:
-        """Return the first frame when more is simulated than has passed, or over a step less, or
+        """Return the first frame whose simulated time is too long, or over a step too short, or
         None.
 
         With `frames`, only that many count.
@@ -92,7 +92,7 @@ def pace(lab: Lab, frames: list[int], step_ms: float = 0.0) -> Pace:
 
     Each step takes `step_ms` of its frame, as on a slow computer.
 
-    A program that waits makes short frames as long as it likes. If it always waits for the same
+    A program that waits makes short frames longer. If it always waits for the same
     number of steps, it needs no accumulator. So it is run again with frames that are longer than
     its wait.
     """
@@ -117,7 +117,7 @@ def pace(lab: Lab, frames: list[int], step_ms: float = 0.0) -> Pace:
 def beyond(waits: float, frame: int) -> int:
     """Return the length of a frame (ms) for a program that itself waits this long.
 
-    Frames stay below the cap that were below it, and of two the longer one is longer.
+    Frames below the cap stay below it, and the order of lengths is preserved.
     """
     least = math.floor(min(waits, LONGEST_WAIT)) + 1
     room = LONGEST_UNCUT - least
@@ -125,14 +125,13 @@ def beyond(waits: float, frame: int) -> int:
 
 
 def play_at(lab: Lab, asked: list[int], step_ms: float) -> tuple[Pace, float]:
-    """Return what the program makes of these frames; and the longest that it has made longer, ms,
-    or 0.
+    """Return the program's steps in these frames, and the longest frame that it lengthened, ms, or
+    0.
     """
     frames = [*OFF_BEAT, *asked, *SETTLE]
     played = lab.play(frames, physics=False, step_ms=step_ms)
     count = len(frames)
-    # What ran before the first frame had a length is nothing to judge a program by, nor is a
-    # last frame that the program may have left out.
+    # Ignore steps before the first frame has a length, and a last frame that the program may omit.
     steps = played.steps[1:count]
     sizes = [size for size in played.dts if size] if any(steps) else []
     lab.saw("frames", (tuple(frames),), (steps, sizes))
@@ -164,7 +163,7 @@ def want_fixed_steps(lab: Lab, sizes: list[float]) -> None:
 
 
 def make_still_world(lab: Lab) -> Thing:
-    """Return a world or space in the middle of something, with a body far below the window."""
+    """Return a world or space during a run, with a body far below the window."""
     if lab.module == "pymunk_scene":
         space = lab.thing(lab.call("pymunk:Space"), "a Space")
         for pos, spin in (
@@ -219,8 +218,7 @@ def want_whole_steps(lab: Lab, world: Thing, accumulator: float, seconds: float)
     owed, most = accumulator + seconds, MAX_STEPS * STEP
     due = min(owed, most)
     beyond = steps * STEP + rest - due
-    # A frame that is cut may keep what was in the accumulator, or lose it. Above MAX_STEPS steps
-    # it is main that cuts, if anything does.
+    # A capped frame may keep or lose the accumulator. Above MAX_STEPS steps, only main may cap.
     right = abs(beyond) <= TINY if owed <= most else beyond >= -TINY or steps > MAX_STEPS
     lab.want(
         right and -TINY <= rest <= STEP + TINY,
@@ -232,7 +230,7 @@ def want_whole_steps(lab: Lab, world: Thing, accumulator: float, seconds: float)
 
 
 def want_a_proper_end(lab: Lab, played: Played, frames: int) -> None:
-    """Demand that the program runs until its window is closed after `frames`, and no longer."""
+    """Insist that the program stops when its window is closed after `frames`, and not before."""
     lab.want(
         played.ended != "runaway",
         "a few steps in each frame",

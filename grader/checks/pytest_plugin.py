@@ -55,7 +55,7 @@ class CheckFile(pytest.File):
 
 
 class CheckItem(pytest.Item):
-    """One check, asked of the submission with the reference in the other TODOs' places."""
+    """One check, run on the submission with the reference's code in the other TODOs."""
 
     todo: Todo
     check: Check

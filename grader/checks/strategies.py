@@ -1,4 +1,4 @@
-"""Say what hypothesis may draw: all strategies, on grids that make short counterexamples."""
+"""Define hypothesis strategies, on grids that give short counterexamples."""
 
 import math
 
@@ -37,7 +37,7 @@ near_and_far = st.one_of(
     between(-4000, 4000).map(lambda n: n / 4),
     st.sampled_from([0.0, 1 / 64, -1 / 64]),
 )
-starts = st.tuples(  # x in px, v in px/s: one that moves, and one at rest
+starts = st.tuples(  # x in px, v in px/s: a moving body and one at rest
     st.tuples(near_and_far, near_and_far), st.tuples(near_and_far, st.just(0.0))
 )
 forces = st.tuples(*[st.integers(-8, 8).map(lambda n: (n + 1) / 4)] * 4)  # up to the cubic term
@@ -54,7 +54,7 @@ frame_lists = st.builds(
 
 @st.composite
 def frames_to_advance(draw: st.DrawFn) -> list[tuple[float, float]]:
-    """Return what is in the accumulator, and frames from 1 ms to 2 s in any order; all in s.
+    """Return the accumulator, and frames from 1 ms to 2 s in any order; all in s.
 
     Up to the cap each is a tenth longer than another one, so that no range is left out. Some are
     exactly as long as nothing, a step, or as many steps as may run, and some hardly longer.
@@ -74,7 +74,7 @@ pairs = st.tuples(coordinates, coordinates)
 discs = st.builds(Disc, coordinates, coordinates, radii)
 velocities = st.tuples(speeds, speeds)
 
-# TODO 4 and 5: from hardly moving to very fast, from a feather to a ship.
+# TODO 4 and 5: from very slow to very fast, and from very light to very heavy.
 low_speeds = st.integers(-64, 64).map(lambda n: n / 128)  # px/s
 crawls = st.integers(1, 64).map(lambda n: n / 128)  # px/s or rad/s, never at rest
 any_speeds = speeds | low_speeds | st.sampled_from([-2e4, 2e4])
@@ -87,8 +87,8 @@ crowd_radii = radii | between(40, 400).map(float)  # px
 crowd_discs = st.builds(Disc, coordinates, coordinates, crowd_radii)
 crowd_rects = st.builds(Rect, coordinates, coordinates, half_extents, half_extents)
 
-# Of every size, anywhere and however moved. Scales and places are whole or powers of 2, so that
-# sums and differences of what was drawn are exact.
+# Bodies of any size, position and motion. Scales and positions are whole or powers of 2, so that
+# their sums and differences are exact.
 places = st.sampled_from([0.0, -40_000.0, 500_000.0])  # px
 any_masses = masses | st.sampled_from([1 / 1024, 1e6])  # kg
 any_masses_or_static = st.just(0.0) | any_masses
@@ -101,7 +101,7 @@ surfaces = st.sampled_from([0.0, 1.0]) | frictions
 SURFACE = {"friction": surfaces, "restitution": surfaces}
 any_surface = st.fixed_dictionaries(SURFACE)
 MOTION = {"vel": any_velocities, "omega": any_spins, "angle": any_spins}
-# Where it does not matter where a body is: in the window, left of it, above it, and far away.
+# Positions that must not matter: in the window, left of it, above it, and far away.
 anywhere = st.sampled_from([-1600.25, 40.5, 3200.75]) | places_around  # px
 PLACE = {"pos": st.tuples(anywhere, anywhere)}
 wherever = st.fixed_dictionaries({**PLACE, **MOTION, **SURFACE})
@@ -111,7 +111,7 @@ circles = st.fixed_dictionaries({"mass": any_masses_or_static, **MOTION, **SURFA
 
 @st.composite
 def directions(draw: st.DrawFn) -> tuple[float, float]:
-    """Return a unit vector; often one that is hardly off level or upright."""
+    """Return a unit vector, often a nearly horizontal or vertical one."""
     off = draw(st.integers(-64, 64)) * draw(st.sampled_from([1 / 64, 1 / 65536]))  # rad
     angle = draw(st.integers(0, 3)) * math.pi / 2 + off
     return math.cos(angle), math.sin(angle)

@@ -16,8 +16,8 @@ from grader.protocol import ContactValue
 
 BOX = Rect(0, 0, 40, 20)
 ROUND = range(0, 1000, 50)  # px
-MASSES = (1.0, 1e-3, 1e6, 0.05, 1e3)  # kg; a contact does not hang on them
-# What the contact does not hang on.
+MASSES = (1.0, 1e-3, 1e6, 0.05, 1e3)  # kg; a contact does not depend on them
+# Fields that the contact does not depend on.
 MOVING: dict[str, Any] = {"vel": (1.5, -300.0), "omega": 4.0, "angle": 1.0}
 Fields = dict[str, Any]
 
@@ -49,12 +49,12 @@ def touch(
     twice: bool = True,
     noted: bool = True,
 ) -> Touch | None:
-    """Return what the submission's circle_box says of these two, where disc and rect say they are.
+    """Return the submission's circle_box for this pair, at the positions of disc and rect.
 
-    An answer that is not `noted` is not held against the known mistakes.
+    An answer that is not `noted` is not compared with the known mistakes.
     """
     if lab.running != describe_question(disc, rect):
-        lab.ran(describe_question(disc, rect))  # the two are elsewhere now
+        lab.ran(describe_question(disc, rect))  # both have moved since
     try:
         contact = lab.contact_or_none(
             lab.call("circle_box", circle, box, changes=NOTHING, twice=twice)
@@ -81,7 +81,7 @@ def want_new(
     box: Thing,
     noted: tuple[Disc, Rect] | None,
 ) -> None:
-    """Insist on a contact of these two, with no impulse yet, and give it some.
+    """Insist on a contact of this pair without an impulse, then give it one.
 
     The next contact must not have them.
     """
@@ -117,7 +117,7 @@ def want(lab: Lab, answer: Touch | None, right: list[Touch | None], of: str = ""
 
 
 def want_exact(lab: Lab, discs: Iterable[Disc], at: Pair = (0.0, 0.0), **circle: Any) -> None:
-    """Insist on the right answers about these discs, given as seen from the middle of the box."""
+    """Insist on the right answers for these discs, with positions relative to the box."""
     size, x, y = lab.about(1.0), lab.about(at[0], 64.0), lab.about(at[1], 64.0)
     box = Rect(x, y, size * BOX.hx, size * BOX.hy)
     for each in discs:
@@ -144,7 +144,7 @@ def overlap_from_outside_points_into_the_box(lab: Lab) -> None:
         Disc(44, -5, 10),
         Disc(43, -24, 10),  # at two corners
         Disc(-46, 28, 15),
-        Disc(5, -20.125, 10),  # hardly outside a face and a corner
+        Disc(5, -20.125, 10),  # just outside a face and a corner
         Disc(40.0625, 20.125, 10),
         Disc(3, -30, 90),  # larger than the box
         Disc(-5, -29.9375, 10),  # hardly at all
@@ -160,7 +160,7 @@ def overlap_from_outside_points_into_the_box(lab: Lab) -> None:
 def near_round_numbers(off: float) -> Iterable[tuple[Disc, Rect]]:
     """Yield faces and centres near each round position of the window, and such distances.
 
-    Whoever takes such a number for the round one (or a small one for 0) gives another answer.
+    Code that rounds these numbers, or treats a small one as 0, gives another answer.
     """
     for n, x in enumerate(ROUND):
         y, (hx, hy) = ROUND[-n], BOX[2:]
@@ -181,7 +181,7 @@ def a_centre_inside_leaves_by_the_nearest_face(lab: Lab) -> None:
         Disc(3, 12, 8),
         Disc(35, 1, 8),
         Disc(29, -10, 8),  # nearer to the top, though closer to the right by shares of the box
-        Disc(-30, -6, 8),  # each nearer to a face than to the next one, by a little
+        Disc(-30, -6, 8),  # each slightly nearer to a face than to the next one
         Disc(30, 6, 8),
         Disc(-25, -8, 8),
         Disc(25, 8, 8),
@@ -219,7 +219,7 @@ CLOSE, HARDLY = 1 / 64, 63 / 64  # shares of a way
 
 
 def regions(size: Size, share: float) -> Iterator[Pair]:
-    """Yield positions of a centre, as seen from the middle of the box: one in every region.
+    """Yield a centre in every region, relative to the middle of the box.
 
     `share`, from 0 to 1, says how far inside or outside they are. All shares are parts of 64, so
     that sums are exact.
@@ -324,7 +324,7 @@ def balls_land_on_a_floor_and_lie_there(lab: Lab) -> None:
 
 
 def want_at_rest(lab: Lab, moments: list[Moment], x: float) -> None:
-    """Insist on a ball on the floor: as deep as it may be without a push, and a step's fall."""
+    """Insist that a ball lies on the floor, sunk in by at most SLOP and one step's fall."""
     last = moments[-30:]
     lab.want(
         all(abs(each.y - 370.0) < 1.5 and abs(each.x - x) < 1.0 for each in last),

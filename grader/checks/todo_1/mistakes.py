@@ -97,19 +97,19 @@ def with_normal(touch: Touch, nx: float, ny: float) -> Touch:
 
 
 def find_at_any_distance(disc: Disc, rect: Rect) -> Touch:
-    """Return the contact even where the two are apart: the depth is then negative."""
+    """Return the contact even when the two are apart, with a negative depth."""
     answer = find_contact(disc._replace(r=disc.r + FAR), rect)
     assert answer is not None
     return answer._replace(depth=answer.depth - FAR)
 
 
 def find_in_box(change: Callable[[float, float, float, float], Box]) -> Model:
-    """Return the model that takes another box, made from x, y, hx and hy of the right one."""
+    """Return the model that uses a wrong box, made from x, y, hx and hy of the right one."""
     return lambda disc, rect: find_contact(disc, Rect(*change(*rect)))
 
 
 def find_on_edge(disc: Disc, edge: Rect) -> Answer:
-    """Return the contact with an edge, in place of the box."""
+    """Return the contact with an edge instead of the box."""
     if is_inside(disc, edge):
         raise Undecided  # the distance is 0
     return find_contact(disc, edge)

@@ -16,14 +16,14 @@ FLOOR = Lever(0.0, 100.0, 30.0, -100.0)
 DOWN = (0.0, 1.0)
 DIAGONAL = (0.6, 0.8)
 PLACES = (-30.3125, 70.6875), (12.4375, -5.8125)  # px; the arms say where they are touched
-# Arms of 20 px, px: so many, each asked twice, that one call in a hundred shows.
+# Arms of 20 px: enough pairs of calls to find a fault in one call of a hundred.
 ALL_ROUND = [(20 * math.cos(0.11 * n), 20 * math.sin(0.11 * n)) for n in range(52)]
 USUAL = Lever(1.0, 10.0625, 10.0625, 3.0)  # nearly the ball that students have in mind
-Fields = dict[str, Any]  # what a body has besides mass and radius, on which nothing here hangs
+Fields = dict[str, Any]  # fields of a body besides mass and radius, which must not matter here
 
 
 def discs(lab: Lab, a: Lever, b: Lever, *fields: Fields) -> tuple[Thing, Thing]:
-    """Return both discs; `fields` are what else A and B have, or nothing where they rest."""
+    """Return both discs; `fields` are the other fields of A and B, or None if they rest."""
     first, second = (
         lab.circle(radius=lever.radius, mass=lever.mass, **{"pos": place, **how})
         for place, lever, how in zip(PLACES, (a, b), fields or ({}, {}), strict=True)
@@ -44,9 +44,9 @@ def effective_mass(
     things: tuple[Thing, Thing] | None = None,
     framed: bool = True,
 ) -> float:
-    """Return what the submission's effective_mass says of two discs.
+    """Return the submission's effective_mass for two discs.
 
-    Where it is not `framed`, a right number is worth its points, whatever else happens.
+    Unless `framed`, only the number counts, not whether the bodies change.
     """
     lab.ran(f"effective_mass along ({axis[0]:g}, {axis[1]:g}): A {say(a)}; B {say(b)}")
     arms = (a.rx, a.ry), (b.rx, b.ry)
@@ -118,7 +118,7 @@ def only_the_part_of_an_arm_across_the_axis_counts(lab: Lab) -> None:
 QUADRANTS = (1, 1), (-1, 1), (1, -1), (-1, -1)
 BOTH, ONLY_A, ONLY_B = (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)  # of the masses that were drawn
 KINDS = ONLY_A, ONLY_B, BOTH, BOTH
-OFF = math.sin(1 / 4096), math.cos(1 / 4096)  # hardly off an upright axis
+OFF = math.sin(1 / 4096), math.cos(1 / 4096)  # nearly vertical axes
 AXES = (0.0, 1.0), DIAGONAL, (1.0, 0.0), (-0.8, 0.6), OFF, (0.28, -0.96), (OFF[1], -OFF[0])
 SCALES = 1.0, 1 / 8, 256.0  # of lengths
 WEIGHTS = 1.0, 512.0, 1 / 1024  # times the mass
@@ -166,7 +166,7 @@ def any_two_bodies_agree_with_the_formula(
             both = discs(lab, a, b, *(slow if n % 2 else fields))
             want_exact(lab, a, b, axis, both)
             want_exact(lab, a._replace(rx=a.ry, ry=-a.rx), b, axis, both)
-            if n % 4 == 0:  # what can no longer be moved
+            if n % 4 == 0:  # A and B become static in turn
                 lab.put(both[0], inv_mass=0.0, inv_inertia=0.0)
                 want_exact(lab, a._replace(mass=0.0), b._replace(rx=b.ry, ry=b.rx), axis, both)
             n += 1
@@ -192,7 +192,7 @@ def a_sliding_ball_comes_to_roll_on_a_large_one(lab: Lab) -> None:
 def want_to_roll(lab: Lab, ground: Thing, pos: Pair, radius: float, mass: float, name: str) -> None:
     """Insist that the lowest point of the ball rests on the ground after a second and a half.
 
-    Friction of 0.6 takes 588 px/s off the speed in a second, and a third of 300 must go.
+    Friction of 0.6 removes 588 px/s in a second, and a third of 300 must be removed.
     """
     mass, speed = lab.about(mass), lab.about(300.0)
     lab.ran(f"a ball of {mass:g} kg, r {radius:g}, slid at {speed:g} px/s on a {name}, 2 seconds")

@@ -17,9 +17,9 @@ ANGLES = (0.703125, -2.40625)  # rad, by which A and B are turned
 Surface = dict[str, float]
 SMOOTH = {"restitution": 0.96875, "friction": 0.015625}
 ROUGH = {"restitution": 0.015625, "friction": 1.53125}
-A_HAIR = 1 / 512  # px: the ends of a rod that is off by so little part at 0.05 px/s
+A_HAIR = 1 / 512  # px: with such a small error the ends part at 0.05 px/s
 FAR_AWAY = (2304.0, -1088.0)  # px, where A is
-MANY = 55  # rods on either side: enough that one call in a hundred shows
+MANY = 55  # rods on either side: enough to find a fault in one call of a hundred
 STILL, SLOW, FAST = (0.0, 0.0), (20.0, -10.0), (100.0, 60.0)  # px/s
 
 
@@ -30,7 +30,7 @@ def join(
     at: Pair = STILL,
     surfaces: tuple[Surface, Surface] = (ROUGH, SMOOTH),
 ) -> tuple[Thing, Thing, Thing]:
-    """Return the joint, its A, which is there, and its B, ready to be solved."""
+    """Return a prepared joint and its bodies A and B."""
     (x, y), (dx, dy), (first, second) = at, rod.offset, surfaces
     a = lab.circle(at, 10.0, rod.mass_a, vel=rod.vel_a, omega=spins[0], angle=ANGLES[0], **first)
     at_first = (x + rod.length, y)
@@ -55,8 +55,7 @@ def solve(lab: Lab, rod: Rod, spins: Pair = STILL, at: Pair = STILL) -> tuple[Bo
 
 
 def tell_solve(lab: Lab, joint: Thing, a: Thing, b: Thing, rod: Rod) -> tuple[BodyValue, BodyValue]:
-    """Return A and B after a pass over a rod that has just been prepared; an exception is an
-    answer, too.
+    """Return A and B after a pass over a newly prepared rod, or the exception it raised.
 
     It may change the velocities of ends that can move, and nothing else.
     """
@@ -114,10 +113,9 @@ def want_exact(
 
 
 def rounding(rod: Rod, far: float = 0.0) -> float:
-    """Return how far off a speed may be, px/s: the rod is measured by places, `far` px away at the
-    most.
+    """Return the tolerance of a speed, px/s, for a rod at most `far` px away.
 
-    Far away a short rod's direction is known less well, and so is the part of a speed along it.
+    Far from the origin, rounding affects a short rod's direction and the speed along it.
     """
     distance = math.hypot(*rod.offset)
     measured = BETA / rod.dt * (rod.length + distance + far)
@@ -126,7 +124,7 @@ def rounding(rod: Rod, far: float = 0.0) -> float:
 
 
 def make_similar(lab: Lab, rod: Rod) -> Rod:
-    """Return a rod as long and off by the same share, its ends as heavy and as fast."""
+    """Return another rod with the same length, relative error, masses and speeds."""
     size, fast, x, y = lab.about(1.0), lab.about(1.0), *rod.offset
     return Rod(
         lab.about(rod.mass_a),
@@ -147,7 +145,7 @@ def a_stretched_rod_pulls_its_ends_together(lab: Lab) -> None:
     )
     want_exact(lab, make_similar(lab, Rod(1.0, 4.0, 0.0, (-3.0, 4.0), SLOW, FAST, STEP)))
     want_exact(lab, make_similar(lab, Rod(3.0, 1.0, 50.0, (0.0, A_HAIR + 50.0), SLOW, FAST, STEP)))
-    # A static end that is carried along has a speed for all that.
+    # A static end can still have a speed, as on a moving belt.
     want_exact(lab, make_similar(lab, Rod(0.0, 2.0, 50.0, (60.0, 0.0), SLOW, FAST, STEP)))
 
 
@@ -160,7 +158,7 @@ def a_squeezed_rod_pushes_its_ends_apart(lab: Lab) -> None:
 
 
 def ends_in_one_place_part(lab: Lab) -> None:
-    """Insist that the ends part, whichever way; `prepare` has given the rod an axis."""
+    """Insist that the ends part, in any direction; `prepare` has set the axis."""
     rod = make_similar(lab, Rod(3.0, 1.0, 50.0, STILL, SLOW, SLOW, STEP))
     lab.ran(f"solve on a rod {rod.length:g} px long whose ends are in one place, both {SLOW} px/s")
     joint, a, b = join(lab, rod)
@@ -199,7 +197,7 @@ def a_rod_of_the_right_length_stops_only_the_speed_along_it(lab: Lab) -> None:
 
 STRAINS = 0.0, 0.25, -0.25, 1 / 1024, -1 / 1024  # of the length
 SPEEDS = ((0.0, 0.0), (60.0, -20.0)), ((-35.0, 50.0), (0.0, 0.0)), ((0.25, 8.0), (0.5, -9.0))
-OFF = math.sin(1 / 64), math.cos(1 / 64)  # hardly off an upright axis
+OFF = math.sin(1 / 64), math.cos(1 / 64)  # nearly vertical axes
 DIRECTIONS = (
     (0.6, 0.8),
     (-0.8, 0.6),
@@ -317,7 +315,7 @@ def in_px_a_second(speed: float, digits: int) -> str:
 
 
 def nothing_happens_where_no_end_can_move(lab: Lab) -> None:
-    """solve does nothing where neither end can move, and its work where one can"""
+    """solve does nothing if neither end can move, and works if one can"""
     lab.ran("solve on a stretched rod after inv_mass and inv_inertia of both ends were set to 0")
     rod = make_similar(lab, Rod(3.0, 1.0, 50.0, (60.0, 0.0), (5.0, 0.0), (0.0, 7.0), STEP))
     joint, a, b = join(lab, rod, (2.0, -3.0))
@@ -327,7 +325,7 @@ def nothing_happens_where_no_end_can_move(lab: Lab) -> None:
     left = velocities(tell_solve(lab, joint, a, b, rod._replace(mass_a=0.0, mass_b=0.0)))
     before = rod.vel_a, rod.vel_b
     want_answer(lab, left == before, say_both, before, left)
-    for n in range(-MANY, MANY):  # and where they can, something does; k near 0.5, the usual one
+    for n in range(-MANY, MANY):  # it does work if they can; k near 0.5, the usual value
         heavy = 4.0 + (n + 0.5) / 128
         want_exact(lab, make_similar(lab, Rod(4.0, heavy, 50.0, (n / 8, 40.0), SLOW, FAST, STEP)))
 

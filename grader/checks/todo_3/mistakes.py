@@ -1,7 +1,7 @@
 """Known mistakes in TODO 3, as models of what one solve does to a rod.
 
-A model gives the velocities of both ends; a pass leaves the places as they are. Where neither end
-can move, one mistake alone is known: the division by 0.
+A model gives the velocities of both ends; a pass does not move them. If neither end can move, the
+only known mistake is the division by 0.
 """
 
 import math
@@ -53,7 +53,7 @@ known = known_in("3", "rod")
 
 
 def velocities(model: Model) -> Callable[[Rod], Answer]:
-    """Return a mistake in the velocities alone, where an end can move."""
+    """Return a model that changes only velocities, if an end can move."""
 
     def answer(rod: Rod) -> Answer:
         if not rod.k:
@@ -81,7 +81,7 @@ known("ignores-the-speed", velocities(lambda rod: exact.pushed(rod, rod.bias / r
 
 
 def push_for_speed(rod: Rod, seen: Rod) -> Ends:
-    """Return the velocities after the impulse for another rod's speed, of which one end rests."""
+    """Return the velocities after the impulse for another rod, one end of which rests."""
     return exact.pushed(rod, (rod.bias - seen.speed) / rod.k)
 
 

@@ -1,7 +1,7 @@
 """TODO 4: friction within its limit.
 
-Two discs that touch close and slip in one step of a world. Whatever closes is stopped, as nothing
-bounces, so the limit follows from the speeds. No number depends on TODO 2: no impulse turns them.
+Two touching discs approach and slip in one step of a world. Nothing bounces, so the limit follows
+from the speeds. No number depends on TODO 2, since no impulse turns them.
 """
 
 import math
@@ -35,7 +35,7 @@ DEPTH = 0.265625  # px, too little for a push out of the overlap
 FAST, SLOW = 300.0, 1.5  # px/s
 CLOSING = 12.5  # px/s
 FAR, FREE = (8192.0, -4096.0), 64.0  # px and px/s, of a disc that touches nothing
-RATES = (0.0, 1.0)  # of damping; a wrong TODO 5 may stop all at the first
+RATES = (0.0, 1.0)  # damping rates; a wrong TODO 5 may stop all bodies at the first
 LEAST_KEPT = 1e-3  # share of a speed that a step must keep so that friction can be seen
 ALL = "pos vel angle omega"  # of a disc that moves
 Motion = tuple[float, ...]  # velocities of A and B, px/s
@@ -47,11 +47,11 @@ Motion = tuple[float, ...]  # velocities of A and B, px/s
 def rub(
     lab: Lab, discs: Discs, closing: float, slip: float, dt: float = STEP, spin: float = 0.0
 ) -> tuple[float, float]:
-    """Return the friction impulse on B in a step, along its slip, and the share of its speed that
-    a free disc keeps; with a `spin` all else is looked at.
+    """Return the friction impulse on B along its slip, and the share of speed that a free disc
+    keeps. With a `spin`, also check everything else.
 
-    How far out a spin works is the engine's business, give or take the overlap, so it goes with
-    more slip than friction can end. What a step damps is TODO 5's business: a free disc tells it.
+    Engines may place the contact anywhere in the overlap, so spins come with more slip than
+    friction can end. A free disc measures the damping, which belongs to TODO 5.
     """
     lab.ran(
         f"a step of two discs, friction {discs.mu[0]:g} and {discs.mu[1]:g}: "
@@ -87,7 +87,7 @@ def rub(
 
 
 def place_discs(lab: Lab, discs: Discs, first: Motion, spin: float) -> tuple[Thing, Thing]:
-    """Return two discs that overlap by DEPTH, with these velocities; what moves spins."""
+    """Return two discs that overlap by DEPTH, with these velocities; movable ones spin."""
     (x, y), reach = discs.normal, sum(discs.radius) - DEPTH
     places = STILL, (reach * x, reach * y)
     a, b = (
@@ -109,16 +109,14 @@ def place_discs(lab: Lab, discs: Discs, first: Motion, spin: float) -> tuple[Thi
 
 
 def make_velocities(discs: Discs, closing: float, slip: float) -> Motion:
-    """Return the velocities with which B closes in on A and slips along it; statics rest."""
+    """Return velocities with which B approaches A and slips along it; static discs rest."""
     (x, y), (dx, dy) = discs.normal, discs.drift if all(discs.mass) else STILL
     vx, vy = -closing * x - slip * y, -closing * y + slip * x
     return (dx, dy, dx + vx, dy + vy) if discs.mass[1] else (-vx, -vy, 0.0, 0.0)
 
 
 def measure_friction(discs: Discs, first: Motion, last: Motion) -> float:
-    """Return the friction impulse on B between two motions, told by the lighter one of those that
-    move.
-    """
+    """Return the friction impulse on B between two motions, from the lighter movable disc."""
     (x, y), (mass_a, mass_b) = discs.normal, discs.mass
     if mass_b and not 0 < mass_a < mass_b:
         return mass_b * ((last[3] - first[3]) * x - (last[2] - first[2]) * y)
@@ -132,7 +130,7 @@ def motion(a: BodyValue, b: BodyValue) -> Motion:
 def want_opposite(
     lab: Lab, discs: Discs, first: Motion, last: Motion, pressing: float, rubbing: float
 ) -> None:
-    """Insist that nothing closes any more, and that A got the opposite of what B got."""
+    """Insist that the discs no longer approach, and that A got the opposite impulse of B."""
     x, y = discs.normal
     push = pressing * x - rubbing * y, pressing * y + rubbing * x
     a, b = (exact.inverse(mass) for mass in discs.mass)
@@ -149,7 +147,7 @@ def want_opposite(
 
 
 def want_contact(lab: Lab, world: Thing, discs: Discs, pressing: float, rubbing: float) -> None:
-    """Insist that the one contact is as it was found, with the impulses that worked."""
+    """Insist on one unchanged contact with the applied impulses."""
     found = [
         lab.contact_or_none(each) for each in lab.items(lab.get(world, "contacts"), "contacts")
     ]
@@ -197,7 +195,7 @@ def want_exact(
 
 
 def want_about(lab: Lab, discs: Discs, closing: float, slip: float) -> None:
-    """Insist on the same for discs as heavy, as fast and pressed as hard."""
+    """Insist on the same result for similar discs."""
     heavy, fast = lab.about(1.0), lab.about(1.0)
     (a, b), (x, y) = discs.mass, discs.drift
     like = discs._replace(mass=(heavy * a, heavy * b), drift=(fast * x, fast * y))
@@ -209,7 +207,7 @@ def want_about(lab: Lab, discs: Discs, closing: float, slip: float) -> None:
 
 def friction_stops_at_its_limit_both_ways(lab: Lab) -> None:
     """Friction stops at its limit, whichever way a body slips and however fast"""
-    for slip in (FAST, -FAST):  # a mistake in one way alone is told by both, so ask both first
+    for slip in (FAST, -FAST):  # ask both ways first: a mistake in one way shows in the comparison
         rub(lab, ON_A_FLOOR, CLOSING, slip)
     for slip in (FAST, -FAST, 10 * FAST, -10 * FAST):
         want_about(lab, ON_A_FLOOR, CLOSING, slip)
@@ -246,14 +244,14 @@ def within_the_limit_friction_ends_the_slip(lab: Lab) -> None:
 
 KINDS = (1.0, 1.0), (0.0, 1.0), (1.0, 0.0)  # of the masses that were drawn
 WEIGHTS = 1.0, 1024.0, 1 / 1024  # times the mass
-OFF = math.sin(1 / 64), math.cos(1 / 64)  # hardly off an upright normal
+OFF = math.sin(1 / 64), math.cos(1 / 64)  # nearly vertical normals
 NORMALS = (ASLANT, OFF, (-1.0, 0.0), (-0.8, 0.6), (0.0, -1.0), (OFF[1], -OFF[0]), (-0.28, -0.96))
 SPINS = 0.0625, -0.0625, 2.0, -2.0  # rad/s
 SHARES = 4.0, -4.0, 0.25, -0.25, 63 / 64, -63 / 64, 65 / 64, -65 / 64, 100.0, -100.0
 
 
 def slips(discs: Discs, closing: float) -> Iterator[float]:
-    """Yield slips both ways, px/s: some that friction can end, some that it just can, and more."""
+    """Yield slips both ways, px/s: below, at and above what friction can end."""
     most = math.sqrt(discs.mu[0] * discs.mu[1]) * closing
     yield from (share * most for share in SHARES)
 
@@ -352,7 +350,7 @@ def a_block_slides_and_comes_to_rest(lab: Lab) -> None:
 def friction_takes_the_same_speed_in_every_step(lab: Lab) -> None:
     """A sliding block slows down evenly, as friction 0.5 allows, and stops
 
-    Its last step begins with three quarters of what friction takes in one, under any seed.
+    Under any seed, the speed before its last step is 3/4 of what friction removes in a step.
     """
     begin = (lab.whole(36, 7) + 0.75) * 0.5 * 980.0 * STEP
     lab.ran(f"2 kg sliding at {begin:.1f} px/s either way on a floor, friction 0.5, half a second")

@@ -12,11 +12,11 @@ Limit = Callable[[Pair, float], float]  # both frictions, jn -> the limit
 Rule = Callable[[float, float, float], float]  # total so far, total wanted, limit -> new total
 Model = Callable[[Pair, float, float, float], float]  # as exact.friction
 PASSES = 8  # of the solver in a step
-DEPTH = 0.265625  # px, the overlap of all that is rubbed
+DEPTH = 0.265625  # px, the overlap of all discs
 
 
 def describe_slip(mu: Pair, k: float, closing: float, slip: float) -> dict[str, str]:
-    """Return how the two rub, in words."""
+    """Describe how the two discs rub."""
     limit = math.sqrt(mu[0] * mu[1]) * max(closing / k, 0.0)
     return {
         "ways": f"B slips {'forwards' if slip > 0 else 'backwards'}",
@@ -36,7 +36,7 @@ def with_limit_and_rule(limit_of: Limit, rule: Rule) -> Model:
 
     def model(mu: Pair, k: float, closing: float, slip: float) -> float:
         if not (mu[0] and mu[1]):
-            raise Undecided  # an engine may leave friction out where there is none
+            raise Undecided  # an engine may skip friction of 0
         total, limit = 0.0, limit_of(mu, max(closing / k, 0.0))
         for _ in range(PASSES):
             total = rule(total, total - (slip + k * total) / k, limit)
@@ -144,9 +144,9 @@ def limit_grows_with_the_slip(mu: Pair, k: float, closing: float, slip: float) -
 
 
 def kept_as_wanted(applied: Rule) -> Model:
-    """Return where the contact keeps the total that was wanted, and this much is applied of it.
+    """Return the friction of a contact that stores the wanted total and applies a part of it.
 
-    `applied` takes what the contact has kept, what is wanted, and the limit.
+    `applied` takes the stored total, the wanted total, and the limit.
     """
 
     def model(mu: Pair, k: float, closing: float, slip: float) -> float:

@@ -22,7 +22,7 @@ from grader.judge.lab import Lab, Moment, Pair, Thing
 from grader.protocol import BodyValue
 
 SPEED, SPIN = 300.0, 12.0  # px/s, rad/s
-SINGLE = 2.0**-23  # of a speed and a step: who computes what is kept in single precision is right
+SINGLE = 2.0**-23  # share of a speed per step: single precision is accepted
 Shares = tuple[float, float]  # of speed and spin
 PULLS = (0.0, 0.0), (0.0, 980.0), (-120.375, 35.5), (0.125, -980.25)  # px/s²
 
@@ -42,7 +42,7 @@ class Damped(NamedTuple):
         steps: int,
         motion: Pair = (SPEED, SPIN),
     ) -> Shares:
-        """Return the shares of speed and spin that are left after some steps at these rates."""
+        """Return the shares of speed and spin that remain after some steps at these rates."""
         lab, (speed, spin) = self.lab, motion
         lab.put(self.world, linear_damping=linear, angular_damping=angular)
         lab.put(self.ball, pos=(0.0, 0.0), vel=(speed, 0.0), omega=spin)
@@ -160,7 +160,7 @@ def one_long_step_or_many_short_ones_damp_alike(
 
 
 def want_both(lab: Lab, damped: Damped, rates: Pair, dt: float, parts: int) -> None:
-    """Insist that the same is left after one step and after the same time in parts."""
+    """Insist that one long step and several short ones leave the same speed."""
     linear, angular = rates
     lab.ran(
         f"linear_damping = {linear:g}, angular_damping = {angular:g}: "
@@ -189,8 +189,8 @@ def say_step(dt: float) -> str:
 def damping_keeps_the_direction_and_leaves_statics_alone(
     lab: Lab, first: Pair, slow: Pair, spins: Pair, rates: Pair, dt: float
 ) -> None:
-    """Damping keeps the direction, after gravity, and static bodies are left alone"""
-    meant = [  # far from each other: at 20000 px/s a ball comes 10000 px far
+    """Damping keeps the direction, after gravity, and does not change static bodies"""
+    meant = [  # far from each other: at 20000 px/s a ball moves 10000 px
         Moment(-1e5, 40.0, *first, 0.3, spins[0]),
         Moment(1e5, -70.0, *slow, -2.0, spins[1]),
     ]
@@ -233,7 +233,7 @@ def damping_keeps_the_direction_and_leaves_statics_alone(
 
 
 def want_unmoved(lab: Lab, still: Thing, belt: Thing) -> None:
-    """Insist on the static box where it was, and on the belt as fast as it was."""
+    """Insist that the static box has not moved and that the belt has its old speed."""
     for each, vel, omega in ((still, (0.0, 0.0), 0.0), (belt, (50.0, -20.0), 2.0)):
         body = lab.state(each)
         lab.want(
@@ -246,9 +246,9 @@ def want_unmoved(lab: Lab, still: Thing, belt: Thing) -> None:
 
 
 def a_fleet(lab: Lab) -> tuple[list[Thing], list[Thing]]:
-    """Return four balls on two rods, far from all else, and the rods.
+    """Return four balls on two rods, far from other bodies, and the rods.
 
-    All have one velocity, so that no rod has anything to do.
+    All have the same velocity, so that no rod applies an impulse.
     """
     places = (0.0, 0.0), (40.0, 0.0), (0.0, 40.0), (40.0, 40.0)  # px, the radii 10
     balls = [lab.circle((x, 9e5 + y), vel=(30.0, -20.0)) for x, y in places]
@@ -257,7 +257,7 @@ def a_fleet(lab: Lab) -> tuple[list[Thing], list[Thing]]:
 
 
 def step_moment(each: Moment, pull: Pair, keep: Shares, dt: float) -> Moment:
-    """Return a body a step later that touches nothing: gravity, then damping, then it moves."""
+    """Return a body that touches nothing, a step later: gravity, damping, then motion."""
     vx, vy = keep[0] * (each.vx + pull[0] * dt), keep[0] * (each.vy + pull[1] * dt)
     omega = keep[1] * each.omega
     return Moment(each.x + vx * dt, each.y + vy * dt, vx, vy, each.angle + omega * dt, omega)

@@ -9,7 +9,7 @@ from grader.judge.explain.misconceptions import truth
 
 Shares = tuple[float, float]
 Model = Callable[[float, float, float, int], Shares]  # both rates, dt, the number of steps
-Factor = Callable[[float, float], float]  # what one step keeps, from a rate and dt
+Factor = Callable[[float, float], float]  # share that one step keeps, from a rate and dt
 
 
 def keep_shares(linear: float, angular: float, dt: float, steps: int) -> Shares:
@@ -30,7 +30,7 @@ known_damping = known_in("5", "damping")
 
 
 def known(name: str, *models: Model) -> None:
-    """Register each model, also for a world that leaves damping out where both rates are 0."""
+    """Register each model, also for a world that skips damping if both rates are 0."""
     for model in models:
         known_damping(name, left_out_at_zero(model), model)
 
@@ -42,7 +42,7 @@ def left_out_at_zero(model: Model) -> Model:
 
 
 def per_step(factor: Factor) -> Model:
-    """Return both shares from what one step keeps at a rate."""
+    """Return both shares from the share that one step keeps at a rate."""
     return lambda linear, angular, dt, steps: (
         factor(linear, dt) ** steps,
         factor(angular, dt) ** steps,

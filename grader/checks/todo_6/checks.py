@@ -39,7 +39,7 @@ CAUGHT_UP = (
     "MAX_STEPS * STEP at the most."
 )
 STEADY, LEAST_IN_TURN = 30, 7.25  # frames, and steps in each of them on average
-NUMBER = re.compile(r"(?:(?<!\w)-)?\d+")  # a minus counts, a hyphen does not
+NUMBER = re.compile(r"(?:(?<!\w)-)?\d+")  # a minus is part of the number, a hyphen is not
 
 
 def paced_with_a_hiccup(lab: Lab, seconds: int) -> Pace:
@@ -58,7 +58,7 @@ def as_much_is_simulated_at_30_60_and_144_frames_a_second(lab: Lab) -> None:
         f"is {STEP_TAKES} ms longer for each step in it)"
     )
     paces = {rate: pace(lab, frames_at(rate, seconds), STEP_TAKES) for rate in (30, 60, 144)}
-    # Up to one step, and up to what a program has not seen yet that is a frame behind.
+    # Up to one step, and up to the time that a program one frame behind has not read yet.
     lab.want(
         all(-STEP_MS - p.waiting <= p.time - p.done <= STEP_MS + p.slack for p in paces.values()),
         ", ".join(f"{each.time / 1000:.3f} s at {rate}" for rate, each in paces.items()),
@@ -68,7 +68,7 @@ def as_much_is_simulated_at_30_60_and_144_frames_a_second(lab: Lab) -> None:
 
 
 def explain_too_much(paces: dict[int, Pace]) -> str:
-    """Say what follows where more time is simulated than passes, by the frames a second."""
+    """Explain, at each frame rate, the effect of simulating more time than passes."""
     if any(each.sizes and not are_fixed(each.sizes) for each in paces.values()):
         return OTHER_STEPS
     shares = {rate: each.done / each.time for rate, each in paces.items()}
@@ -126,7 +126,7 @@ def a_slow_frame_runs_eight_steps(lab: Lab) -> None:
 
 
 def want_eight_in_turn(lab: Lab) -> None:
-    """Insist that frames just below the cap lose next to nothing: they owe nearly eight steps each.
+    """Insist that frames just below the cap, of nearly eight steps each, lose almost no time.
 
     A program that cuts its accumulator instead of the frame may lose a part of a step.
     """
@@ -141,11 +141,11 @@ def want_eight_in_turn(lab: Lab) -> None:
 
 
 def a_slow_frame_is_not_caught_up_later(lab: Lab) -> None:
-    """What a slow frame lost is not caught up later"""
+    """Time lost in a slow frame is not simulated later"""
     paced = paced_with_a_hiccup(lab, 10)
     after = paced.lengths.index(max(paced.lengths)) + 2  # a program may be a frame behind
     owed, steps = sum(paced.lengths[after:]) / STEP_MS, sum(paced.steps[after:])
-    # A step more or less at either end, and one more in the frame that is behind.
+    # A step more or less at either end, and one more for a frame behind.
     lab.want(
         abs(steps - owed) <= 3,
         f"{owed:.0f} steps in the {sum(paced.lengths[after:]):.0f} ms after it, as usual",
@@ -166,9 +166,9 @@ def the_program_says_how_many_steps_ran(lab: Lab) -> None:
 
 
 def places_of_the_steps(lab: Lab, frames: list[int]) -> set[tuple[int, int]]:
-    """Return where the count is printed: its line, from the last one, and its place in the line.
+    """Return the position of the printed count: its line, from the last, and its index in the line.
 
-    A program that prints all numbers names none.
+    A list of all numbers does not count as an answer.
     """
     lab.ran(f"the lab scene with frames of {', '.join(map(str, frames))} ms")
     played = lab.play(frames, physics=False)
@@ -191,8 +191,8 @@ def places_of_the_steps(lab: Lab, frames: list[int]) -> set[tuple[int, int]]:
 def any_frames_lose_nothing_but_what_the_cap_cuts(
     lab: Lab, rate: int, mixed: list[int], asked: list[tuple[float, float]]
 ) -> None:
-    """Any frames: steps of STEP, and nothing lost but what the cap cuts off"""
-    # The one example that is drawn is the simplest, whatever the seed.
+    """Any frames: all steps are STEP long, and only the cap loses time"""
+    # The single example is the simplest, under any seed.
     rate, mixed = rate + abs(lab.whole(0, 99)), [each + abs(lab.whole(0, 40)) for each in mixed]
     lab.ran(
         f"the lab scene at {rate} frames a second for 0.3 s, then with frames of 1, 2, … up to "

@@ -33,7 +33,7 @@ def count_thirds(frame: int) -> int:
 
 
 def count_whole_steps(held: int | Fraction) -> int:
-    """Return how many steps are due; undecided where rounding may put the last one off."""
+    """Return how many steps are due; undecided if rounding may delay the last one."""
     steps, rest = divmod(held, STEP)
     if steps and not rest and held != CAP:  # 8 * STEP does hold 8 steps
         raise Undecided
@@ -75,7 +75,7 @@ known(
 
 
 def run_at_price(frames: Frames, due: Callable[[int], int], price: int) -> Answer:
-    """Return the steps of a loop that runs due(held) of them and takes `price` out for each."""
+    """Return the steps of a loop that runs due(held) steps and subtracts `price` for each."""
     steps: list[int] = []
     held = 0
     for frame in frames[:-1]:
@@ -194,7 +194,7 @@ known(
 
 @known("sixtieths-for-steps")
 def sixtieths_for_steps(frames: Frames) -> Answer:
-    """Run whole sixtieths, as two steps of the right size would be."""
+    """Run steps of 1/60 s, each as long as two right ones."""
     steps, held = [], 0
     for frame in frames[:-1]:
         held += cap_frame(frame)
@@ -226,7 +226,7 @@ def steps_with_the_frame_in_the_loop(frames: Frames) -> Answer:
 
 @known("pair-the-wrong-way-round")
 def pair_the_wrong_way_round(frames: Frames) -> Answer:
-    """Return the number of steps as the seconds that wait: the mistake swaps the two."""
+    """Return the number of steps as the accumulator: the mistake swaps the two."""
     steps = [0]
     for frame in frames[:-1]:
         steps.append(min(count_whole_steps(cap_frame(frame) + SECOND * steps[-1]), RUNAWAY))
@@ -238,7 +238,7 @@ def pair_the_wrong_way_round(frames: Frames) -> Answer:
 @known("a-step-more-each-frame")
 def a_step_more_each_frame(frames: Frames) -> Answer:
     if max(frames) <= 34:
-        raise Undecided  # steps may be slow there: more of them make the last frames longer
+        raise Undecided  # steps may be slow there, so more steps make the last frames longer
     return answer_with([1 + steps for steps in run_accumulator(frames, cap_frame)])
 
 

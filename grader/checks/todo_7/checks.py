@@ -18,10 +18,8 @@ from grader.protocol import Rng, SpaceBody, SpaceJoint, SpaceValue, Vec
 GRAVITY = (0.0, 980.0)  # px/s²
 PIVOT, BOB = (700.0, 90.0), (840.0, 90.0)  # px
 LENGTH = 140.0  # px
-AT_REST = (
-    0.1  # px; a rod at rest has nothing to put right, and a slide joint of one length gives 0.07
-)
-STRETCH = 3.0  # px; pymunk's own rod gives way by 1.2 px here, or for a step by what it is pushed
+AT_REST = 0.1  # px; a rod at rest has no error; a slide joint of fixed length has 0.07
+STRETCH = 3.0  # px; pymunk's own rod stretches by 1.2 px here, or for one step by the push
 
 
 # ---------------------------------------------------------------- 7a
@@ -48,7 +46,7 @@ def the_space_pulls_like_the_mini_engine(lab: Lab) -> None:
 
 
 SETTINGS = "idle_speed_threshold", "collision_slop", "collision_bias", "current_time_step"
-PASSES = range(2, 21)  # of the solver: the lesson proposes to try 2 and 20, and sleep as well
+PASSES = range(2, 21)  # of the solver: the lesson suggests trying 2 and 20, and sleeping
 
 
 def the_space_keeps_its_damping_and_settings(lab: Lab) -> None:
@@ -92,7 +90,7 @@ def a_free_ball_falls_in_the_scene(lab: Lab) -> None:
     lab.tell(space, "add", ball)
     last = lab.simulate(space, [ball], steps, every=steps).body(0)[-1]
     fallen, speed = exact.pymunk_fall(GRAVITY[1], STEP, steps)
-    lab.want(  # a tenth more or less looks the same
+    lab.want(  # a deviation of a tenth is not visible
         math.isclose(last.y - y, fallen, rel_tol=0.1)
         and math.isclose(last.vy, speed, rel_tol=0.1)
         and abs(last.x - x) < 1.0,
@@ -127,7 +125,7 @@ class Ball(NamedTuple):
 
 
 def drop(lab: Lab, space: Thing, rng: Rng | Thing, pos: Pair, changes: Frame | None = None) -> Ball:
-    """Add a ball to a space; add_ball may return what it likes."""
+    """Add a ball to a space; the return value of add_ball does not matter."""
     before = {body.ref for body in bodies_in(lab, space)}
     lab.call("add_ball", space, rng, pos, changes=changes)
     new = [body for body in bodies_in(lab, space) if body.ref not in before]
@@ -168,9 +166,7 @@ RADII = range(10, 23)  # px
 
 
 def seed_of(radius: int, first: int) -> int:
-    """Return the next seed that draws a ball of this size; how a colour is drawn later is left
-    open.
-    """
+    """Return the next seed that draws a ball of this size; the drawing of colours may differ."""
     return next(n for n in count(first) if random.Random(n).randint(RADII[0], RADII[-1]) == radius)
 
 
@@ -185,7 +181,7 @@ def a_ball_resists_turning_as_a_full_disc(lab: Lab) -> None:
     lab.ran(f"add_ball eight times with one random.Random({seed})")
     rng = lab.thing(lab.call("random:Random", seed))
     balls = [drop(lab, space, rng, (100.0 * number, 300.0)) for number in range(8)]
-    radii = {ball.radius for ball in balls}  # of 13 that there are; seldom so few by chance
+    radii = {ball.radius for ball in balls}  # of 13 sizes; chance seldom gives so few
     lab.want(len(radii) > 2, "balls of several sizes", f"eight of {sorted(radii)} px")
 
 
@@ -211,7 +207,7 @@ def every_ball_has_the_moment_of_its_own_size(lab: Lab, seed: int, x: float, y: 
 
 
 def floor_in(lab: Lab, space: Thing) -> None:
-    """Add a level floor at y = 560, however the submission makes its floors."""
+    """Add a level floor at y = 560, in the way the submission makes floors."""
     body = lab.space(lab.get(space, "")).bodies[0]
     segment = lab.call("pymunk:Segment", lab.thing(body), (-900.0, 580.0), (1800.0, 580.0), 20.0)
     floor = lab.thing(segment, "a floor")
@@ -222,8 +218,8 @@ def floor_in(lab: Lab, space: Thing) -> None:
 def a_sliding_pymunk_ball_comes_to_roll(lab: Lab) -> None:
     """A ball that slides comes to roll, at two thirds of its speed
 
-    A disc does, whatever its size, its mass and the friction: what it loses at its rim, it gains as
-    spin. A tenth more or less looks the same.
+    Every disc reaches 2/3 of its speed, for any size, mass and friction. A deviation of a tenth is
+    not visible.
     """
     speed = lab.about(300.0)
     lab.ran(f"a ball of add_ball set on a floor, sliding at {speed:g} px/s, no damping, one second")
@@ -246,16 +242,16 @@ def a_sliding_pymunk_ball_comes_to_roll(lab: Lab) -> None:
 
 
 class Rod(NamedTuple):
-    """A joint between the bob and another body; its ends in px, where it has such."""
+    """A joint between the bob and another body, with its ends in px if it has any."""
 
     kind: str
     far_end: Pair | None
     bob_end: Pair | None
-    moves: bool  # whether the body at the far end does
+    moves: bool  # whether the body at the far end moves
 
 
 def pendulum(lab: Lab) -> tuple[Thing, Thing, list[Rod]]:
-    """Return the space of the lab scene, its bob, and what holds the bob."""
+    """Return the space of the lab scene, its bob, and the bob's joints."""
     space = scene(lab)
     moving = [body for body in space.bodies if body.kind == "dynamic"]
     found = [body for body in moving if is_near(pair(body.pos), BOB, 1.0)]
@@ -286,7 +282,7 @@ def rods_of(space: SpaceValue, bob: int, moving: set[int]) -> list[Rod]:
 
 
 def kind_of(joint: SpaceJoint) -> str:
-    """Return what it is; a slide joint that cannot get much shorter is no rope."""
+    """Return the kind of a joint; a slide joint that can hardly shorten is no rope."""
     slack = joint.reach is not None and 1.0 < joint.reach[0] < joint.reach[1]
     return joint.kind + " with slack" * slack
 
@@ -347,7 +343,7 @@ def the_bob_hangs_in_the_space_as_it_was_given(lab: Lab) -> None:
 
 
 def of_bob(body: SpaceBody) -> bool:
-    """Return whether a body is a disc of 24 px at the bob's place, at rest."""
+    """Return whether a body is a disc of 24 px at rest at the bob's position."""
     at_rest = is_near(pair(body.pos), BOB, 1e-6) and not any((*body.vel, body.omega, body.angle))
     return at_rest and [each.radius for each in body.shapes] == [24.0]
 

@@ -1,6 +1,6 @@
-"""Known mistakes in TODO 7a to 7c, as models of what then stands in the space.
+"""Known mistakes in TODO 7a to 7c, as models of the bodies and joints in the space.
 
-Those of 7d are the ones of TODO 6 and stand with them.
+TODO 6 has those of 7d.
 """
 
 import math
@@ -78,7 +78,7 @@ truth("rods", right_rod)
 
 
 def length_off(off: int) -> Callable[[list[Rod]], int]:
-    """Return a rod in the right place that is too long (1) or too short (-1)."""
+    """Return a rod at the right position that is too long (1) or too short (-1)."""
 
     def model(rods: list[Rod]) -> int:
         if not are_close(rods, right_rod()):

@@ -17,18 +17,18 @@ SPRING = (0.0, -(OMEGA**2))
 X0 = 100.0  # px
 NEARLY_USUAL = [((100.03125, 0.5), 1 / 29.8), ((260.0, 2345.25), 1 / 2000)]  # px, px/s; s
 TELLING = 4  # first steps on the spring, by which mistakes can be told apart
-FAR = 1e6  # px or px/s, from where a cubic force leads out of all numbers
+FAR = 1e6  # px or px/s: beyond this, a cubic force overflows
 
-# From long ones, by which integrators are told apart, to short ones that are no round numbers.
+# Long steps distinguish integrators; short ones are not round numbers.
 TIME_STEPS = (0.5, 2.0, 1.0, 1 / 4, 1 / 8, 1 / 16, 1 / 30, 1 / 120, 1 / 480)  # s
 
 Polynomial = tuple[float, ...]  # lowest power first
-Starts = tuple[State, State]  # one that moves, and one at rest
+Starts = tuple[State, State]  # a moving body and one at rest
 GRAVITY: Polynomial = (980.25, 0.0, 0.0, 0.0)  # px/s², nearly
 
 
 class Method(NamedTuple):
-    """An integrator, and what the lesson's table says of it after 10 s."""
+    """An integrator, and its figures after 10 s in the lesson's table."""
 
     name: str
     order: int
@@ -56,11 +56,11 @@ def want_steps(
     other: Polynomial,
     elsewhere: float,
 ) -> None:
-    """Ask several questions, each like the one before but for a thing or two.
+    """Ask several questions, each with one or two values changed from the one before.
 
-    So an answer that comes from what was asked before shows, be it kept for the place, the speed,
-    the step or the end of the last one. In the third question no force acts where the step begins.
-    The last ones are nearly the first step of the lesson's table, and one that is fast and short.
+    This exposes answers stored for an earlier position, speed or step. In the third question no
+    force acts at the start. The last two are close to the first step of the lesson's table, and a
+    fast short step.
     """
     want_step(lab, method, start, dt, force, twice=True)
     want_step(lab, method, start, dt, other)
@@ -75,7 +75,7 @@ def want_steps(
 def want_step(
     lab: Lab, method: Method, state: State, dt: float, force: Polynomial, twice: bool = False
 ) -> State:
-    """Return one step, which must give the right state but for rounding; returns what it gave."""
+    """Insist that one step gives the right state up to rounding; return its answer."""
     x, v = state
     lab.ran(
         f"{method.name}: one step of {dt:g} s from x = {x:g} px, v = {v:g} px/s "
@@ -84,7 +84,7 @@ def want_step(
     (answer,) = lab.integrate(method.name, state, dt, force, twice=twice)
     lab.saw(method.name, (x, v, dt, force), answer)
     right = RIGHT[method](x, v, dt, exact.polynomial(force))
-    # Every order of adding up is right: rounding is a share of the terms, whatever their signs.
+    # Terms may be added in any order, so rounding is a share of their absolute values.
     sizes = RIGHT[method](abs(x), abs(v), dt, exact.polynomial([abs(c) for c in force]))
     off = zip(answer, right, sizes, strict=True)
     good = all(abs(a - b) <= 1e-12 * size for a, b, size in off)
@@ -102,7 +102,7 @@ def formula(force: Polynomial) -> str:
 
 
 def swing(lab: Lab, method: Method, steps: int, seconds: float, x0: float) -> list[State]:
-    """Return the states of the spring's body after each of so many steps; it is let go at x0."""
+    """Return the spring's state after each of `steps` steps from rest at x0."""
     start, dt = (x0, 0.0), seconds / steps
     states = lab.integrate(method.name, start, dt, SPRING, steps)
     for before, answer in islice(pairwise([start, *states]), TELLING):
@@ -110,7 +110,7 @@ def swing(lab: Lab, method: Method, steps: int, seconds: float, x0: float) -> li
     return states
 
 
-# What a failed check asks besides, to tell what is wrong: single steps, none of them round.
+# Single steps that a failed check also asks to find the mistake; no number is round.
 STEPS: tuple[tuple[State, float, Polynomial], ...] = (
     ((3.0, -2.0), 0.25, (1.0, -2.0, 0.5, 0.0)),
     ((-1.5, 4.0), 0.5, (0.0, -1.5, 0.0, 0.25)),
@@ -127,7 +127,7 @@ def look_closely(lab: Lab, method: Method) -> None:
     if method is RK4:
         for (x, v), dt, force in STEPS:
             places = tuple(dict.fromkeys(lab.places(method.name, (x, v), dt, force)))
-            if len(places) <= SAMPLES:  # more may be right, and say nothing
+            if len(places) <= SAMPLES:  # further right answers explain nothing
                 lab.saw("samples of accel", (x, v, dt, force), places)
     for (x, v), dt, force in STEPS:
         (answer,) = lab.integrate(method.name, (x, v), dt, force)
@@ -135,9 +135,9 @@ def look_closely(lab: Lab, method: Method) -> None:
 
 
 def want_a_swing(lab: Lab, method: Method) -> None:
-    """Insist on about the figures of the lesson's table: from half as much to half as much again.
+    """Insist on 0.5 to 1.5 times the figures of the lesson's table.
 
-    A step of another body comes after it, on which nothing that was kept may decide.
+    A step of another body follows, which must not depend on stored values.
     """
     look_closely(lab, method)
     x0 = lab.about(X0)
@@ -168,7 +168,7 @@ def want_a_swing(lab: Lab, method: Method) -> None:
 
 
 def asked_everywhere(check: Callable[..., None]) -> Callable[..., None]:
-    """Make it a property that draws what a step of an integrator is asked with."""
+    """Make it a property that draws the arguments of an integrator's step."""
     drawn = given(examples=2, starts=starts, force=forces, other=forces, elsewhere=near_and_far)
     return drawn(check)
 

@@ -109,7 +109,7 @@ def kick_by(factor: float) -> Callable[[float, float, float], float]:
     return lambda old, new, dt: factor * (old + new) / 2 * dt
 
 
-Source = tuple[int, float]  # the sample that one starts from, and the share of the step
+Source = tuple[int, float]  # the sample that another starts from, and the share of the step
 USUAL: tuple[Source, ...] = ((0, 0.5), (1, 0.5), (2, 1.0))
 RIGHT_WEIGHTS = (1 / 6, 2 / 6, 2 / 6, 1 / 6)
 WHOLE_STEPS: tuple[Source, ...] = ((0, 1.0), (1, 1.0), (2, 1.0))
@@ -123,9 +123,9 @@ def take_samples(
     sources: Sequence[Source] = USUAL,
     speeds: Sequence[Source] | None = None,
 ) -> tuple[list[State], list[float]]:
-    """Return the four samples, and the places where accel is asked.
+    """Return the four samples, and the positions at which accel is called.
 
-    `speeds` are the sources of their velocities, where these are others.
+    `speeds` replace the sources of their velocities.
     """
     accel = polynomial(force)
     samples, places = [(v, accel(x))], [x]
@@ -502,7 +502,7 @@ def pairs_are_joined(x: float, v: float, dt: float, force: Force) -> State:
 
 
 def led_by_acceleration(x: float, v: float, dt: float, force: Force) -> tuple[float, ...]:
-    """Return where the samples are taken when the acceleration leads there."""
+    """Return the positions of samples that move by the acceleration."""
     accel, places = polynomial(force), [x]
     for share in (0.5, 0.5, 1.0):
         places.append(x + share * dt * accel(places[-1]))
@@ -510,7 +510,7 @@ def led_by_acceleration(x: float, v: float, dt: float, force: Force) -> tuple[fl
 
 
 def each_from_the_last(x: float, v: float, dt: float, force: Force) -> tuple[float, ...]:
-    """Return where the samples are taken when each goes on from the place of the one before."""
+    """Return the positions of samples that each start from the sample before."""
     accel, places, slope = polynomial(force), [x], v
     for share in (0.5, 0.5, 1.0):
         slope, place = v + share * dt * accel(places[-1]), places[-1] + share * dt * slope

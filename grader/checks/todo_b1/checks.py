@@ -1,7 +1,6 @@
 """TODO B1: update_sleep. Bodies at rest sleep after half a second, and wake when disturbed.
 
-Whether each body sleeps by itself or a whole pile at once is left open: scenes are clearly at rest
-or clearly not.
+Bodies may sleep one by one or as a whole pile: scenes are clearly at rest or clearly not.
 """
 
 import math
@@ -13,7 +12,7 @@ GRAVITY = 980.0  # px/s²
 RADIUS = 10.0  # px
 LYING = -RADIUS + 0.25  # px, the centre of a ball that lies on a floor whose top is at 0
 
-# When a body is looked at. Known mistakes are told by what is seen then: see mistakes.py.
+# Moments at which a body is observed, to recognise known mistakes: see mistakes.py.
 AT_FIRST, AT_REST = "for the first half second", "after 0.75 s at rest"
 LONG_AT_REST = "when its timer is at 0.6 s"
 CREEPING = "after 0.75 s at 3 px/s"
@@ -27,11 +26,11 @@ FLOOR_GONE, CARRIED_AWAY = "when its floor is gone", "when the ball below is gon
 ONE_OF_TWO_GONE = "when one of the two boxes it lies on is gone"
 IN_TURN = "after its neighbours have come to rest one after another, and 3 s"
 STATIC = "as a floor that is static"
-CHEAP = "a pile that sleeps costs next to nothing"
+CHEAP = "a sleeping pile costs almost no time"
 
 STEPS = (1 / 60, 1 / 120, 1 / 165, 1 / 480)  # s, steps in which gravity adds 2 to 16 px/s
 LESS = 10  # times as much work awake
-LAB_SCENE = 40.0  # s; a ball that rolls at 20 px/s is at 3 by then, as it loses 5 % a second
+LAB_SCENE = 40.0  # s; a ball that rolls at 20 px/s still has 3 px/s then, as it loses 5 % a second
 FALLING_ASLEEP = "vel omega inv_mass inv_inertia"  # what may change in that moment
 
 
@@ -104,7 +103,7 @@ def a_ball_at_rest_sleeps_after_half_a_second(lab: Lab) -> None:
         lab.want(static, "a floor that is static and never asleep", "a floor asleep")
         before = lab.state(lying)
         lab.want(
-            math.dist(start.pos, before.pos) < 0.1,  # px: it sinks in by less than SLOP has left
+            math.dist(start.pos, before.pos) < 0.1,  # px: it sinks in by less than the rest of SLOP
             "a ball that fell asleep where it lay",
             f"it moved by {math.dist(start.pos, before.pos):.3g} px",
         )
@@ -139,7 +138,7 @@ def want_still(lab: Lab, before: BodyValue, after: BodyValue) -> None:
 
 
 def the_lab_scene_falls_asleep(lab: Lab) -> None:
-    """Insist that all balls turn grey; the pendulum's bob is none of them: it hangs on a rod."""
+    """Insist that all balls turn grey, except the pendulum's bob on its rod."""
     lab.ran(f"the lab scene with S on, for {LAB_SCENE:g} s")
     made = lab.thing(lab.call("make_world", Rng(46)), "a World")
     bodies = [lab.thing(each) for each in lab.items(lab.get(made, "bodies"), "World.bodies")]
@@ -164,14 +163,14 @@ def the_lab_scene_falls_asleep(lab: Lab) -> None:
 
 
 def nothing_sleeps_that_moves_flies_or_hangs(lab: Lab) -> None:
-    """Nothing sleeps that rolls, spins, flies or is held, and each push begins anew"""
+    """A body that rolls, spins, flies or is held stays awake, and each push restarts the time"""
     nothing_sleeps_that_moves_or_flies(lab)
     nothing_sleeps_that_is_held(lab)
     time_at_rest_begins_anew(lab)
 
 
 def nothing_sleeps_that_moves_or_flies(lab: Lab) -> None:
-    lab.ran("a ball that lies on the floor")  # first of all: what is slow once is not so for ever
+    lab.ran("a ball that lies on the floor")  # first: a body that was slow may move again
     lying = ball(lab)
     put_to_sleep(lab, room(lab, floor(lab), lying), lying)
     lab.ran("a ball thrown up at 20 px/s where things fall at 20 px/s²: slow for 1.2 s at the top")
@@ -237,7 +236,7 @@ def stay_awake(lab: Lab, world: Thing, body: Thing, why: str) -> None:
 
 
 def a_sleeper_wakes_when_it_is_hit_or_loses_its_support(lab: Lab) -> None:
-    """A sleeper wakes when a moving body hits it, and when what it lies on goes away"""
+    """A sleeper wakes when a moving body hits it, and when its support goes away"""
     a_hit_wakes(lab)
     what_comes_to_rest_in_turn_sleeps(lab)
     what_has_lost_its_support_falls(lab)
@@ -245,7 +244,7 @@ def a_sleeper_wakes_when_it_is_hit_or_loses_its_support(lab: Lab) -> None:
 
 
 def what_comes_to_rest_in_turn_sleeps(lab: Lab) -> None:
-    """Insist that a neighbour that is awake but lies still wakes nobody."""
+    """Insist that a neighbour that is awake but at rest wakes no body."""
     lab.ran("three balls that lie side by side; the second comes 0.3 s after the first, and so on")
     row = [ball(lab, 2 * RADIUS * number - 0.1 * number) for number in range(3)]
     world = room(lab, floor(lab), row[0])
@@ -269,7 +268,7 @@ def a_hit_wakes(lab: Lab) -> None:
         run(lab, world, 0.3)
         want(lab, False, sleeper, AFTER_A_HIT)
         want(lab, True, another, ANOTHER_HIT)
-        # Of two equal balls that do not bounce each goes on at half the speed.
+        # Two equal balls that do not bounce both move on at half the speed.
         speed = lab.state(sleeper).vel.x
         lab.want(speed > 50.0, "it rolls on at about 100 px/s", f"{speed:.1f} px/s")
         lab.tell(world, "bodies.remove", roller)
@@ -332,7 +331,7 @@ def what_has_lost_its_support_falls(lab: Lab) -> None:
 
 
 def want_a_fall(lab: Lab, world: Thing, body: Thing, when: str) -> None:
-    """Insist that it falls for 0.15 s as all things do, by g t² / 2, or 11 px."""
+    """Insist that it falls freely for 0.15 s, by g t² / 2, or 11 px."""
     before = lab.state(body).pos.y
     run(lab, world, 0.15)
     fallen = lab.state(body).pos.y - before
@@ -341,7 +340,7 @@ def want_a_fall(lab: Lab, world: Thing, body: Thing, when: str) -> None:
 
 
 def going_to_sleep_changes_nothing_else(lab: Lab) -> None:
-    """Insist that update_sleep leaves alone all that has nothing to do with sleep."""
+    """Insist that update_sleep changes nothing that does not concern sleep."""
     lab.ran("update_sleep, for balls that have been at rest for 0, 0.3, 0.495 and 0.6 s")
     times = (0.0, 0.3, 0.495, 0.6, 0.6)  # s
     bodies = [ball(lab, 40.3 * number, angle=7.0) for number in range(len(times))]
@@ -356,7 +355,7 @@ def going_to_sleep_changes_nothing_else(lab: Lab) -> None:
             world, "springs.append", lab.thing(lab.call("SpringJoint", *each, 0.1), "a spring")
         )
     run(lab, world, STEP)  # so that it knows its contacts
-    # What only forces read, put there when none is to come: no number of it is round.
+    # Fields that only forces read, set when no force follows; no number is round.
     lab.put(world, linear_damping=0.515625, angular_damping=0.296875, grid=False)
     lab.put(world, gravity=(0.28125, 0.0))
     for body, seconds in zip(bodies, times, strict=True):
@@ -373,7 +372,7 @@ def going_to_sleep_changes_nothing_else(lab: Lab) -> None:
 
 
 def a_sleeping_pile_costs_next_to_nothing(lab: Lab) -> None:
-    """A pile that sleeps costs next to nothing"""
+    """A sleeping pile costs almost no time"""
     rows = ((3, 1), (2, 2))  # how many, and how many radii from the wall the first one is
     lab.ran("five balls that lie in two rows between walls")
     walls = [lab.box((x, -100.0), (20.0, 150.0), friction=0.6) for x in (-20.0, 6 * RADIUS + 20.0)]
@@ -384,7 +383,7 @@ def a_sleeping_pile_costs_next_to_nothing(lab: Lab) -> None:
     ]
     world = room(lab, floor(lab), *walls, *balls)
     lab.put(world, sleeping=False)
-    run(lab, world, 0.2)  # until they press on each other
+    run(lab, world, 0.2)  # until they touch
     awake = lab.work(world, "step", STEP)
     lab.put(world, sleeping=True)
     put_to_sleep(lab, world, *balls)

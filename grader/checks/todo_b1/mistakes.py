@@ -1,4 +1,4 @@
-"""Known mistakes in TODO B1, by what is seen of them at each moment that the checks look at."""
+"""Known mistakes in TODO B1, by their effects at each moment that the checks observe."""
 
 from collections.abc import Callable, Collection
 

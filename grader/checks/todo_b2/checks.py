@@ -15,7 +15,7 @@ Ends = tuple[Pair, Pair]  # velocities of A and B, px/s
 
 
 class Setting(NamedTuple):
-    """All else about the two ends, on which no force hangs."""
+    """The other fields of the two ends, which no force depends on."""
 
     place: Pair = (64.53125, -32.28125)  # px, where A is
     spin: Pair = (2.015625, -3.015625)  # rad/s, of each
@@ -34,9 +34,9 @@ USUAL = Setting()
 
 
 def want_exact(lab: Lab, spring: Spring, *later: Rod, setting: Setting = USUAL) -> None:
-    """Apply a spring, and again with its ends elsewhere; each time both get the right velocities.
+    """Apply a spring, move its ends and apply it again; insist on the right velocities.
 
-    Its ends spin and are turned, and a spring leaves that alone.
+    Its ends spin and are turned, which a spring must not change.
     """
     rod = spring.rod
     a = lab.circle(setting.place, 10.0, rod.mass_a, **setting.of(0))
@@ -49,7 +49,7 @@ def want_exact(lab: Lab, spring: Spring, *later: Rod, setting: Setting = USUAL) 
 
 
 def want_about(lab: Lab, spring: Spring) -> None:
-    """Insist on the same for a spring on a rod like this one."""
+    """Insist on the same for a spring on a similar rod."""
     stiffness, damping = lab.about(spring.stiffness), lab.about(spring.damping)
     want_exact(lab, Spring(make_similar(lab, spring.rod), stiffness, damping))
 
@@ -66,7 +66,7 @@ def apply_once(
     )
     lab.put(a, vel=rod.vel_a)
     lab.put(b, pos=(place[0] + rod.offset[0], place[1] + rod.offset[1]), vel=rod.vel_b)
-    # Who changes more than that loses the check of damped springs, and not all.
+    # Other changes fail only the check of damped springs, not all checks.
     changes = {a: "vel", b: "vel"} if spring.damping else None
     lab.tell(joint, "apply", rod.dt, changes=changes, sees=(a, b))
     answer = velocities((lab.state(a), lab.state(b)))
@@ -79,7 +79,7 @@ def apply_once(
 def are_close(spring: Spring, answer: Ends, right: Ends, far: float) -> bool:
     """Return whether two answers are equal up to rounding, a share of 1e-16 of each term.
 
-    Of ends that are `far` px away the distance is known less well, and so is the direction.
+    For ends `far` px away, rounding also affects distance and direction.
     """
     rod = spring.rod
     distance = math.hypot(*rod.offset)
@@ -103,10 +103,9 @@ def say(ends: Ends, digits: int) -> str:
 
 
 def springs(seed: int) -> list[tuple[Spring, Rod, Setting]]:
-    """Return springs of every kind, always the same; each with its ends elsewhere later on.
+    """Return a fixed list of springs of every kind, each with a second position of its ends.
 
-    They are soft and stiff, long and short, between light and heavy ends, of which one may be
-    static, in steps of any length.
+    Stiffness, length, masses and steps vary, and one end may be static.
     """
     draw = random.Random(seed)
     found = []
@@ -131,9 +130,7 @@ def some_setting(draw: random.Random) -> Setting:
 
 
 def some_rod(draw: random.Random, masses: list[float], rest: float, dt: float) -> Rod:
-    """Return the ends of a spring of this length somewhere, it squeezed or stretched, and they
-    moving.
-    """
+    """Return moving ends of a squeezed or stretched spring of this length, at any position."""
     turn = draw.uniform(0, 2 * math.pi)
     distance = max(rest, 1.0) * draw.choice([0.25, 0.999, 1.0625, 2.0, 8.0])
     offset = distance * math.cos(turn), distance * math.sin(turn)
@@ -157,7 +154,7 @@ def a_stretched_spring_pulls_and_a_squeezed_one_pushes(lab: Lab) -> None:
 
 
 def ends_in_one_place_are_pushed_apart(lab: Lab) -> None:
-    """Insist that each end gets its share, whichever way they go."""
+    """Insist that each end gets its share, in any direction."""
     stiffness, rest = lab.about(90.0), lab.about(30.0)
     lab.ran(f"apply for 1/120 s: both ends in one place, {stiffness:g} kg/s², length {rest:g} px")
     a, b = lab.circle((5.0, 7.0), 10.0, 2.0), lab.circle((5.0, 7.0), 10.0, 3.0)
@@ -198,7 +195,7 @@ def a_mass_on_a_spring_swings_and_fades_as_it_must(lab: Lab) -> None:
     period = 2 * math.pi / math.sqrt(rate**2 - fading**2)  # s
     swings = (len(crossings) - 1) / 2
     found = (crossings[-1] - crossings[0]) * STEP / swings if swings > 0 else math.inf
-    # At 20 swings of 1/s and steps of 1/120 s the period is off by (rate * STEP)² / 24, or 0.1 %.
+    # At 20 rad/s and steps of 1/120 s the period is off by (rate * STEP)² / 24, or 0.1 %.
     lab.want(
         abs(found / period - 1) < 0.01,
         f"a period of {period:.4f} s, as 2 pi / sqrt(stiffness / mass - (damping / 2 mass)²)",
@@ -214,7 +211,7 @@ def a_mass_on_a_spring_swings_and_fades_as_it_must(lab: Lab) -> None:
 
 
 def zero_crossings(values: list[float]) -> list[tuple[int, float]]:
-    """Return where the values change sign: a step, and the share of the way to the next."""
+    """Return the sign changes: a step plus the share of the way to the next."""
     return [
         (step, a / (a - b)) for step, (a, b) in enumerate(pairwise(values)) if (a < 0) != (b < 0)
     ]

@@ -40,7 +40,7 @@ known(
 
 @known("damps-sideways-as-well")
 def damps_sideways_as_well(spring: Spring) -> Ends:
-    """Return the velocity of B as seen from A is braked, and not its part along the spring."""
+    """Brake B's whole velocity relative to A, not only its part along the spring."""
     rod = spring.rod
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
     pull = spring.stiffness * spring.stretch

@@ -1,6 +1,6 @@
 """TODO B3: near_pairs, which leaves out the pairs that are far apart.
 
-Whatever finds the pairs, in whatever order: the contacts must be those of all pairs.
+Any method and any order is accepted: the contacts must equal those of all pairs.
 """
 
 from collections import Counter
@@ -15,20 +15,20 @@ from grader.checks.strategies import circles, crowd_discs, crowd_rects, pairs
 from grader.judge.drawing import given
 from grader.judge.lab import Lab, Pair, Thing
 
-Contacts = Counter[tuple[int, ...]]  # how many each two bodies have, by their numbers
+Contacts = Counter[tuple[int, ...]]  # number of contacts of each pair, by the bodies' numbers
 
 BALLS = 200
-STATES = 8  # balls of a scene that may be of any weight, and move
+STATES = 8  # balls of a scene that may move and have any mass
 PLACES = [(0.0, 0.0), (900.0, 600.0), (-40_000.0, 500_000.0)]  # px; where a scene is
 WHOLE_CELLS = 4800.0  # px: many cells of each size that AT_THE_RIM asks about
 A_HAIR = 1 / 64  # px
-GROWTH = 3.0  # of the work with twice the balls: looking at all pairs it is 4, else 2 and a little
+GROWTH = 3.0  # work with twice the balls: times 4 for all pairs, else a little over 2
 
 
 def crowd(
     lab: Lab, balls: list[Disc], boxes: list[Rect], states: Sequence[dict[str, Any]] = ()
 ) -> tuple[Thing, list[Thing]]:
-    """Return a world, and the bodies in it; the first balls may be in a state of their own."""
+    """Return a world and its bodies; `states` may set the motion of the first balls."""
     bodies = [
         lab.circle((ball.x, ball.y), ball.r, **(state or {}))
         for ball, state in zip_longest(balls, states[: len(balls)])
@@ -38,7 +38,7 @@ def crowd(
 
 
 def count_contacts(lab: Lab, world: Thing, bodies: list[Thing], grid: bool) -> Contacts:
-    """Return how many contacts each two bodies have; -1 is a body of another world."""
+    """Return the number of contacts of each pair; -1 is a body of another world."""
     numbers = {body.ref: number for number, body in enumerate(bodies)}
     lab.put(world, grid=grid)
     answer = lab.tell(world, "find_contacts", changes={world: "contacts"})
@@ -49,7 +49,7 @@ def count_contacts(lab: Lab, world: Thing, bodies: list[Thing], grid: bool) -> C
 
 
 def want_the_same_contacts(lab: Lab, balls: list[Disc], boxes: list[Rect]) -> None:
-    """Compare with all pairs; where they are is left of 0, and as it was to cells of many sizes."""
+    """Compare with all pairs, also shifted left of 0 by multiples of many cell sizes."""
     left = -WHOLE_CELLS * abs(lab.whole(0, 9))
     balls = [each._replace(x=each.x + left) for each in balls]
     boxes = [each._replace(x=each.x + left) for each in boxes]
@@ -65,7 +65,7 @@ def compare(
 
 
 def count_both_ways(lab: Lab, world: Thing, bodies: list[Thing]) -> tuple[Contacts, Contacts]:
-    """Return the contacts of all pairs, and those that the grid leaves."""
+    """Return the contacts of all pairs, and those of near_pairs."""
     return count_contacts(lab, world, bodies, grid=False), count_contacts(
         lab, world, bodies, grid=True
     )
@@ -109,9 +109,9 @@ def large_bodies_touch_whatever_lies_on_them(lab: Lab) -> None:
 
 
 def two_at(line: float, before: float = -10.25, behind: float = 9.25) -> list[Disc]:
-    """Return two balls side by side and two one below the other, so many px from a line.
+    """Return two balls side by side and two above each other, `off` px from a line.
 
-    Unless told otherwise they overlap by half a pixel.
+    By default they overlap by half a pixel.
     """
     places = line + before, line + behind
     side_by_side = [Disc(each, 40.0 * line, 10.0) for each in places]
@@ -119,9 +119,9 @@ def two_at(line: float, before: float = -10.25, behind: float = 9.25) -> list[Di
 
 
 SIZES = (32.0, 40.0, 48.0, 50.0, 64.0, 96.0, 100.0)  # px, of cells
-# Of cells of many sizes the balls share one, and by a hair: who rounds to 0 leaves them in two.
+# The balls barely share a cell, for many cell sizes; rounding towards 0 puts them in two.
 AT_THE_RIM = [ball for size in SIZES for ball in two_at(-size)]
-# Here they share none, as they do not touch, and by a hair.
+# Here they barely share none, as they do not touch.
 ON_BOTH_SIDES = [ball for size in SIZES for ball in two_at(-size, -10.0 - A_HAIR, 10.0 + A_HAIR)]
 
 
@@ -167,7 +167,7 @@ def any_scene_has_the_contacts_of_all_pairs(
 
 
 def contacts_follow_the_bodies(lab: Lab) -> None:
-    """What moved since the last step is looked for where it is now"""
+    """Bodies that moved since the last step are found at their new positions"""
     lab.ran("find_contacts with two balls far apart, and again after one moved to the other")
     x, y = lab.about(0.0, 256.0), lab.about(0.0, 256.0)
     world, bodies = crowd(lab, [Disc(x, y, 10.0), Disc(x + 500.0, y, 10.0)], [])
@@ -188,10 +188,10 @@ def contacts_follow_the_bodies(lab: Lab) -> None:
 
 
 def two_hundred_balls_are_not_compared_pair_by_pair(lab: Lab) -> None:
-    """Of 200 balls only those near each other are looked at"""
+    """Of 200 balls only those near each other are compared"""
     growths = []
     x = lab.about(0.0, 256.0)
-    for down in (45.0, 0.0):  # px; some ways are at their best in the one scene or in the other
+    for down in (45.0, 0.0):  # px; some methods are fastest in one scene or the other
         lab.ran(f"find_contacts with {BALLS // 2} balls, two and two in a long row, and {BALLS}")
         few, many = (work(lab, row(balls, down, x)) for balls in (BALLS // 2, BALLS))
         growths.append(many / few)
@@ -206,9 +206,9 @@ def two_hundred_balls_are_not_compared_pair_by_pair(lab: Lab) -> None:
 
 
 def work(lab: Lab, balls: list[Disc]) -> int:
-    """Return how many lines run to find the contacts.
+    """Return the number of lines that run to find the contacts.
 
-    Some of these must be found: no work is no way.
+    It must find some of these contacts, so doing nothing does not pass.
     """
     few = crowd(lab, balls[:2], [])[0]
     lab.put(few, grid=True)
@@ -222,7 +222,7 @@ def work(lab: Lab, balls: list[Disc]) -> int:
 
 
 def row(balls: int, down: float, x: float) -> list[Disc]:
-    """Return balls two and two, each pair 60 px to the right of the one before, and one more."""
+    """Return pairs of balls, each 60 px to the right of the one before, and one more ball."""
     pairs = [
         Disc(x + 60.0 * pair + 15.0 * which, down * pair + 6.0 * which, 8.5 + (pair + which) % 3)
         for pair in range(-balls // 4, balls // 4)

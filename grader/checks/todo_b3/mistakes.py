@@ -1,4 +1,4 @@
-"""Known mistakes in TODO B3, as models of the contacts that are left."""
+"""Known mistakes in TODO B3, as models of the contacts found."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -8,7 +8,7 @@ from grader.checks.exact import Disc, Rect
 from grader.checks.mistakes import known_in
 from grader.judge.explain.misconceptions import always, truth
 
-CELL = 48.0  # px; who has chosen another is not told the mistake's name
+CELL = 48.0  # px; for another size, no mistake is named
 
 Bounds = tuple[float, float, float, float]  # left, top, right, bottom in px
 Cells = set[tuple[int, int]]
@@ -22,7 +22,8 @@ known = known_in("B3", "contacts")
 
 
 def grid(cells_of: Callable[[Bounds], Cells]) -> Model:
-    """Return a grid with these cells for a body; two bodies that share none are not looked at."""
+    """Return a model of a grid with these cells for a body; only bodies that share one are
+    compared."""
 
     def model(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
         within = [cells_of(each) for each in all_bounds(balls, boxes)]
@@ -42,7 +43,7 @@ def number(coordinate: float) -> int:
 
 
 def cells(bounds: Bounds, beyond: int = 1) -> Cells:
-    """Return all from the corner at the upper left to the one at the lower right."""
+    """Return all cells from the upper left corner to the lower right one."""
     left, top, right, bottom = map(number, bounds)
     return set(product(range(left, right + beyond), range(top, bottom + beyond)))
 
@@ -96,5 +97,5 @@ known(
 )
 known("no-pair-that-touches", lambda balls, boxes, touching: [])
 
-# Last, for it says nothing about contacts that are lost: another may tell more.
+# Last, since it does not explain lost contacts: another mistake may.
 known_in("B3", "comparison of all")("compares-all-pairs", always(True))

@@ -13,12 +13,12 @@ LEDGE = (200.0, 270.0)  # px, in the middle of its lower side
 FREE = (820.0, 250.0)  # px, above nothing but the floor
 SPEED = 600.0  # px/s
 TOUCHING = 17.0  # px from a peg's middle, which the smallest ball overlaps, as all do
-STEPS = 30  # for a throw: enough for 100 px there and some of the way back
+STEPS = 30  # for a throw: enough for 100 px and part of the way back
 
 
 @dataclass
 class Course:
-    """The lab scene without gravity: what nobody throws stays put."""
+    """The lab scene without gravity: bodies move only when thrown."""
 
     space: Thing
     balls: list[Thing]
@@ -67,7 +67,7 @@ def hits(lab: Lab, course: Course) -> int:
 
 
 def step_on(lab: Lab, course: Course, body: Thing) -> Moment:
-    """Run some steps; how a body moves in the end."""
+    """Run some steps; return a body's last motion."""
     return lab.simulate(course.space, [body], STEPS, every=STEPS).body(0)[-1]
 
 
@@ -79,7 +79,7 @@ def throw(lab: Lab, course: Course, body: Thing, target: Pair, way: int = 1) -> 
 
 
 def want_hits(lab: Lab, found: list[int], right: list[int]) -> None:
-    """Insist on the hits counted so far, after one thing and the other."""
+    """Insist on the number of hits after these events."""
     lab.want(
         found == right,
         f"hits {', '.join(map(str, right))} in turn",
@@ -97,7 +97,7 @@ def every_hit_of_a_peg_counts_once(lab: Lab) -> None:
     ball = here.balls[0]
     step_on(lab, here, ball)
     counts = [hits(lab, here)]
-    times = 3 + abs(lab.whole(0, 3))  # nobody knows by heart when a hit is due
+    times = 3 + abs(lab.whole(0, 3))  # seeded, so that the times of hits cannot be hard-coded
     for peg in (*[PEGS[0]] * (times - 1), PEGS[1]):
         last = throw(lab, here, ball, peg)
         counts.append(hits(lab, here))
@@ -125,7 +125,7 @@ def every_hit_of_a_peg_counts_once(lab: Lab) -> None:
 def two_balls_hit_two_pegs_at_once(lab: Lab, here: Course) -> None:
     lab.ran("no gravity: two balls thrown at two pegs, which they hit in the same step")
     before = hits(lab, here)
-    # No number of steps brings a ball just to where it touches: rounding would decide.
+    # No whole number of steps ends exactly at a touch, where rounding would decide.
     for ball, radius, (x, y) in zip(here.balls, here.radii, PEGS, strict=False):
         lab.put(ball, position=(x, y - 59.3 - radius), velocity=(0.0, here.speed))
     step_on(lab, here, here.balls[0])
@@ -133,7 +133,7 @@ def two_balls_hit_two_pegs_at_once(lab: Lab, here: Course) -> None:
 
 
 def only_balls_on_pegs_count_in_each_space_apart(lab: Lab) -> None:
-    """Only balls that hit pegs count, and every space counts for itself"""
+    """Only balls that hit pegs count, and every space has its own count"""
     lab.ran("no gravity: a ball thrown at a ball, one at the ledge, a box at a peg")
     here = course(lab)
     ball, other = here.balls[:2]

@@ -1,8 +1,8 @@
 """Known mistakes in TODO B4, as models of what is counted.
 
-Of balls and pegs: in so many steps in which one is thrown at the other ("throw"), lies against it
-("touch") or is far from it again ("leave"). Of others: a ball at a ball, a ball at the ledge, a box
-at a peg. And in a new space, after so many hits in the space before.
+A ball and a peg: some steps of "throw" (one hits the other), "touch" (it lies there) or "leave" (it
+is away again). Other pairs: two balls, a ball and the ledge, a box and a peg. The last case is a
+new space, after hits in another.
 """
 
 from grader.checks.mistakes import known_in

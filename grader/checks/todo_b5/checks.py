@@ -10,7 +10,7 @@ from grader.checks.pacing import frames_at, want_a_proper_end
 from grader.judge.lab import NOTHING, STEP, Lab, Pair, Thing
 
 CLOSE = 1e-6  # px or rad
-STEPS = (  # where a body was before a step, x, y and angle, where it is now, and how long in s
+STEPS = (  # x, y and angle before a step, and now, and the step's length in s
     ((0.0, 0.0, 0.0), (8.0, -4.0, 0.25), STEP),
     ((-30.0, 70.0, 1.5), (-30.0, 75.5, 1.25), STEP),
     ((400.0, 100.0, 7.0), (330.0, 160.0, 9.5), 1 / 20),  # slow motion, and far
@@ -20,23 +20,23 @@ STEPS = (  # where a body was before a step, x, y and angle, where it is now, an
     ((2100.28125, 650.40625, 1.53125), (2100.34375, 650.40625, 1.59375), STEP),  # far out, slow
     ((0.5, 0.25, 0.03125), (0.75, -0.25, -0.03125), STEP),
 )
-# What a body has when it is drawn, as if it had just hit something; on none of it its place hangs.
+# Other fields of a drawn body, as after an impact; its position must not depend on them.
 STATES = (  # velocity in px/s, spin in rad/s, mass in kg, restitution, friction
     ((-90.28125, 10.40625), -3.015625, 1.125, 0.1875, 0.3125),
     ((5.28125, -20.40625), 40.015625, 1 / 1024, 0.96875, 0.0),
     ((0.0, 0.0), 0.0, 900.0, 0.0, 1.53125),
     ((2000.28125, 0.40625), 0.28125, 1.0, 0.3, 0.6),
 )
-BY_HAND = (4.28125, 8.40625)  # px; where the body is put after the last of these
+BY_HAND = (4.28125, 8.40625)  # px; the body's position after the last of these
 SHARES = (0.625, 0.25, 1.0, 0.0, 0.53125, 0.03125)
 OFF_THE_WAY = (
     "That is not between body.before and body.pos: these two places and share are all it takes."
 )
-RATE, FALLING = 144, 0.3  # frames a second; s, after which balls are fast enough to be seen to move
+RATE, FALLING = 144, 0.3  # frames a second; s, after which balls are fast enough to move visibly
 
 
 def a_body_is_drawn_on_its_way_through_the_step(lab: Lab) -> None:
-    """A body is drawn part of its way, and stays where it is"""
+    """A body is drawn part of its way, and is not moved itself"""
     x, y, angle = lab.about(0.0, 64.0), lab.about(0.0, 64.0), lab.about(0.0, 1.0)
     for number, (begin, end, dt) in enumerate(STEPS):
         before = begin[0] + x, begin[1] + y, begin[2] + angle
@@ -52,7 +52,7 @@ def a_body_is_drawn_on_its_way_through_the_step(lab: Lab) -> None:
 
 
 def want_all_shares(lab: Lab, body: Thing, before: Place, now: Place) -> None:
-    """Insist on right answers of between about a body, which it must leave alone."""
+    """Insist that `between` answers right for a body and does not change it."""
     asked = [share for share in SHARES for _ in range(2)]  # the window may ask twice
     answers = [ask_between(lab, body, share) for share in asked]
     for share, answer in zip(asked, answers, strict=True):
@@ -82,7 +82,7 @@ def want_all_shares(lab: Lab, body: Thing, before: Place, now: Place) -> None:
 def want_part_of_the_way(lab: Lab, found: Place, before: Place, now: Place, share: float) -> None:
     """Insist on the right position.
 
-    The angle may also be the one before or now: only the spoke shows it.
+    The angle may also be the old or the new one: only the spoke shows it.
     """
     right = exact.part_of_the_way(before, now, share)
     near = math.dist(found[:2], right[:2]) < CLOSE
@@ -102,7 +102,7 @@ def want_part_of_the_way(lab: Lab, found: Place, before: Place, now: Place, shar
 
 
 def without_turns(angle: float) -> float:
-    """Return an angle as it is seen: without whole turns."""
+    """Return an angle without whole turns."""
     return math.remainder(angle, 2 * math.pi)
 
 
@@ -117,7 +117,7 @@ def say_angle(angle: float, digits: int) -> str:
 def make_moved_body(
     lab: Lab, before: Place, now: Place, dt: float, mass: float, **surface: float
 ) -> Thing:
-    """Return a body that a step of its world has brought from one place and angle to another."""
+    """Return a body that a step of its world has moved from one position and angle to another."""
     vx, vy, omega = ((end - begin) / dt for begin, end in zip(before, now, strict=True))
     body = lab.circle(before[:2], 10.0, mass, angle=before[2], vel=(vx, vy), omega=omega, **surface)
     lab.simulate(lab.world(body, bonus=True), [body], 1, dt)
@@ -125,7 +125,7 @@ def make_moved_body(
 
 
 def ask_between(lab: Lab, body: Thing, share: float) -> Place:
-    """Return what between says: a place and an angle."""
+    """Return the answer of `between`: a position and an angle."""
     parts = lab.items(
         lab.call("between", body, share, changes=NOTHING, twice=True), "what between returns"
     )

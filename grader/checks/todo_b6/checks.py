@@ -4,8 +4,7 @@ from grader.checks.pacing import want_a_proper_end
 from grader.judge.lab import Lab
 from grader.protocol import BodyValue, Event, Played
 
-# What is held at each click, and how many times as heavy the ball must be. Each click has a frame
-# of its own but for the last two, which come in one.
+# Keys held at each click, and the factor of the ball's mass. The last two clicks share a frame.
 CLICKS = 2 * (
     ("left shift", 10),
     ("", 1),
@@ -28,12 +27,12 @@ ROUNDING = 1e-9
 
 
 def shift_drops_heavier_balls(lab: Lab) -> None:
-    """A ball that is dropped with Shift held is ten times as heavy, whichever Shift"""
+    """A ball dropped with either Shift key held is ten times as heavy"""
     lab.ran("the lab scene, clicks with no key held, one Shift or both, and other keys")
     right, down = lab.whole(0, 40), lab.whole(0, 40)
     places = [(x + right, y + down) for x, y in PLACES]
     apart = len(CLICKS) - 2
-    first = abs(lab.whole(0, apart - 1))  # nobody knows by heart which click comes when
+    first = abs(lab.whole(0, apart - 1))  # seeded, so that the order of clicks cannot be hard-coded
     order = [*range(first, apart), *range(first), apart, apart + 1]
     clicks = [
         Event(3 + min(number, apart), "click", places[which], held=CLICKS[which][0])
@@ -62,7 +61,7 @@ def named(keys: str) -> str:
 
 
 def usual_mass(ball: BodyValue) -> float:
-    """Return what a ball of this size weighs in the lab scene, kg."""
+    """Return the mass of a ball of this size in the lab scene, kg."""
     return ball.radius**2 / 100
 
 
@@ -72,7 +71,7 @@ def turning(ball: BodyValue) -> float:
 
 
 def dropped(lab: Lab, played: Played, place: tuple[int, int]) -> BodyValue:
-    """Return the ball that was dropped at a place."""
+    """Return the ball that was dropped at a position."""
     for body in played.bodies:
         if isinstance(body, BodyValue) and tuple(body.pos) == place and body.inv_mass:
             return body

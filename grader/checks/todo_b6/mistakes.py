@@ -10,7 +10,7 @@ HEAVY = 10.0
 
 
 def heavy_where(held: Callable[[set[str]], bool]) -> Callable[[], list[float]]:
-    """Return heavy balls where the keys that are held are such."""
+    """Return the model that drops a heavy ball when the held keys match."""
     return always([HEAVY if held(set(keys.split("+")) - {""}) else 1.0 for keys, _ in CLICKS])
 
 

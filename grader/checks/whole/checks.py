@@ -1,8 +1,8 @@
-"""The whole: the student's own programs, as they are, from the first frame to the last.
+"""Check the student's own programs as a whole, from the first frame to the last.
 
-Each check holds some of what the lesson promises about the scene and the step, so that a promise
-broken costs a point or two, and the rest of the program keeps its points. A scene demands what must
-happen: a ball bounced, one went aside, one rolled, the bob crossed.
+Each check tests some of the lesson's promises about the scene and the step, so that a broken
+promise costs only a point or two. A scene also requires events: a ball bounces, one is deflected,
+one rolls, the bob crosses.
 """
 
 import math
@@ -71,7 +71,7 @@ def run(
     events: Sequence[Event] = (),
     photos: Sequence[int] = (),
 ) -> Played:
-    """Play the program and insist that it ran its steps, in which free bodies fly as they must."""
+    """Play the program; insist that it ran its steps and that free bodies fly as they must."""
     rate = rate or lab.whole(20, 2)
     lab.ran(f"the program as it is for {seconds:g} s, at {rate} frames a second")
     frames = frames_at(rate, seconds)
@@ -80,7 +80,9 @@ def run(
     steps, owed = sum(played.steps), played.clock[len(frames)] / 1000 / STEP
     least = played.clock[len(frames) - 1] / 1000 / STEP  # it may leave out the last frame
     lab.want(
-        least - 2 - 1 / rate / STEP <= steps <= owed + 2,  # guess the first, or be one behind
+        least - 2 - 1 / rate / STEP
+        <= steps
+        <= owed + 2,  # it may guess the first frame, or be behind
         f"{owed:.0f} fixed steps",
         f"{steps}",
     )
@@ -97,7 +99,7 @@ def run(
 
 
 def the_scene_is_that_of_the_lesson(lab: Lab) -> None:
-    """The scene holds what the lesson says, and the program begins with it"""
+    """The scene has the lesson's bodies, and the program begins with it"""
     seed = lab.whole(SEED, SEED)
     lab.ran(f"make_world(random.Random({seed}))")
     parts = [turning_as_a_disc(part) for part in [*FIXED, BOB]]
@@ -145,7 +147,7 @@ def a_step_keeps_its_stages_and_its_passes(lab: Lab) -> None:
 
 
 def the_rod_swings_alike_at_any_frame_rate(lab: Lab) -> None:
-    """The pendulum swings alike at 30, 60 and 144 frames a second, less than 1 px off"""
+    """The pendulum swings the same at 30, 60 and 144 frames a second, within 1 px"""
     want_the_same_motion(lab, (30, 144), 0.6 + abs(lab.whole(0, 6)) / 30)
     played = run(lab, 1.6, 60)
     bobs = [body for body in movers(played) if body.is_bob]
@@ -184,7 +186,7 @@ def want_a_swing(lab: Lab, trail: list[Moment]) -> None:
 
 
 def balls_bounce_come_to_rest_and_roll(lab: Lab) -> None:
-    """Balls bounce, go aside at the pegs, rest on the ledge and roll on the floor"""
+    """Balls bounce, are deflected by the pegs, rest on the ledge and roll on the floor"""
     place = lab.whole(200, 100), lab.whole(340, 20)  # below the ledge
     played = run(lab, 5.0, None, [Event(abs(lab.whole(3, 2)), "click", place)])
     want_all_inside(lab, played)
@@ -197,9 +199,9 @@ def balls_bounce_come_to_rest_and_roll(lab: Lab) -> None:
 
 
 def deal_a_small_ball(lab: Lab) -> int:
-    """Have the program draw other balls than usual; return the radius of the first one, px.
+    """Make the program draw other balls than usual; return the radius of the first one, px.
 
-    It is so much smaller than the usual one that a film of the usual balls hovers over the ledge.
+    It is much smaller than usual, so that a recording of the usual balls hovers above the ledge.
     """
     moved = abs(lab.whole(1, 1_000_000))
     while first_radius(SEED + moved) > SMALL:
@@ -209,7 +211,7 @@ def deal_a_small_ball(lab: Lab) -> int:
 
 
 def want_a_landing(lab: Lab, played: Played, radius: int) -> None:
-    """Insist that the first ball has the size that was drawn, and comes down to the ledge."""
+    """Insist that the first ball has its randomly drawn size and lands on the ledge."""
     lab.ran(f"the program as it is, with random numbers that make its first ball {radius} px large")
     first = min(movers(played), key=lambda each: math.dist(each.begin, BALLS[0]))
     lab.want(first.radius == radius, f"a first ball of {radius} px", f"one of {first.radius:g} px")
@@ -222,14 +224,14 @@ def want_a_landing(lab: Lab, played: Played, radius: int) -> None:
 
 
 def want_events(lab: Lab, balls: list[Mover], dropped: Mover, place: Pair) -> None:
-    """Insist on what a player sees: a ball bounces, pegs turn balls aside, and a ball rolls."""
+    """Insist on visible events: a ball bounces, pegs deflect balls, and a ball rolls."""
     lab.want(
         dropped.rose > ROSE,
         f"a ball dropped at {place} that bounces off the floor, by about 15 px",
         f"it rises by {dropped.rose:.1f} px",
     )
     aside = [ball for ball in balls if ball.went_aside > ASIDE]
-    lab.want(len(aside) >= 2, "balls that go aside at the pegs", f"{len(aside)} that did")
+    lab.want(len(aside) >= 2, "balls that the pegs deflect", f"{len(aside)} deflected")
     farthest = max(ball.rolled for ball in balls)
     lab.want(
         farthest > ROLLED,
@@ -241,7 +243,7 @@ def want_events(lab: Lab, balls: list[Mover], dropped: Mover, place: Pair) -> No
 def want_rest(lab: Lab, balls: list[Mover]) -> None:
     """Insist that balls lie or roll in the end, four of them on the ledge.
 
-    A ball that rolls against a wall hops for a moment, since its rim climbs; so the median counts.
+    A ball that rolls against a wall hops for a moment, as its rim climbs; so use the median.
     """
     restless = max(median(abs(each.vy) for each in ball.tenths[-5:]) for ball in balls)
     lab.want(
@@ -275,7 +277,7 @@ def the_picture_shows_where_the_balls_are(lab: Lab) -> None:
 
 
 def want_all_inside(lab: Lab, played: Played) -> None:
-    """Insist that nothing sinks or escapes, and that static bodies stay where they are."""
+    """Insist that nothing sinks or escapes, and that static bodies do not move."""
     for body in movers(played):
         for moment in body.trail:
             lab.want(
@@ -318,11 +320,11 @@ def first_difference(trails: list[list[list[float]]]) -> int | None:
     return None
 
 
-ALIKE, REPEATED = 36, 75  # steps before anything meets a ball, and until some have met
+ALIKE, REPEATED = 36, 75  # steps before any ball touches something, and until some have
 
 
 def clicks_drop_balls_and_r_resets(lab: Lab) -> None:
-    """A click drops a ball, MAX_BALLS at most, and R brings back the scene"""
+    """A click drops a ball, MAX_BALLS at most, and R restores the scene"""
     place = lab.whole(450, 40), lab.whole(300, 20)
     lab.ran(f"40 clicks at {place}, one in each frame, and R at the end")
     clicks = [Event(frame, "click", place) for frame in range(5, 45)]
@@ -357,7 +359,7 @@ def clicks_drop_balls_and_r_resets(lab: Lab) -> None:
 def want_the_scene_again(lab: Lab, found: set[tuple[float, ...]]) -> bool:
     """Insist on the bob and eight balls after R; return whether they are the first eight.
 
-    A random generator that goes on gives balls of other sizes.
+    A random generator that is not reset gives balls of other sizes.
     """
     first = {(*p.pos, p.shape[0], p.mass) for p in world_parts(lab, SEED) if p.mass}
     bob = (*BOB.pos, *BOB.shape, BOB.mass)
@@ -375,7 +377,7 @@ def want_the_scene_again(lab: Lab, found: set[tuple[float, ...]]) -> bool:
 
 
 def want_a_first_ball(lab: Lab, rows: list[list[Moment]], place: tuple[int, int]) -> None:
-    """Insist that the first click, and nothing before it, drops one ball where it is."""
+    """Insist that the first click, and nothing before it, drops one ball there."""
     more = next((row for row in rows if len(row) > len(rows[0])), [])
     lab.want(
         len(more) == len(rows[0]) + 1,
@@ -419,7 +421,7 @@ def the_pymunk_stack_stands_and_its_rod_holds(lab: Lab) -> None:
 
 
 def want_a_pymunk_swing(lab: Lab, bob: Mover) -> None:
-    """Insist that the bob swings, and on a rod that gives way by no more than pymunk's does."""
+    """Insist that the bob swings, and that the rod stretches no more than pymunk's."""
     want_a_swing(lab, bob.trail)
     length = math.dist((bob.trail[-1].x, bob.trail[-1].y), HOOK)
     # A pin joint of pymunk's gives way by about 1.2 px in this scene.
@@ -448,9 +450,9 @@ def tilt(box: SpaceBody) -> float:
 
 
 def want_pymunk_events(lab: Lab, balls: list[Mover]) -> None:
-    """Insist that pegs turn balls aside, that a ball turns, and that all come to rest."""
+    """Insist that pegs deflect balls, that a ball turns, and that all come to rest."""
     aside = [ball for ball in balls if ball.went_aside > ASIDE]
-    lab.want(len(aside) >= 2, "balls that go aside at the pegs", f"{len(aside)} that did")
+    lab.want(len(aside) >= 2, "balls that the pegs deflect", f"{len(aside)} deflected")
     most = max(ball.turned for ball in balls)
     lab.want(most > 1.0, "balls that have rolled", f"none has turned by more than {most:.2f} rad")
     bouncing = max(abs(ball.trail[-1].vy) for ball in balls)
@@ -488,7 +490,7 @@ VERDICT = re.compile(r"stack\b.*\b(stand|fall|fell|tip|upright|true|false|yes|no
 
 
 def want_tipped(lab: Lab, played: Played, tips: bool) -> None:
-    """Insist on a box that tips over, or on boxes none of which does."""
+    """Insist that a box tips over, or that none does."""
     most = max(map(tilt, boxes_of(played)), default=0.0)
     lab.want(
         (most >= TIPPED) == tips,
@@ -507,7 +509,7 @@ UPRIGHT = 0.5  # rad; boxes that are tied together turn by more than 1
 
 
 def want_a_free_box(lab: Lab, level: int) -> None:
-    """Hit one box of the stack: it must move and leave the lowest or the top one behind."""
+    """Hit one box of the stack; insist that it moves without the lowest or the top one."""
     speed = lab.about(3000.0, 400.0)
     lab.ran(f"make_space, and a ball at {speed:g} px/s against box {level} of the stack")
     space, stack = pymunk_scene(lab, SEED)
@@ -529,7 +531,7 @@ def want_a_free_box(lab: Lab, level: int) -> None:
 
 
 def hit_by_a_ball(lab: Lab, space: Thing, pos: Pair, speed: float) -> None:
-    """Put a ball of the lesson's into a space, at so many px/s to the right."""
+    """Put a ball of the lesson into a space, moving right at `speed` px/s."""
     ball = lab.thing(lab.call("pymunk:Body", 2.25, 253.125), "a Body")
     lab.put(ball, position=pos, velocity=(speed, 0))
     disc = lab.thing(lab.call("pymunk:Circle", ball, 15.0), "a Circle")
@@ -538,7 +540,7 @@ def hit_by_a_ball(lab: Lab, space: Thing, pos: Pair, speed: float) -> None:
 
 
 def clicks_b_and_r_work_in_pymunk(lab: Lab) -> None:
-    """In pymunk clicks drop balls, B drops boxes, and R brings back the scene"""
+    """In pymunk, clicks drop balls, B drops boxes, and R restores the scene"""
     lab.ran("the pymunk program: B four times, a click, B in 50 frames, R, and B once more")
     keys = [Event(frame, "key", key="b") for frame in (*range(5, 9), *range(14, 64), 72)]
     place = lab.whole(450, 40), lab.whole(300, 20)
@@ -591,5 +593,5 @@ def balls_of(played: Played) -> list[Pair]:
 
 
 def row_of(rows: list[list[Moment]], count: int) -> list[Moment]:
-    """Return the bodies when there were first so many."""
+    """Return the bodies at the first moment with this many."""
     return next((row for row in rows if len(row) == count), [])

@@ -1,9 +1,9 @@
-"""Judge a recorded run, whoever recorded it: what touches nothing falls, and nothing jumps.
+"""Check a recorded run: free bodies fall, and no body jumps.
 
-A submission runs in one process with the recorder, and can send a recording of its own. So a
-recording is compared with what can be computed without the program: where the balls begin, and each
-step of a ball that is clear of all else. What touches something may be pushed, but it is near where
-it was, and at a speed that a fall can give. An invented recording that passes is a simulation.
+A submission runs in one process with the recorder and can fake a recording. So a recording is
+compared with values computed without the program: the balls' first positions, and each step of a
+free ball. A body in contact must stay near its last position, at a speed that a fall can give. A
+fake that passes is a simulation.
 """
 
 import math
@@ -20,9 +20,9 @@ CLEAR = 3.0  # px
 LOST = 0.1  # share of a speed: no damping takes more in a step
 ASIDE = 0.5  # px/s
 NEAR = 1.0  # px
-PUSHED = 10.0  # px: what a step may move something that touches another, whatever its speed
+PUSHED = 10.0  # px: the move allowed in a step to a body in contact, at any speed
 FASTEST = 3000.0  # px/s: three times what a fall through the whole window gives
-MAX_PAIRS = 2_000_000  # of bodies that are compared in a run; the scene's have a tenth
+MAX_PAIRS = 2_000_000  # bodies compared in a run; the scene has a tenth of it
 
 
 def outline(part: Part) -> tuple[float, float, float, float, float]:
@@ -43,7 +43,7 @@ def moments(row: Sequence[float]) -> list[Moment]:
 
 
 def want_free_flights(lab: Lab, trail: Sequence[Sequence[float]]) -> None:
-    """Insist on a run, step by step, in which the scene's balls fall until they meet something."""
+    """Insist, step by step, that the scene's balls fall freely until they touch something."""
     rows = [moments(row) for row in trail]
     if not rows:
         return
@@ -67,7 +67,7 @@ def want_free_flights(lab: Lab, trail: Sequence[Sequence[float]]) -> None:
 
 
 def want_a_flight(lab: Lab, each: Moment, after: Sequence[Moment], number: int) -> None:
-    """Demand that some ball flew to this position; the program may have sorted the bodies."""
+    """Insist that some ball flew to this position; the program may have sorted the bodies."""
     if not any(flew(each, other) for other in near(each, after)):
         lab.want(
             False,
@@ -78,7 +78,7 @@ def want_a_flight(lab: Lab, each: Moment, after: Sequence[Moment], number: int) 
 
 
 def want_no_jump(lab: Lab, each: Moment, after: Sequence[Moment], number: int) -> None:
-    """Insist that there is a body near where this one was, and that neither is absurdly fast."""
+    """Insist that a body is near this one's last position, and that neither is impossibly fast."""
     slow = (other for other in near(each, after, PUSHED) if other.speed <= FASTEST)
     if each.speed > FASTEST or not any(slow):
         lab.want(
@@ -94,30 +94,30 @@ def say(each: Moment) -> str:
 
 
 def near(each: Moment, after: Sequence[Moment], within: float = NEAR) -> Iterator[Moment]:
-    """Yield the bodies that may have been where this one was, a step ago."""
+    """Yield the bodies that may be this one, a step earlier."""
     return (other for other in after if may_have_been(other, (each.x, each.y), within))
 
 
 def may_have_been(each: Moment, place: Pair, near: float = NEAR) -> bool:
-    """Return whether a body can have been at this place a step ago."""
+    """Return whether a body can have been at this position a step ago."""
     return math.dist((each.x, each.y), place) <= (each.speed + GRAVITY * STEP) * STEP + near
 
 
 def flew(before: Moment, after: Moment) -> bool:
-    """Return whether nothing but gravity, and damping by whatever rate, worked on a body."""
+    """Return whether only gravity, and damping at any rate, acted on a body."""
     vx, vy = before.vx, before.vy + GRAVITY * STEP
     kept = (after.vx * vx + after.vy * vy) / (vx**2 + vy**2 or 1.0)
     kept = min(max(kept, 1 - LOST), 1 + LOST / 10)
     aside = math.hypot(after.vx - kept * vx, after.vy - kept * vy)
-    mean = (before.vx + after.vx) / 2, (before.vy + after.vy) / 2  # other integrators are near it
+    mean = (before.vx + after.vx) / 2, (before.vy + after.vy) / 2  # others are near
     moved = after.x - before.x - mean[0] * STEP, after.y - before.y - mean[1] * STEP
     return aside <= ASIDE and math.hypot(*moved) <= (LOST * before.speed + GRAVITY * STEP) * STEP
 
 
 def is_clear(each: Moment, row: Sequence[Moment], speeds: Sequence[float]) -> bool:
-    """Return whether a body is a ball that can meet nothing in this step or the next.
+    """Return whether a body is a ball that can touch nothing in this step or the next.
 
-    The bob never is, nor is what comes near it. `speeds` are those of the bodies in `row`.
+    The bob and balls near it never count. `speeds` are those of the bodies in `row`.
     """
     x, y = each.x, each.y
     way = 2 * STEP * (each.speed + GRAVITY * STEP) + CLEAR

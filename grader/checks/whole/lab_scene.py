@@ -1,7 +1,7 @@
 """The lab scene as the lesson describes it, part by part, for the mini engine and for pymunk.
 
-A ball's colour is drawn after its radius, in whatever way. So of the radii that come from a
-random.Random only the first is known.
+A program may draw a ball's colour after its radius in any way. So only the first radius from a
+random.Random is known.
 """
 
 import math
@@ -28,7 +28,7 @@ class Part(NamedTuple):
     mass: float = 0.0  # kg, 0 = static
     restitution: float = 0.3
     friction: float = 0.6
-    moment: float | None = None  # kg px²; None where that is a TODO's business, or static
+    moment: float | None = None  # kg px²; None if a TODO decides it, or for a static body
 
     @property
     def named(self) -> str:
@@ -38,7 +38,7 @@ class Part(NamedTuple):
         return f"a {'moving' if self.mass else 'static'} {what} at ({x:g}, {y:g})"
 
 
-HOOK, ROD = (700.0, 90.0), 140.0  # px; where the pendulum hangs, and how long it is
+HOOK, ROD = (700.0, 90.0), 140.0  # px; the pendulum's hook, and its length
 FIXED = [
     Part((450, 580), (450, 20)),  # the floor
     Part((-20, 300), (20, 300)),
@@ -50,7 +50,7 @@ FIXED = [
 BOB = Part((840, 90), (24,), 6, 0.2)
 LEFT, TOP, RIGHT, BOTTOM = range(4)  # of Bounds; y grows down
 FAR, ROUND = 10_000.0, 10.0  # px
-FACES = {  # where the sides of a segment are that stands for a box, px
+FACES = {  # px, the sides of a segment that replaces a box
     FIXED[0]: {TOP: (557, 563), LEFT: (-FAR, 3), RIGHT: (897, FAR)},
     FIXED[1]: {RIGHT: (-3, 3), TOP: (-FAR, 3), BOTTOM: (557, FAR)},
     FIXED[2]: {LEFT: (897, 903), TOP: (-FAR, 3), BOTTOM: (557, FAR)},
@@ -77,7 +77,7 @@ def first_radius(seed: int) -> int:
 
 
 def turning_as_a_disc(part: Part) -> Part:
-    """Add the moment of a full disc, where the engine and not the student gives it."""
+    """Add the moment of a full disc, if the engine computes it and not the student."""
     return part._replace(moment=part.mass * part.shape[0] ** 2 / 2) if part.mass else part
 
 
@@ -106,7 +106,7 @@ def want_parts(lab: Lab, found: list[Part], expected: list[Part], seed: int) -> 
 
 
 def want_part(lab: Lab, found: list[Part], part: Part) -> None:
-    """Insist on one part, and say in which number the one in its place differs."""
+    """Insist on one part, and name the number that differs."""
     here = [p for p in found if is_close(p.pos, part.pos) and len(p.shape) == len(part.shape)]
     lab.want(bool(here), part.named, "nothing there")
     pairs = [
@@ -183,9 +183,9 @@ def shapes_of(body: SpaceBody) -> list[Part]:
 
 
 def as_box(bounds: Bounds) -> tuple[Pair, tuple[float, ...]] | None:
-    """Return place and half extents of the lesson's box that a segment stands for, or None.
+    """Return position and half extents of the box that a segment replaces, or None.
 
-    A segment may be as thick as it likes, and rounded, if what balls meet is where the box has it.
+    A segment may be thick and rounded if its surface is where the box has it.
     """
     for part, faces in FACES.items():
         if all(low <= bounds[side] <= high for side, (low, high) in faces.items()):
@@ -194,7 +194,7 @@ def as_box(bounds: Bounds) -> tuple[Pair, tuple[float, ...]] | None:
 
 
 def moving_parts(played: Played) -> set[tuple[float, ...]]:
-    """Return place, size and mass of all that can move when a program of the mini engine ends."""
+    """Return position, size and mass of each movable body when a mini engine program ends."""
     bodies = [body for body in played.bodies if isinstance(body, BodyValue)]
     return {(*body.pos, body.radius, 1 / body.inv_mass) for body in bodies if body.inv_mass}
 

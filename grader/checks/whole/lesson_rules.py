@@ -1,7 +1,7 @@
-"""The rules of contacts and of the step, as the lesson says them, one small experiment each.
+"""Check the lesson's rules of contacts and of the step, with one small experiment each.
 
-What is expected is worked out by hand from the lesson's numbers: BETA 0.2, SLOP 0.5 px, no bounce
-below 30 px/s. Each is one step of a World, whatever functions that calls.
+Expected values are computed by hand from the lesson's numbers: BETA 0.2, SLOP 0.5 px, no bounce
+below 30 px/s. Each experiment is one step of a World.
 """
 
 import math
@@ -11,12 +11,12 @@ from grader.judge.decode import Pair, Thing
 from grader.judge.lab import STEP, Lab, Moment
 from grader.protocol import BodyValue
 
-EXACT = 1e-6  # px and px/s: what a few steps of rounding may change
+EXACT = 1e-6  # px and px/s: tolerance for a few steps of rounding
 KEPT = 0.6065306597126334  # share of the speed after 0.1 s at 5 per second
 TOUCHING = 1e-6  # px of overlap
-NEARLY = 1e-5  # px/s, where an overlap is in the way
+NEARLY = 1e-5  # px/s, with an overlap
 STOPPED = 1e-3  # px/s
-PASSES = range(2, 21)  # the lesson has 8, and proposes to try others
+PASSES = range(2, 21)  # the lesson has 8, and suggests trying others
 LEAN = 0.9  # cosine of the angle from a rod to the normal of a contact
 
 
@@ -47,7 +47,7 @@ ANOTHER_RULE = "The larger of bounce (the smaller restitution, above 30 px/s) an
 
 
 def other_rules(impact: Impact) -> set[float]:
-    """Return the speeds that other rules of bounce and push-out would make of it, px/s."""
+    """Return the speeds that other rules of bounce and push-out would give, px/s."""
     first, second = impact.restitution
     shares = 0.0, first, second, first * second, math.sqrt(first * second), (first + second) / 2
     pushes = 0.0, 24 * impact.depth, 24 * max(impact.depth - 0.5, 0.0)
@@ -56,7 +56,7 @@ def other_rules(impact: Impact) -> set[float]:
 
 
 def want_impact(lab: Lab, impact: Impact) -> None:
-    """Insist on the right speed after one step with one contact, straight from above."""
+    """Insist on the right speed after one step with one contact from straight above."""
     first, second = impact.restitution
     lab.ran(
         f"a disc {impact.depth:g} px deep in a static one, closing at {impact.closing:g} px/s, "
@@ -81,7 +81,7 @@ def want_impact(lab: Lab, impact: Impact) -> None:
 
 
 def want_pressed_and_rubbed(lab: Lab) -> None:
-    """Insist on the pressure and the friction that it limits; both turn both bodies."""
+    """Insist on the right normal and friction impulses; both turn both bodies."""
     lab.ran(
         f"two discs of {lab.factor:g} kg, friction 0.9 on 0.4, sliding at 300 px/s and closing at "
         "20 px/s, one step"
@@ -105,7 +105,7 @@ def say(body: BodyValue) -> str:
 
 
 def want_a_total_that_is_clamped(lab: Lab) -> None:
-    """Insist that a pass takes back what an earlier one gave too much.
+    """Insist that a pass can reduce the impulse of an earlier one.
 
     A disc falls into a shallow groove between two large ones. Each side that is solved pushes it a
     little off the other one. With totals clamped the next pass draws it back, and after two passes
@@ -140,7 +140,7 @@ def want_friction_after_pressure(lab: Lab) -> None:
 
 
 def want_a_way_out_for_coincident_discs(lab: Lab) -> None:
-    """Insist on the lesson's normal where no direction leads from one centre to the other."""
+    """Insist on the lesson's normal when both centres coincide."""
     lab.ran("circle_circle of two discs with one centre")
     centre = lab.about(3.0), lab.about(4.0)
     discs = lab.circle(centre, 10), lab.circle(centre, 6)
@@ -167,7 +167,7 @@ def want_gravity_then_damping(lab: Lab) -> None:
 
 
 def want_a_free_flight(lab: Lab) -> None:
-    """Insist that what meets nothing and is not damped keeps its velocity, however large."""
+    """Insist that an undamped free body keeps its velocity, however large."""
     vx, vy = lab.about(3000.0), lab.about(-4000.0)
     lab.ran(f"a disc at ({vx:g}, {vy:g}) px/s that meets nothing, one step")
     disc = lab.circle((0, 0), vel=(vx, vy))
@@ -176,7 +176,7 @@ def want_a_free_flight(lab: Lab) -> None:
 
 
 def want_state(lab: Lab, got: Moment, expected: tuple[float, float, float, float]) -> None:
-    """Insist on a place (px) and a velocity (px/s)."""
+    """Insist on a position (px) and a velocity (px/s)."""
     lab.want(
         math.dist(expected, (got.x, got.y, got.vx, got.vy)) < EXACT * max(map(abs, expected)),
         "({:.9g}, {:.9g}) px, at ({:.9g}, {:.9g}) px/s".format(*expected),
@@ -185,7 +185,7 @@ def want_state(lab: Lab, got: Moment, expected: tuple[float, float, float, float
 
 
 def want_fresh_contacts(lab: Lab) -> None:
-    """Insist on contacts where the bodies are, not where they were."""
+    """Insist that contacts use the bodies' new positions."""
     lab.ran("a disc on a static one for a step; then it is put far away, and another step")
     anchor, disc = lab.circle((0, 0), 50, 0), lab.circle((0, -59))
     world = lab.world(anchor, disc)

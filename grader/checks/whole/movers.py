@@ -1,7 +1,7 @@
-"""The discs that move in a program, and what they did: bounced, went aside, rolled.
+"""Find the discs that move in a program, and measure how they bounced and rolled.
 
-Rolling is measured by rolling: by speed and spin while a ball is on the floor. An angle may be
-counted modulo 2 pi, so no angle is compared with another one.
+Rolling is measured by speed and spin while a ball is on the floor, not by angles: a program may
+reduce angles modulo 2 pi.
 """
 
 import math
@@ -13,7 +13,7 @@ from grader.judge.lab import STEP, Moment
 from grader.protocol import BodyValue, Played, SpaceBody
 
 LEDGE_TOP, FLOOR_TOP = 250.0, 560.0  # px
-RESTING = 3.0  # px, for what lies on something
+RESTING = 3.0  # px, for a body that lies on another
 LANDING = 9.0  # px: how deep a ball at 1000 px/s gets within one step
 BOB_RADIUS = 24.0  # px; the balls are smaller
 TENTH = 12  # steps in a tenth of a second
@@ -22,7 +22,7 @@ ROLLING = 20.0  # px/s, the speed from which a ball counts as rolling
 
 @dataclass
 class Mover:
-    """A ball or the bob, and its trail since there were as many bodies as in the end."""
+    """A ball or the bob, and its trail since the last change in the number of bodies."""
 
     radius: float
     trail: list[Moment]
@@ -55,7 +55,7 @@ class Mover:
 
     @property
     def went_aside(self) -> float:
-        """Return how far it was from where it began, to the left or right, px."""
+        """Return its largest distance from its start, to the left or right, px."""
         return max(abs(moment.x - self.trail[0].x) for moment in self.trail)
 
     @property
@@ -98,7 +98,7 @@ def movers(played: Played) -> list[Mover]:
 
 
 def columns(played: Played, last: list[Moment]) -> Iterator[tuple[int, float]]:
-    """Give for each disc its number in the rows of the trail, and its radius."""
+    """Return each disc's number in the rows of the trail, and its radius."""
     moving = [body for body in played.bodies if isinstance(body, BodyValue) and body.inv_mass]
     yield from ((number, body.radius) for number, body in enumerate(moving))
     for body in played.bodies:

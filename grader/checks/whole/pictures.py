@@ -1,8 +1,7 @@
 """Look at the window at a few moments: every disc where it is, its spoke, and nothing else.
 
-A program may draw as it likes, and with what colours it likes. So a pixel is compared with the same
-one of another moment: where a disc is, it differs from the one where nothing is. The picture may
-be a frame late, or between two steps.
+A program may draw in any style and colours. So each pixel is compared with the same pixel at
+another moment, when no disc covers it. The picture may be a frame late, or between two steps.
 """
 
 import math
@@ -19,7 +18,7 @@ from grader.judge.lab import Lab
 from grader.protocol import Photo, Played
 
 SIZE = (900, 600)  # px
-LATE = 8  # steps: how old what a picture shows may be
+LATE = 8  # steps: maximum age of the state in a picture
 APART = 16  # of 255: colours that differ by more in a channel are different
 MARGIN = 6.0  # px around a disc or a rod
 TEXT, FLOOR = 58, 558  # px: above and below there may be text
@@ -47,7 +46,7 @@ class Disc:
         return [(x + reach * math.cos(turn), y + reach * math.sin(turn)) for turn in turns]
 
     def circles(self) -> Iterator[tuple[float, float, float]]:
-        """Yield circles (x, y, radius) of what it, or the rod it hangs on, may have coloured."""
+        """Yield circles (x, y, radius) that it, or its rod, may have coloured."""
         yield *self.place, self.radius + MARGIN
         if self.is_bob:
             (x, y), (along_x, along_y) = HOOK, self.place
@@ -62,7 +61,7 @@ class Picture:
     def __init__(self, photo: Photo, moments: list[list[Disc]]) -> None:
         self.colours = decompressed(photo)
         self.moments = moments
-        self.discs = moments[-1]  # until it is known which of them it shows
+        self.discs = moments[-1]  # until the step that it shows is found
         self.covered = covered(disc for discs in moments for disc in discs)
 
     def __getitem__(self, point: Pair) -> tuple[int, ...]:
@@ -94,7 +93,7 @@ def covered(discs: Iterable[Disc]) -> bytearray:
 
 
 def want_pictures(lab: Lab, played: Played, movers: Sequence[Mover], frames: Sequence[int]) -> None:
-    """Insist that the window shows at the end of these frames what the program has simulated."""
+    """Insist that at the end of these frames the window shows the simulated state."""
     photos = [each for each in played.photos if decompressed(each)]
     lab.want(
         [each.frame for each in photos] == list(frames),
@@ -109,7 +108,7 @@ def want_pictures(lab: Lab, played: Played, movers: Sequence[Mover], frames: Seq
 
 
 def decompressed(photo: Photo) -> bytes:
-    """Return the colours of a photo, or nothing where it is not one of the whole window."""
+    """Return the colours of a photo; empty unless it covers the whole window."""
     length = 3 * SIZE[0] * SIZE[1]
     if (photo.width, photo.height) != SIZE:
         return b""
@@ -149,7 +148,7 @@ def want_discs_where_they_are(lab: Lab, picture: Picture, others: list[Picture])
 
 
 def seen_share(disc: Disc, picture: Picture, others: list[Picture]) -> float:
-    """Return the share of a disc that is seen; 1 where it cannot be told from what is near it."""
+    """Return the visible share of a disc; 1 where it cannot be separated from its neighbours."""
     points = [each for each in (*disc.ring(0.55, 12), *disc.ring(0.9, 12)) if is_clear(each)]
     known = [
         differ(picture[point], other[point])
@@ -160,7 +159,7 @@ def seen_share(disc: Disc, picture: Picture, others: list[Picture]) -> float:
 
 
 def want_a_cleared_window(lab: Lab, movers: Sequence[Mover], first: Picture, last: Picture) -> None:
-    """Insist that nothing is left of the discs where they have been."""
+    """Insist that the discs' old positions are cleared."""
     points = [
         (moment.x, moment.y)
         for mover in movers
@@ -192,7 +191,7 @@ def want_turning_spokes(lab: Lab, shown: list[Picture]) -> None:
 
 
 def turned(one: Picture, other: Picture) -> Iterator[tuple[list[tuple[int, ...]], ...]]:
-    """Give the rings of each ball that has turned from one picture to the other."""
+    """Return the rings of each ball that has turned from one picture to the other."""
     for before, after in zip(one.discs, other.discs, strict=True):
         if before.is_bob:  # its rod turns about it
             continue
@@ -212,7 +211,8 @@ def is_plain(ring: list[tuple[int, ...]]) -> bool:
 
 
 def count_changes(before: list[tuple[int, ...]], after: list[tuple[int, ...]]) -> int:
-    """Count the samples of a ring that no neighbour before had: rounding may move one by one."""
+    """Count the samples of a ring that differ from all neighbours before: rounding may shift by
+    one."""
     near = zip(before[-1:] + before[:-1], before, before[1:] + before[:1], strict=True)
     return sum(
         all(differ(now, each) for each in some) for now, some in zip(after, near, strict=True)
