@@ -19,8 +19,8 @@ from grader.protocol import BodyLook, BodyRow, Moment
 from grader.text import format_rough
 
 VISIBLE = 0.5  # px or px/s
-A_SHARE = 0.01  # of the highest speed, where that is less, and of a mass
-ROUNDING = 1e-6  # px, and of the highest speed and of a mass
+A_SHARE = 0.01  # share of the highest speed, if smaller, and of a mass
+ROUNDING = 1e-6  # px; share of the highest speed, and of a mass
 
 COUNTED = "There is no visible difference: this check counts work."
 
@@ -113,7 +113,7 @@ def visible_tolerance(speed: float) -> Tolerance:
 
 
 def heavier_tolerance(speed: float) -> Tolerance:
-    """Return the same, but with no difference in mass, which is visible only later."""
+    """Return the same, with no tolerance for mass, whose effect is visible only later."""
     return visible_tolerance(speed)._replace(share=A_SHARE)
 
 
@@ -186,13 +186,13 @@ def compare_moments(
 
 
 def name_of(number: int, runs: tuple[Run, Run]) -> str:
-    """Return a body's name: that of your run, which its script has too."""
+    """Return a body's name in the student's run, as in its script."""
     yours, expected = runs
     return yours.names.get(number) or expected.names.get(number, f"body {number}")
 
 
 def compare_bodies(row: BodyRow, right: BodyRow, radius: float, tolerance: Tolerance) -> str:
-    """Say how a body differs from the expected one; return nothing if it does not."""
+    """Describe how a body differs from the expected one; empty if it does not."""
     if not all(map(math.isfinite, numbers_of(row))):
         return "has numbers that are not finite"
     away = math.dist((row.x, row.y), (right.x, right.y))

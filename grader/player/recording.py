@@ -175,7 +175,7 @@ def let_steps_run(request: Request) -> Request:
 
 
 def limit_moments(moments: list[Moment]) -> list[Moment]:
-    """Cut the moments to the limits of our own recorder: a submission may send anything."""
+    """Cut the moments to the limits of our recorder, since a submission may send anything."""
     return [
         Moment(
             each.time,
@@ -203,7 +203,7 @@ def find_marks(request: Request, run: Run) -> list[Mark]:
 
 
 def is_setup(request: Request) -> bool:
-    """Return whether a request sets up a scene; of several in a row, only the last is shown."""
+    """Return whether a request sets up a scene; only the last of several is shown."""
     return isinstance(request, MakeBody | MakeWorld | Set)
 
 

@@ -1,6 +1,6 @@
 """Make replays: run each failed check again, beside the right run.
 
-All marks are decided before. A replay that cannot be made is omitted and changes nothing else.
+Marks are already final. A replay that cannot be made is omitted.
 """
 
 import importlib
@@ -25,7 +25,7 @@ from grader.player.recording import OpenChild, record_again
 from grader.player.runs import Run
 from grader.player.script import write_script
 
-MAX_CHARACTERS, MAX_TOGETHER = 3_000_000, 20_000_000  # of a page and of all; usually 30,000
+MAX_CHARACTERS, MAX_TOGETHER = 3_000_000, 20_000_000  # of a page and of all pages; usually 30,000
 MAX_DEATHS = 3  # children that ended, after which no more runs of a submission are recorded
 RECORDED = CHECKS / "expected_runs.json"
 

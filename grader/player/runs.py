@@ -27,7 +27,7 @@ from grader.text import digits, printable
 MAX_ANSWER = 160  # characters
 DRAWN = 8  # numbers of a contact on a page: all but its bodies
 
-# A moment on a page: time, steps, changed bodies, contacts, rods, numbers of bodies that are gone.
+# A moment on a page: time, steps, changed bodies, contacts, rods, numbers of removed bodies.
 PageMoment = list[Any]
 
 
