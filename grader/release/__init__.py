@@ -1,1 +1,1 @@
-"""Make what students get: the tree, the checks they run, pages, notebooks, the archive."""
+"""Make the student files: the tree, the checks they run, pages, notebooks, the archive."""

@@ -1,8 +1,8 @@
-"""Build the release: the lab as one archive, and proof that nothing gives the solution away.
+"""Build the release: the lab as one archive, checked for leaks of the solution.
 
-A folder beside it has an archive of engines to explore, and one of files for CI; both are unpacked
-over the lab. The name has the version and the first digits of the content hash. The same kit makes
-the same archives, byte by byte.
+A second folder has archives of engines to explore and of files for CI, to unpack over the lab. The
+name has the version and the first digits of the content hash. The same kit makes the same archives,
+byte by byte.
 """
 
 import hashlib
@@ -62,9 +62,9 @@ class Refused(Stop):
 def release(out: Path, console: Console, fresh: bool = False, course: Course = FULL) -> list[Path]:
     """Build the release of a course into `out`; return the files and folders written.
 
-    `verify` proves the marks of the bank once for each version; `release` only says how many of its
-    results are missing. `prove` checks the course's copy of the grader. Recordings and proofs are
-    made again only if their sources changed, or if `fresh`.
+    `verify` proves the marks of the bank once per version; `release` only counts missing results.
+    `prove` checks the course's copy of the grader. Recordings and proofs are made again only if
+    their sources changed, or if `fresh`.
     """
     if complaints := list(check_kit()):
         raise Refused("; ".join(complaints))
@@ -111,7 +111,7 @@ def build(
     lay_out_ci(extra[1], course)
     lock = strip_build_packages((KIT / "requirements.txt").read_text(encoding="utf-8"))
     content = hash_folders([copy, tree, *extra], lock)
-    version = f"{__version__}+r{content[:8]}"  # pip puts it in the place of the last one
+    version = f"{__version__}+r{content[:8]}"  # pip replaces the last one by it
     wheel = build_wheel(copy, version, tree)
     requirements = f"{lock}./{wheel.name} --hash=sha256:{sha256(wheel.read_bytes())}\n"
     (tree / "requirements.txt").write_text(requirements, encoding="utf-8", newline="\n")
@@ -268,7 +268,7 @@ def prove_cut(course: Course, proven: Path = KIT / "build" / "course-check") -> 
             look_for_leaks(work, course)
             write_code(work / "whole", course, whole=True)
             prove(work / "whole", work / "tree", course)
-            with suppress(OSError):  # a kit that nobody may write to
+            with suppress(OSError):  # a read-only kit
                 proven.mkdir(parents=True, exist_ok=True)
                 note.touch()
 
@@ -302,7 +302,7 @@ def look_for_leaks(built: Path, course: Course = FULL) -> None:
 def run_command(
     command: list[str], folder: Path, environment: dict[str, str], statuses: tuple[int, ...] = (0,)
 ) -> str:
-    """Run a command and return its output; raise Refused at another exit status."""
+    """Run a command and return its output; raise Refused on another exit status."""
     done = subprocess.run(
         command, cwd=folder, env=environment, capture_output=True, text=True, umask=0o022
     )

@@ -19,7 +19,7 @@ def make_students_tree(kit: Path, course: Course) -> dict[str, bytes]:
 
 
 def fill_given(path: Path, solution: Path, course: Course) -> bytes:
-    """Return a file's content, with the solution's code and a note where it is given."""
+    """Return a file's content, with the solution's code and a note in given TODOs."""
     if path.suffix == ".md":
         return cut_readme(path.read_text(encoding="utf-8"), course).encode()
     if path.name == "Makefile":

@@ -1,8 +1,8 @@
-"""Make the handouts of a course: the pages in `handouts/`, without what the course leaves out.
+"""Make the handouts of a course: the pages in `handouts/`, without the tasks it omits.
 
-Sections and rows of tables that begin with the id of a TODO go with it, and points are the
-course's. Other text that depends on a course is between Jinja marks in HTML comments, so that the
-file itself reads well: `<!--% if asked("5") %-->`, `<!--= hand_in =-->`.
+Sections and table rows that begin with a TODO's id are removed with it, and points are the
+course's. Other course-specific text is between Jinja marks in HTML comments, so the file stays
+readable: `<!--% if asked("5") %-->`, `<!--= hand_in =-->`.
 """
 
 import re
@@ -19,13 +19,13 @@ from grader.report.screen import Tasks
 from grader.source.regions import TODO_ID
 from grader.text import format_time, join_words, spell_number
 
-EXAMPLE, BONUS_EXAMPLE = "4", "B1"  # the TODOs that commands are shown with
+EXAMPLE, BONUS_EXAMPLE = "4", "B1"  # TODOs for examples of commands
 SHEETS = ("lab-sheet.md", "bonus.md")  # the pages with a section for each TODO
 SECTION = re.compile(rf"^(##+) (?:TODO )?({TODO_ID}): ")
 ROW = re.compile(rf"^\| \[?({TODO_ID})(?:\]\([^)]*\))? \|")
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([\w./-]+\.md)(?:#[\w-]*)?\)")
 WHAT = ("**What.** ", "**How.** ")  # paragraphs of a section that say what to do
-NOT_YET = "**Watch out.**"  # what follows is for later
+NOT_YET = "**Watch out.**"  # later parts follow
 PARTS = re.compile(r"(?m)^(?=- |\||python |```|\n)|(?<=\n\n)")  # of a page: items, rows, paragraphs
 
 pages = Environment(
@@ -53,9 +53,9 @@ def cut_page(text: str, course: Course) -> str:
 
 
 def cut_readme(text: str, course: Course) -> str:
-    """Remove from the student's README each part that names something a course leaves out.
+    """Remove the parts of the student's README that name something the course omits.
 
-    The file is plain Markdown, without conditions: what depends on a TODO or a program names it.
+    The file is plain Markdown without conditions: parts name the TODO or program they depend on.
     """
     given = {todo.id for todo in course.given}
     every = {todo.module for todo in load_rubric().todos} - set(course.modules)
@@ -148,7 +148,7 @@ def name_program(module: str) -> str:
 
 
 def drop_lines(lines: list[str], todos: dict[str, Todo], left_out: set[str]) -> Iterable[str]:
-    """Drop sections and rows of what is left out; fill in the points of the course."""
+    """Drop sections and rows of omitted tasks; fill in the course's points."""
     skipping, column, of_todos = 0, 0, False
     for line in lines:
         heading = re.match(r"^(#+) ", line)

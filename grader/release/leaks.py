@@ -1,8 +1,8 @@
 """Look for the solution in everything that students get, inside archives as well.
 
-A secret is a statement of a TODO region as a row of words and signs, where names that a student may
-choose match any name. So it is found under other names, in other layout, in a page or a notebook.
-What given code has too is no secret, nor is what is too short to tell anything.
+A secret is a statement of a TODO region as a list of tokens, where names chosen by students match
+any name. So it is found with other names and layout, in pages and notebooks. Statements that given
+code contains, or that are too short, are no secrets.
 """
 
 import ast
@@ -28,8 +28,8 @@ from grader.source.regions import python_files, read_source, regions_in, replace
 
 WORD = re.compile(r"[^\W\d]\w*|\d+(?:\.\d+)?|\*\*|//|<=|>=|==|!=|[-+*/]=|\S")
 NAME = r"[^\W\d]\w*(?: \. [^\W\d]\w*)*"  # any name, also one with dots
-TELLING, NAMELESS = 6, 8  # words and signs; what is shorter tells nothing, without names or with
-FIXED = re.compile(r"\w+|[-+*/]=?|\*\*")  # words and signs that say more than brackets do
+TELLING, NAMELESS = 6, 8  # tokens; shorter code is no secret, without and with names
+FIXED = re.compile(r"\w+|[-+*/]=?|\*\*")  # tokens other than brackets
 LONG = 30  # characters of a line of a hidden check
 ARCHIVES = {".zip", ".whl"}
 MARKED = re.compile(r"### BEGIN (SOLUTION|HIDDEN TESTS)\n(.*?)### END \1", re.S)
@@ -39,8 +39,8 @@ MARKED = re.compile(r"### BEGIN (SOLUTION|HIDDEN TESTS)\n(.*?)### END \1", re.S)
 class Secret:
     what: str  # such as: TODO 4
     text: str  # as it stands in the kit
-    pattern: re.Pattern[str]  # what it looks like in a row of words
-    anchor: str  # the longest part of that which stands in every copy
+    pattern: re.Pattern[str]  # its pattern in a row of tokens
+    anchor: str  # the longest part that is in every copy
 
     def find_in(self, row: "Row") -> Iterator[re.Match[str]]:
         return self.pattern.finditer(row.words) if self.anchor in row.words else iter(())
@@ -77,7 +77,7 @@ def find_leaks_in_text(file: str, text: str, secrets: list[Secret]) -> Iterator[
 
 
 class Row:
-    """A text as one row of words and signs, separated by spaces."""
+    """A text as one row of tokens, separated by spaces."""
 
     def __init__(self, text: str) -> None:
         self.words = f" {' '.join(WORD.findall(text))} "
@@ -133,14 +133,14 @@ def find_secrets(kit: Path, course: Course = FULL) -> list[Secret]:
     found: dict[str, list[Secret]] = {}
     for known, searched in (
         (everything, find_notebook_secrets(solution / "notebooks", course)),
-        (programs, find_region_secrets(solution, asked)),  # what is laid in must not hold any of it
+        (programs, find_region_secrets(solution, asked)),  # added files must not contain any of it
     ):
         for candidates in searched:
             for each in candidates:
                 if not any(each.find_in(known)):
                     found.setdefault(each.pattern.pattern, []).append(each)
                     break
-    merged = [  # what several TODOs have in common is one secret
+    merged = [  # code shared by several TODOs is one secret
         replace(alike[0], what=" and ".join(dict.fromkeys(each.what for each in alike)))
         for alike in found.values()
     ]
@@ -290,7 +290,7 @@ def find_hidden_secrets(rubric: Rubric) -> Iterator[Secret]:
         yield make_secret("a hidden check", name, set())
     whole = cut_checks(rubric, read_checks())
     for file, kept in cut_checks(drop_hidden(rubric)).items():
-        # What belongs to the checks of other TODOs is no secret; the closed forms always are.
+        # Code of other TODOs' checks is no secret; closed forms always are.
         source = read_source(CHECKS / file) if file == "exact.py" else whole[file]
         shown = {ast.dump(function) for function in find_functions(kept)}
         for function in find_functions(source):

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 BALLS = (10, 40, 200)
-PIECES = (  # of a step: what all effects that may run at once add to it
+PIECES = (  # share of a step: cost of all effects that may run at once
     "move only",
     "contacts",
     "friction",

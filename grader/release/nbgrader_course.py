@@ -25,7 +25,7 @@ def make_course(
 ) -> list[str]:
     """Make the folder in which nbgrader's commands run; return the assignment's files.
 
-    The source holds the students' Python files, no TODO of them done: nbgrader releases every file
+    The source holds the students' Python files with no TODO done: nbgrader releases every file
     beside the notebooks. The archive of a `release` adds the checks, so that `make check` works.
     """
     if course.resolve().is_relative_to(KIT) and not course.resolve().is_relative_to(KIT / "build"):
@@ -59,7 +59,7 @@ def make_course(
 def read_release(release: Path, taken: Course) -> dict[str, bytes]:
     """Read the files of an archive of `release`, except its notebooks.
 
-    Raises Stop where it is none, or one that asks for other TODOs.
+    Raises Stop if it is no release, or has other TODOs.
     """
     files = {}
     try:

@@ -1,10 +1,10 @@
-"""Make the notebooks of a course: `engine` follows its rubric, the others ask what it has.
+"""Make the notebooks of a course: `engine` follows its rubric, others keep the course's cells.
 
 The questions for practice in `quiz` are those of the page handouts/quiz.md.
 
 A cell or a notebook that belongs to some TODOs names them in its metadata, as `"todos": ["5"]`. It
-is left out where a course has none of them, and so is a notebook without any task. A cell that is
-also `"given": true` is needed all the same, and has the answer then.
+is omitted if the course has none of them, and so is a notebook without any task. A cell that is
+also `"given": true` is kept, with its answer.
 """
 
 import json
@@ -23,7 +23,7 @@ TASK = PLAIN | {"task": True}
 ENGINE, QUIZ = "engine.ipynb", "quiz.ipynb"
 SOLVED = KIT / "solution" / "notebooks"
 GIVEN = "# Given in this course.\n"
-PRACTICE = "practice-"  # and a number: the questions of the page
+PRACTICE = "practice-"  # plus a number: the questions of the page
 QUESTION = re.compile(r"<!--% if asked\((.*?)\) %-->\n(.*?)\n<!--% endif %-->", re.S)
 
 INTRO = """\

@@ -26,7 +26,7 @@ SHARED = ("touch", "laws", "stage", "films", "measured")  # of all movable figur
 MEASURED = ("accuracy.md", "hard-cases.md", "effects.md")  # come with the engines they measure
 START = "index.md"  # its links are in the order in which the pages are read
 FEWEST = 3  # sections of a page that begins with a list of them
-SITE_ONLY = re.compile(r"\A---\n.*?^---\n", re.M | re.S)  # what the site is told of a page
+SITE_ONLY = re.compile(r"\A---\n.*?^---\n", re.M | re.S)  # front matter of a page for the site
 EMPTY: Mapping[str, str] = {}
 HERE = Path(__file__).with_name("templates")
 STYLE = (HERE / "handout.css").read_text(encoding="utf-8")

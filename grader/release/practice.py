@@ -11,7 +11,7 @@ from grader.questions.question import Question
 from grader.questions.sheet import Asks, take_turns
 
 EACH = 12  # cases of a maker
-SEED = "practice at home"  # no sheet is drawn from it: its seeds are numbers
+SEED = "practice at home"  # no sheet uses it: the seeds of sheets are numbers
 
 
 def make_practice(course: Course) -> bytes:

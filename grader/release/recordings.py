@@ -16,7 +16,12 @@ from grader.judge.grade import KIT
 from grader.report.files import write_whole
 
 FOLDER = KIT / "build" / "recorded"
-RECORDING = ("bank", "player", "questions", "release")  # rooms of the grader that take part
+RECORDING = (
+    "bank",
+    "player",
+    "questions",
+    "release",
+)  # packages of the grader that a recording depends on
 
 Record = Callable[[str, Callable[[], bytes]], bytes]  # by the name of what is recorded
 

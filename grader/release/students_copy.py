@@ -1,8 +1,8 @@
 """Make the students' copy of the grader: no solution, no closed forms, no hidden checks.
 
-The hidden checks are cut out of their files, with everything that only they use. An oracle keeps
-its name and looks its answers up, and so do the known mistakes: see judge/recorded.py. So do the
-numbers for practice: see questions/practice.py.
+The hidden checks are cut out of their files, with everything that only they use. Oracles and known
+mistakes keep their names and look up recorded answers: see judge/recorded.py. Numbers for practice
+do so too: see questions/practice.py.
 """
 
 import json
@@ -60,11 +60,11 @@ def write_copy(
 ) -> None:
     """Write the package into `folder`, with the checks of a course.
 
-    The next question of a check may depend on an answer. So wrong submissions are asked as well:
-    the more there are, the more often a student's copy can name a mistake.
+    A check's next question may depend on an answer. So wrong submissions are recorded as well: the
+    more there are, the more mistakes a student's copy can name.
     """
     checks = write_code(folder, course)
-    # First, while nothing notes what the closed forms are asked: it asks hidden checks as well.
+    # First, before calls of closed forms are recorded: it also runs hidden checks.
     (checks / PRACTICE).write_bytes(record("practice", lambda: make_practice(course)))
     answers = record(
         "answers", lambda: encode_table(record_answers(wrong, drop_hidden(course.rubric)))
@@ -140,7 +140,7 @@ def list_unusual_fields(check: Check) -> dict[str, Any]:
 
 
 def write_fields(table: dict[str, Any]) -> list[str]:
-    """Write the fields of a TOML table; JSON writes their values alike."""
+    """Write the fields of a TOML table, whose values have the same form in JSON."""
     return [f"{name} = {json.dumps(value)}" for name, value in table.items()]
 
 
@@ -216,7 +216,7 @@ def record_answers(wrong: Iterable[Tree], rubric: Rubric) -> RecordedAnswers:
             ask_model(each.model, each.about, seen),
             each.apart,
         )
-        for todo in asked  # the same order in every process, whatever was loaded before
+        for todo in asked  # the same order in every process, for any modules loaded before
         for each in misconceptions.known_mistakes
         if each.todo == todo
     ]
@@ -255,7 +255,7 @@ def observe(tree: Tree, rubric: Rubric, worker: Worker | None = None) -> list[Ob
 
 @contextmanager
 def note_oracles() -> Iterator[dict[str, Answers]]:
-    """Note the oracles' answers; ask those with a list of inputs all of it."""
+    """Record the oracles' answers; call those with a list of inputs on all of it."""
     notes: dict[str, Answers] = {name: {} for name in oracles}
     usual = {name: getattr(exact, name) for name in oracles}
     for name, values in oracles.items():

@@ -1,7 +1,7 @@
 """Build the lab as a page for a browser tab: a folder of static files, and a zip of it.
 
-The page needs no server of ours and no installation: Python runs in it as WebAssembly. What it is
-made of lies in `tab/`; what is fetched once, by hash, is kept in `build/tab-cache`.
+The page needs no server and no installation: Python runs in it as WebAssembly. Its sources are in
+`tab/`; parts downloaded once, by hash, are kept in `build/tab-cache`.
 """
 
 import json
@@ -67,20 +67,20 @@ UNUSED = re.compile(  # of the wheels; of cffi, pymunk loads the compiled part a
 PREDICTION = re.compile(
     r"^\*\*Predict\.\*\*.*?^</details>\n", re.M | re.S
 )  # of films, not played here
-TYPED = (  # commands of the lab sheet, and what is pressed on the page instead
+TYPED = (  # commands of the lab sheet, and the page's buttons for them
     (re.compile(r"`make check TODO=\w+`"), "**Check**"),
     (re.compile(r"`make hint TODO=\w+`, or \[the hints\]\([^)]*\)"), "Press **Hint**"),
     (re.compile(r"`python \w+\.py` prints"), "**Run** prints"),
 )
-LATER = ("figures/", "lesson.html", "more.zip")  # what the page does not wait for
-UNSERVED = ("index.html", "README.md")  # known as ./, and for those who serve the page
+LATER = ("figures/", "lesson.html", "more.zip")  # loaded after the page is shown
+UNSERVED = ("index.html", "README.md")  # served as ./, and for those who serve the page
 COMPILED_HERE = (".so", ".pyd", ".c", ".pyi")  # not for the page's Python
 FOR_CHECKS = ("kit/grader/checks/expected_runs.json", "kit/grader/checks/recorded.json")
-NOT_RUN = (  # here: of what is handed out, what no button runs
+NOT_RUN = (  # handed-out files that no button runs
     *("accuracy.py", "experiments/", "stable_engine/"),
     *("notebooks/", "handouts/", "requirements.txt"),
 )
-WITHOUT_USE = re.compile(  # where there is no network, no process and no terminal
+WITHOUT_USE = re.compile(  # need a network, a process or a terminal
     r"(_pyrepl|curses|dbm|ensurepip|http|idlelib|multiprocessing|pydoc_data|sqlite3|tkinter|"
     r"turtledemo|venv|wsgiref|xml|xmlrpc)/|(_pyio|bdb|cProfile|doctest|ftplib|imaplib|"
     r"mailbox|netrc|pdb|pickletools|poplib|profile|pstats|pydoc|smtplib|socketserver|turtle|"
@@ -123,7 +123,7 @@ def hash_sources(cffi: Path | None) -> str:
 
 
 def add_tab(out: Path, course: Course = FULL, cffi: Path | None = None) -> list[str]:
-    """Build the page with a release; return lines on what was made, or on why not."""
+    """Build the page with a release; return lines on the result or the reason of a failure."""
     try:
         fetch_parts(CACHE)
     except Stop as error:
@@ -161,7 +161,7 @@ def build_tab(
     for name in PYODIDE:
         shutil.copyfile(pyodide / name, site / "pyodide" / name)
     lock = json.loads((pyodide / LOCK).read_bytes())
-    lock["packages"] = {}  # of Pyodide's distribution the page loads none
+    lock["packages"] = {}  # the page loads none of Pyodide's distribution
     (site / "pyodide" / LOCK).write_text(json.dumps(lock), encoding="utf-8")
     shutil.copyfile(pyodide / STDLIB, sources / STDLIB)
     write_compiled(sources, site, pyodide)
@@ -267,7 +267,7 @@ def write_lab(
         for folder in stand_ins:
             put_tree(archive, "shims", PARTS / folder)
         put_tree(archive, "shims/pygame", PARTS / "pygame")
-        for package in (jinja2, markupsafe):  # as they are installed here, by their hashes
+        for package in (jinja2, markupsafe):  # as installed here, by their hashes
             put_tree(archive, f"site/{package.__name__}", Path(package.__path__[0]))
         put_tree(archive, "kit/grader", copy / "grader")
         for name, content in sorted(files.items()):

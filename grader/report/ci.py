@@ -31,7 +31,7 @@ def is_free_folder(folder: Path) -> bool:
 
 
 def write_reports(result: Result, folder: Path) -> None:
-    """Write the files of a run for a CI system; the replays are there already."""
+    """Write the files of a run for a CI system, except the replays."""
     write_report(result, folder / "report.html")
     write_json(result, folder / "result.json")
     write_whole(write_junit(result), folder / "junit.xml")

@@ -33,7 +33,7 @@ def read_result(path: Path) -> Result:
 
 
 def write_whole(content: bytes, path: Path) -> None:
-    """Write a file whole or not at all, and never through a link."""
+    """Write a file completely or not at all, and never through a link."""
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{os.urandom(8).hex()}")
     try:

@@ -44,9 +44,9 @@ class Counter:
 
 
 class CheckProgress:
-    """Shows a bar while one's own work is checked, and names an endless loop at once.
+    """Shows a bar during a student's check, and reports an endless loop at once.
 
-    Checks end in the order of the rubric.
+    Checks finish in the order of the rubric.
     """
 
     def __init__(self, options: Options, console: Console) -> None:

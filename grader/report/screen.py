@@ -62,7 +62,7 @@ class Screen:
     def show(
         self, result: Result, touched: Collection[str] = (), notes: Sequence[str] = ()
     ) -> None:
-        """Print a result: `touched` TODOs before others, and `notes` at the end."""
+        """Print a result: `touched` TODOs first, and `notes` at the end."""
         for line in self.lay_out(result, touched, notes):
             write(line.text, self.console, line.style)
 

@@ -129,9 +129,9 @@ def group_checks(checks: Iterable[CheckResult]) -> list[list[CheckResult]]:
 
 
 def find_reason(check: CheckResult) -> tuple[str, ...]:
-    """Return the reason of a failure; of an error it does not depend on what was run.
+    """Return the reason of a failure; for an error, it does not include the call.
 
-    All endless loops are one reason, whatever time was left.
+    All endless loops have the same reason, for any remaining time.
     """
     if check.state != "error":
         return check.ran, check.expected, check.got
@@ -160,7 +160,7 @@ def show_all(result: Result, console: Console, replays: Path | None = None) -> N
 
 
 def show_next(result: Result, console: Console) -> None:
-    """Print what to do next: the first TODO that was begun, or else the first of all.
+    """Print what to do next: the first started TODO, or else the first of all.
 
     Bonus tasks come last.
     """
@@ -181,7 +181,7 @@ def show_next(result: Result, console: Console) -> None:
 
 
 def describe_obstacle(todo: TodoResult) -> str:
-    """Return what must be corrected before a TODO can be checked; empty if nothing must."""
+    """Return what must be corrected before a TODO can be checked, or an empty text."""
     cannot, _, module = todo.checks[0].ran.partition("import ")
     if todo.state != "error" or not module or cannot:
         return ""

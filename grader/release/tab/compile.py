@@ -1,9 +1,9 @@
 """Compile what the page loads: by the page's own Python, when the page is made.
 
-/parts/lab.zip gets lab.pyc.zip beside it, with what it loads in place of its sources; and
-python_stdlib.zip gets booted.pyc.zip, what Python loads by itself, and loaded.pyc.zip, what the
-page loads after that. Docstrings stay where they are titles of checks. The page does not look
-whether a file is newer.
+lab.pyc.zip, beside /parts/lab.zip, holds the compiled files that the page loads. For
+python_stdlib.zip, booted.pyc.zip holds the modules that Python loads at its start, and
+loaded.pyc.zip those that the page loads later. Docstrings that are titles of checks stay. The page
+does not check whether a file is newer.
 """
 
 import ast

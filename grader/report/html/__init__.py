@@ -21,7 +21,7 @@ class Remark:
 
     comment: str
     file: str = ""
-    line: int = 0  # 0: it is about no line, or the line was not found
+    line: int = 0  # 0: about no line, or the line was not found
     code: list[tuple[int, str]] = field(default_factory=list)  # numbered lines around it
     note: str = ""  # on a line that was changed or not found
 
@@ -37,7 +37,7 @@ class Standing:
     name: str
     mark: int | None  # None: it needs manual review
     max_points: int
-    bonus: int = 0  # beside the mark, if it does not count in it
+    bonus: int = 0  # shown beside the mark if it does not count
     scaled: str = ""  # the mark on the gradebook's scale, if that differs
     lines: list[tuple[str, str]] = field(default_factory=list)
     comments: list[Remark] = field(default_factory=list)
@@ -76,7 +76,7 @@ def render(result: Result, replays: Mapping[str, str], standing: Standing | None
 
 
 def list_failed_first(result: Result) -> list[TodoResult]:
-    """Return the TODOs, those that passed last."""
+    """Return the TODOs, with passed ones last."""
     return sorted(result.shown, key=lambda todo: todo.state == "passed")
 
 

@@ -1,4 +1,4 @@
-"""Write annotations for GitHub Actions, and stop other text from being a command."""
+"""Write annotations for GitHub Actions, and prevent other text from acting as a command."""
 
 import base64
 import os

@@ -11,7 +11,7 @@ SHOWN = {"output_format": "text", "visibility": "visible"}  # to the student
 
 
 def write_gradescope(result: Result, course: Course = FULL) -> bytes:
-    """Return a test per check, all visible: one hidden test would hide the student's total.
+    """Return a visible test per check; one hidden test would hide the student's total.
 
     The score includes the bonus only if the course adds it; the output names the bonus.
     """

@@ -20,7 +20,7 @@ ROOM = 100_000  # characters: a release may have 125,000, a job's summary 1024 K
 def write_markdown(result: Result) -> str:
     """Return a table of the TODOs and the reasons of failures.
 
-    A submission's words stand in fenced lines that begin with a word of ours, so none can end the
+    A submission's words are in fenced lines that begin with our own word, so none can end the
     fence.
     """
     elsewhere = hidden_points_note(result)
@@ -54,7 +54,7 @@ def explain(todo: TodoResult, check: CheckResult) -> str:
 
 
 def limit(parts: list[str]) -> list[str]:
-    """Return the parts that fit, and the number of the others."""
+    """Return the parts that fit, and the number of omitted ones."""
     ends = accumulate(map(len, parts))
     kept = [part for part, end in zip(parts, ends, strict=True) if end <= ROOM]
     left = len(parts) - len(kept)

@@ -20,7 +20,7 @@ def write_reporter(result: Result) -> bytes:
 
 
 def make_test(todo: TodoResult, check: CheckResult) -> dict[str, object]:
-    """Return a test whose name and message are no commands in a job's log."""
+    """Return a test whose name and message cannot act as commands in a job's log."""
     name = add_task(todo, check.title)
     why = escape_commands(f"{name}: {check.got or check.state}")
     return {

@@ -25,7 +25,7 @@ HANDED_OUT = Path("/handed-out")
 MOST_OUTPUT = 20_000  # characters that a program may print in a run
 MOST_BYTES = 20_000_000  # of a zip that is brought in
 COLUMNS = range(40, 81)
-LACKED = {  # what the page says, by what Python says of it
+LACKED = {  # the page's message, by Python's
     "named 'numpy'": "numpy is not in this page. Use Python's own numbers, or work on a computer.",
     "can't start new thread": "This page has no threads. Do without them, or work on a computer.",
 }
@@ -150,7 +150,7 @@ def describe(error):
 
 
 def list_lacked(text):
-    """Return explanations of errors that come from what the page lacks."""
+    """Return explanations of errors caused by features that the page lacks."""
     return [words for sign, words in LACKED.items() if sign in text]
 
 
@@ -161,7 +161,7 @@ class Stopped(BaseException):
     """Raised between two checks after the button Stop."""
 
 
-last = ExitStack()  # of the last check, to show again what failed in it
+last = ExitStack()  # of the last check, for replays of its failures
 failed = {}  # by the ids of a TODO and a check: how to make its replay
 
 
@@ -225,7 +225,7 @@ def make_replay(run, todo, check, failing):
     try:
         replays = Replays(LAB, run.sandbox.open_child, None)
         made = replays.make_files(todo, check, failing)
-    except Exception:  # whatever a submission makes of it
+    except Exception:  # whatever the submission does
         return ""
     return made[0] if made else ""
 

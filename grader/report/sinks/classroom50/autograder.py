@@ -14,7 +14,7 @@ import venv
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-ISOLATION = "auto"  # "strict" refuses to grade where files and network cannot be shut off
+ISOLATION = "auto"  # "strict" refuses to grade if files and network cannot be blocked
 THE_RUNNERS = {"GITHUB_OUTPUT", "GITHUB_STEP_SUMMARY"}  # it writes the summary itself
 
 

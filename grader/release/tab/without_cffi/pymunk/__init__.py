@@ -1,10 +1,10 @@
-"""Stand in for pymunk where the page was made without cffi: no class of it can be used."""
+"""Stand in for pymunk on a page made without cffi: none of its classes can be used."""
 
 REASON = "this page was made without pymunk: do TODO 7 and B4 on a computer with Python"
 
 
 class Missing:
-    """A class that says what is missing when it is used."""
+    """A class that explains, when used, what is missing."""
 
     DYNAMIC, KINEMATIC, STATIC = range(3)
 
