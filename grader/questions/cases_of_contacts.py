@@ -85,7 +85,7 @@ def friction(program: Program, draw: Draw) -> Case:
 
 @maker(1, "3", scene=SEEDS, tenths=range(6, 60))
 def rod(program: Program, draw: Draw) -> Case:
-    """Predict the speed that one pass gives the bob where its rod is too long."""
+    """Predict the speed that one pass gives the bob when its rod is too long."""
     long = draw["tenths"] / 10
     with program.own.lab("mini_engine") as lab:
         scene = Scene(lab, draw["scene"])

@@ -1,4 +1,4 @@
-"""Cases of time: the steps that frames pay for, and the damping of a speed."""
+"""Cases of time: the steps that run in frames, and the damping of a speed."""
 
 import math
 from collections.abc import Sequence
@@ -11,7 +11,7 @@ from grader.questions.numbers import Case, Draw, Unsuited, maker
 from grader.questions.program import Program
 from grader.text import digits
 
-CAP = Fraction(200, 3)  # ms, the most that a frame adds
+CAP = Fraction(200, 3)  # ms, the maximum that a frame adds
 STEP_MS = Fraction(25, 3)  # of a step
 FRAMES = {
     "start": range(0, 8),  # ms in the accumulator
@@ -77,7 +77,7 @@ def pymunk_steps(program: Program, draw: Draw) -> Case:
 
 @maker(4, "5", rate=range(2, 10), halves=range(1, 6), speed=range(150, 900))
 def damping(program: Program, draw: Draw) -> Case:
-    """Predict the speed that damping leaves of a free flight."""
+    """Predict the speed that remains after a damped free flight."""
     rate, seconds, speed = draw["rate"] / 10, draw["halves"] / 2, float(draw["speed"])
     with program.own.lab("mini_engine") as lab:
         ball = lab.circle((0.0, 0.0), vel=(speed, 0.0))

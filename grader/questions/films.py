@@ -1,12 +1,12 @@
 """Predict a film: films of the student's own scene, some with one thing changed.
 
-Each change is made in the student's program and in the reference. It is asked only where the two
-films of a change are nearer to each other than to those of any other one. At home there is no
-reference, and nothing to gain by a lie.
+Each change is made in the student's program and in the reference. It is used only if its two films
+are more similar to each other than to those of any other change. At home there is no reference, and
+cheating gains nothing.
 
-It is not enough that films differ: soon after a first impact everything differs. Each change has a
-sign that the lesson lets one expect, such as that nothing turns without friction, and its film must
-show this clearly more, or less, than all others. The unchanged program has none: it is left over.
+Differing films are not enough: soon after a first impact everything differs. Each change has a sign
+that follows from the lesson: without friction, nothing turns. Its film must show this sign clearly
+more, or less, than all others. The unchanged program has no sign and is found by elimination.
 
 Some changes do not show in the lab scene within two seconds: one pass of the solver, no push-out,
 rods before contacts. Friction without a limit has no sign.
@@ -29,7 +29,7 @@ from grader.questions.scene import SEEDS, Scene
 
 COUNT = 4  # films
 SECONDS, EVERY = 2.0, 4  # of a film, and steps between its pictures
-VISIBLE = 30.0  # px, by which two films must differ somewhere
+VISIBLE = 30.0  # px, the smallest difference between two films
 CLEAR = 1.5  # times as much of its sign as any other film, or as little
 SEEN = 12.0  # px, of one rise that a picture shows beside the way down
 TRIES = 2  # scenes
@@ -45,7 +45,7 @@ class Change:
     why: str
     todos: tuple[str, ...]
     texts: Callable[[Tree], Mapping[str, str]]
-    sign: Callable[[Film], float]  # of what there is most in its film; negative: least
+    sign: Callable[[Film], float]  # the sign that is largest in its film; negative: smallest
     restitution: float | None = None  # of all bodies of the scene
 
     def film(self, tree: Tree, scene: int) -> Film:
@@ -53,12 +53,12 @@ class Change:
 
 
 def measure_rise(film: Film) -> float:
-    """Return how far the balls go up in all, where it is visible; 1 is 100 px."""
+    """Return the sum of the balls' visible rises; 1 is 100 px."""
     return sum(each for ball in film.loose for each in list_rises(film, ball) if each > SEEN) / 100
 
 
 def list_rises(film: Film, ball: int) -> Iterator[float]:
-    """Yield how far a ball goes up each time, px."""
+    """Yield the height of each rise of a ball, px."""
     heights = [-film.place(row, ball)[1] for row in range(len(film.rows))]
     up = 0.0
     for before, after in pairwise(heights):
@@ -71,7 +71,7 @@ def list_rises(film: Film, ball: int) -> Iterator[float]:
 
 
 def measure_turning(film: Film) -> float:
-    """Return how far the balls turn in all, to and fro; 1 is a turn."""
+    """Return the sum of the balls' turns, in both directions; 1 is a turn."""
     angles = ([film.angle(row, ball) for row in range(len(film.rows))] for ball in film.loose)
     return sum(abs(b - a) for each in angles for a, b in pairwise(each)) / (2 * math.pi)
 
@@ -136,7 +136,7 @@ CHANGES = (
 
 
 def ask_films(program: Program, seed: str, points: int) -> Question:
-    """Ask about four films of a scene; raises CannotAsk where they look alike."""
+    """Ask about four films of a scene; raises CannotAsk if they are too similar."""
     rng = random.Random(f"{seed}/film")
     why = ""
     for _ in range(TRIES):
@@ -205,7 +205,7 @@ def choose_changes(program: Program, able: list[Change], scene: int) -> dict[Cha
 
 
 def can_tell_apart(films: Mapping[Change, Film]) -> bool:
-    """Return whether each film has clearly more, or clearly less, of its sign than the others."""
+    """Return whether each film shows its sign clearly more, or clearly less, than the others do."""
     return all(
         is_clear(change.sign(film), change.sign(other))
         for change, film in films.items()
@@ -221,7 +221,7 @@ def is_clear(most: float, other: float) -> bool:
 
 
 def compare_with_reference(right: Mapping[str, Film], films: Mapping[str, Film]) -> None:
-    """Raise CannotAsk where a film is not nearest to the reference's film of the same change."""
+    """Raise CannotAsk if a film is not most similar to the reference's film of the same change."""
     for name, film in films.items():
         if len(film.looks) != len(right[name].looks):
             raise CannotAsk("its scene has other bodies than that of the lesson")
@@ -237,7 +237,7 @@ def make_film(
     restitution: float | None = None,
     seconds: float = SECONDS,
 ) -> Film:
-    """Record the lab scene of a tree, some files changed; `restitution` is for all bodies."""
+    """Record the lab scene of a tree with changed files; `restitution` applies to all bodies."""
     with tree.lab("mini_engine", texts) as lab:
         scene = Scene(lab, seed)
         if restitution is not None:

@@ -32,7 +32,7 @@ from grader.report.files import read_result, write_whole
 from grader.report.progress import Counter
 from grader.text import plural, printable
 
-SEED_BITS = 128  # more than anybody can try
+SEED_BITS = 128  # too many to try
 SHEET = replace(GRADING, what="making its sheet")
 ENDED = "it ended the process that makes sheets"
 
@@ -60,7 +60,7 @@ class Making:
     def seed(self) -> str:
         """Return the seed of all numbers, besides the student's name; the same in a second run.
 
-        Without a secret one is drawn: else everybody with the kit could make any sheet.
+        Without a secret, draw one: otherwise anyone with the kit could make any sheet.
         """
         file = self.out / "seed.txt"
         if self.secret is not None:
@@ -116,7 +116,7 @@ class Making:
 
 
 def make_one(making: Making, path: Path, student: str) -> SheetResult:
-    """Make the sheet of one submission; `student` is its author, where that is not its name."""
+    """Make the sheet of one submission; `student` is its author, if not its name."""
     notes: list[str] = []
     opened = open_submission(path, notes.append, making.options.course.modules)
     with opened as folder, closing(start_worker()) as worker:
@@ -153,7 +153,7 @@ def make_for(making: Making, found: Work, process: WatchedProcess, full_name: st
 
 
 def make_of_package(making: Making, package: Package, full_name: str) -> SheetResult:
-    """Make the sheet of one student in this process, whose worker serves many of them."""
+    """Make one student's sheet in this process, whose worker is reused."""
     try:
         with work_folder() as work:
             return making.make(package.name, package.unpack(work), keep_worker(), full_name)

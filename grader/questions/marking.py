@@ -1,6 +1,6 @@
 """Mark answers on paper: a table of answers in, tables of points out.
 
-An answer that cannot be read is never a silent 0: it has no points, and a note says why.
+An unreadable answer never counts as 0 silently: it has no points and a note with the reason.
 """
 
 import csv
@@ -26,7 +26,7 @@ from grader.report.files import write_whole
 from grader.text import escape_formula, format_csv, plural
 
 COLUMNS = ("student", "question", "answer")
-BY_HAND = "points"  # a column that may be left out: those that a person gave
+BY_HAND = "points"  # optional column: points given by a person
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class GivenAnswer:
 
 @dataclass(frozen=True)
 class Mark:
-    """The points of one answer; None where nobody can say yet."""
+    """The points of one answer; None if not marked yet."""
 
     student: str
     number: int
@@ -62,12 +62,12 @@ class Total(NamedTuple):
 @dataclass(frozen=True)
 class Marking:
     marks: list[Mark]
-    notes: list[str]  # lines that are nobody's answer
+    notes: list[str]  # lines that match no student
     silent: list[str]  # students with a sheet and no answer in the table
 
     @property
     def totals(self) -> list[Total]:
-        """Return everybody's points, by student; nobody without a question has any."""
+        """Return the points of each student who has a question."""
         by_student: dict[str, list[Mark]] = defaultdict(list)
         for each in self.marks:
             by_student[each.student].append(each)
@@ -75,7 +75,7 @@ class Marking:
 
 
 def mark_answers(table: Path, keys: Path) -> Marking:
-    """Mark a table of answers with the keys in a folder; raises CannotGrade where there is none."""
+    """Mark a table of answers with the keys in a folder; raises CannotGrade without keys."""
     sheets = read_keys(keys)
     if not sheets:
         raise CannotGrade(f"there are no keys in {keys}: name the folder of the sheets with --out")
@@ -101,7 +101,7 @@ def read_keys(folder: Path) -> list[Sheet]:
 
 
 def read_answers(table: Path) -> list[GivenAnswer]:
-    """Read the lines of the table, whatever separates its columns."""
+    """Read the lines of the table, with any separator between columns."""
     try:
         text = table.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
@@ -148,7 +148,7 @@ def sort_answers(
 
 
 def index_names(sheets: Iterable[Sheet]) -> dict[str, list[Sheet]]:
-    """Return the sheets by what a person may call their student: a full name may be two's."""
+    """Return the sheets by their student's names; two students may share a full name."""
     named: dict[str, list[Sheet]] = {}
     for sheet in sheets:
         for name in {fold(each) for each in (sheet.student, sheet.label, sheet.full_name)} - {""}:
@@ -224,7 +224,7 @@ def is_number(cell: str) -> bool:
 
 
 def encode_table(rows: Iterable[Sequence[object]]) -> bytes:
-    """Return the table with no text that a spreadsheet runs; a number below 0 is none."""
+    """Return the table without text that a spreadsheet would run; negative numbers stay."""
     return format_csv(
         rows,
         line_end="\n",

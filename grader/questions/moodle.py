@@ -1,8 +1,8 @@
 """Write sheets as Moodle XML, for its question bank: a category for each student.
 
 It follows Moodle's own importer (question/format/xml/format.php): numerical questions with a
-tolerance and feedback for known wrong answers, matching questions for films, essays for what a
-person marks. Pictures are in the file.
+tolerance and feedback for known wrong answers, matching questions for films, essays for questions
+marked by a person. Pictures are in the file.
 """
 
 import base64

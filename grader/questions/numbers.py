@@ -1,7 +1,7 @@
-"""Predict a number: what the student's own program will answer, in a case that nobody else has.
+"""Predict a number: the answer of the student's own program in an individual case.
 
-Each maker computes an answer in closed form, then has the student's program run the case. Where
-the two do not agree to a hundredth of the tolerance, the question is not asked.
+Each maker computes an answer in closed form, and runs the case in the student's program. If the two
+differ by over a hundredth of the tolerance, the question is not asked.
 """
 
 import math
@@ -13,15 +13,15 @@ from grader.questions.program import CannotAsk, Program
 from grader.questions.question import Question, Wrong
 from grader.text import digits
 
-SHARE = 0.02  # of an answer that it may be off: for rounding on paper, and no more
-AGREE = 0.01  # of the tolerance, by which two ways to an answer may differ
-TRIES = 200  # draws until the numbers tell right from wrong
+SHARE = 0.02  # share of an answer: tolerance for rounding on paper only
+AGREE = 0.01  # share of the tolerance: allowed difference of two ways to an answer
+TRIES = 200  # draws until wrong answers differ from the right one
 
 Draw = dict[str, int]
 
 
 class Unsuited(Exception):
-    """Raised where these numbers do not tell right from wrong: others are drawn."""
+    """Raised if wrong answers do not differ enough: other numbers are drawn."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Case:
     why: str
     wrong: Sequence[tuple[float, str]] = ()
     share: float = SHARE
-    whole: bool = False  # a count: only this very number is right
+    whole: bool = False  # a count: only this exact number is right
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Maker:
     todos: tuple[str, ...]
     draws: Mapping[str, Sequence[int]]
     find: Callable[[Program, Draw], Case]
-    slot: int  # questions of one slot are of like difficulty, and a sheet has one of each
+    slot: int  # questions of a slot are equally difficult; a sheet has one of each slot
 
     def ask(self, program: Program, seed: str, points: int) -> Question:
         """Make the question for one student; raise CannotAsk if no draw suits."""
@@ -71,15 +71,15 @@ def maker(
 
 
 def draw_numbers(each: Maker, seed: str) -> list[Draw]:
-    """Draw the numbers of a maker, and others to take where the first are unsuited."""
+    """Draw the numbers of a maker, and others in case the first are unsuited."""
     rng = random.Random(f"{seed}/{each.name}")
     return [{name: rng.choice(few) for name, few in each.draws.items()} for _ in range(TRIES)]
 
 
 def make_question(each: Maker, found: Case, points: int) -> Question:
-    """Make the question; raises Unsuited where a wrong answer would count as a right one.
+    """Make the question; raises Unsuited if a wrong answer would count as right.
 
-    Raises CannotAsk where the two ways to the answer differ.
+    Raises CannotAsk if the two ways to the answer differ.
     """
     tolerance = 0.0 if found.whole else round_up(abs(found.answer) * found.share)
     agree = AGREE * tolerance or 1e-9
@@ -109,7 +109,7 @@ def make_question(each: Maker, found: Case, points: int) -> Question:
 
 
 def drop_similar(wrong: Sequence[tuple[float, str]], tolerance: float) -> list[tuple[float, str]]:
-    """Keep the first of wrong answers that are too near to each other."""
+    """Keep the first of wrong answers that are too similar."""
     kept: list[tuple[float, str]] = []
     for value, why in wrong:
         if all(abs(value - other) > 2 * tolerance for other, _ in kept):

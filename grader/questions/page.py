@@ -1,4 +1,4 @@
-"""Write a sheet as a page to print or open, its key, and one for practice, whose answers open."""
+"""Write a sheet as a page, its key, and a practice page with answers to unfold."""
 
 import re
 from pathlib import Path
@@ -15,7 +15,7 @@ PageKind = Literal["sheet", "key", "practice"]
 
 
 def make_page(sheet: Sheet, title: str, kind: PageKind) -> str:
-    """Return one page that needs nothing else."""
+    """Return one self-contained page."""
     return fill_page("sheet.html", sheet=sheet, title=title, kind=kind)
 
 

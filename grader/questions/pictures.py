@@ -1,6 +1,6 @@
 """Draw films of a scene: the bodies at some moments; a click or a key plays all of it.
 
-A picture is one SVG that runs no script. Everything in it is a number: no word of a submission.
+A picture is one SVG without scripts. It contains numbers only, no text of a submission.
 """
 
 import math
@@ -12,9 +12,9 @@ from grader.player.page import load_environment
 from grader.questions.page import TEMPLATES
 from grader.questions.question import Picture
 
-MOMENTS = 4  # at which a picture shows the bodies, the last one clearest
+MOMENTS = 4  # moments that a picture shows, the last one clearest
 SPOKE = 0.85  # of a radius
-USUAL_TOP, MOST_ABOVE, BOTTOM = 30.0, -120.0, 590.0  # px, of what a picture shows
+USUAL_TOP, MOST_ABOVE, BOTTOM = 30.0, -120.0, 590.0  # px, size of a picture
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Film:
     looks: Sequence[Look]
     rows: Sequence[Sequence[float]]
     seconds: float
-    rods: Sequence[tuple[int, int]] = ()  # numbers of the bodies that each holds
+    rods: Sequence[tuple[int, int]] = ()  # numbers of the bodies that each rod holds
 
     def place(self, row: int, body: int) -> tuple[float, float]:
         x, y = self.rows[row][6 * body : 6 * body + 2]
@@ -67,7 +67,7 @@ class Film:
 
 
 def find_bounds(films: Sequence[Film]) -> tuple[float, float, float, float]:
-    """Return what pictures of these films show: the scene, and what flies a little above it."""
+    """Return the visible area of these films: the scene and a little above it."""
     tops = [
         film.place(row, body)[1] - film.looks[body].radius
         for film in films
@@ -79,7 +79,7 @@ def find_bounds(films: Sequence[Film]) -> tuple[float, float, float, float]:
 
 
 def measure_difference(one: Film, other: Film) -> float:
-    """Return how far two films are apart, px: at the centre or rim that differs most."""
+    """Return the largest distance of a centre or rim between two films, px."""
     apart = [0.0]
     for row in one.moments:
         for body in one.moving:
@@ -91,7 +91,7 @@ def measure_difference(one: Film, other: Film) -> float:
 
 def draw_film(film: Film, name: str, alt: str, frame: tuple[float, float, float, float]) -> Picture:
     """Draw the film; `frame` is x, y, width and height of what is shown, px."""
-    # It tells a picture's clicks from those of others, and is the same in every run.
+    # It separates a picture's clicks from others' and is the same in every run.
     key = f"film{zlib.crc32(repr([name, *film.rows[-1]]).encode())}"
     box = " ".join(f"{each:g}" for each in frame)
     template = load_environment(TEMPLATES).get_template("film.svg")

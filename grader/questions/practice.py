@@ -1,8 +1,8 @@
-"""Practise at home: a release has some numbers in place of the code that computes them.
+"""Practise at home: a release has some numbers instead of the code that computes them.
 
-The cases of *predict a number* are closed forms, some as good as the code of a TODO. So a release
-draws some of each, has them answered by the closed form and by a run of the solution, and writes
-them to `practice.json` beside the copy of the checks. The kit itself has no such file.
+The cases of *predict a number* are closed forms, some of which would give away a TODO. So a release
+draws some of each, computes the answers by closed form and by the solution, and writes them to
+`practice.json` beside the copy of the checks. The kit itself has no such file.
 """
 
 import random
@@ -27,7 +27,7 @@ class Cases(Struct, frozen=True):
     questions: tuple[Question, ...]
 
     def ask(self, program: Program, seed: str, points: int) -> Question:
-        """Choose one of them by the seed; raises CannotAsk where there is none."""
+        """Choose one of them by the seed; raises CannotAsk if there is none."""
         if not self.questions:
             raise CannotAsk("this release has no case of it")
         chosen = random.Random(f"{seed}/{self.name}").choice(self.questions)

@@ -1,6 +1,6 @@
-"""Hold a student's program for questions: what is right in it, its text, and ways to run it.
+"""Hold a student's program for questions: its right TODOs, its text, and ways to run it.
 
-Nothing of it is imported here: it runs in children of the sandbox, as when it is graded.
+The program is not imported here: it runs in sandboxed children, as in grading.
 """
 
 import re
@@ -23,12 +23,12 @@ from grader.player.replay import MAX_DEATHS
 from grader.source.definitions import Program as Modules
 from grader.source.regions import python_files, read_source
 
-QUESTION_CPU_SECONDS = 3  # budget of a child, of which usual ones need a twentieth
+QUESTION_CPU_SECONDS = 3  # budget of a child; usual ones need a twentieth
 FUNCTIONS = {todo.id: todo.function for todo in load_rubric().todos if todo.function}
 
 
 class CannotAsk(Exception):
-    """Raised where a question cannot be asked, such as where the two ways to its answer differ."""
+    """Raised if a question cannot be asked, for example if the two ways to its answer differ."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Text:
     source: str  # moved to the left edge
 
 
-@dataclass(eq=False)  # each is itself, so that what is known of it can be kept
+@dataclass(eq=False)  # compared by identity, so that results can be cached
 class Tree:
     """The submission or the reference: its text, and children that run it, changed or not."""
 
@@ -61,7 +61,7 @@ class Tree:
         return Modules({Path(name): text for name, text in self.texts.items()})
 
     def find_function(self, target: str) -> Text | None:
-        """Find the definition of `module:name`; None where it is not clear."""
+        """Find the definition of `module:name`; None if it is not clear."""
         found = self.modules.definition(*target.split(":"))
         if found is None or found.function is None:
             return None
@@ -70,7 +70,7 @@ class Tree:
         return Text(file, found.function.lineno, found.function.end_lineno, source)
 
     def replace_function(self, target: str, source: str) -> dict[str, str]:
-        """Return the one file that changes where a function gets another source."""
+        """Return the file with a function's source replaced."""
         text = self.find_function(target)
         if text is None:
             raise CannotAsk(f"there is no {target.partition(':')[2]} to be found in its text")
@@ -81,7 +81,7 @@ class Tree:
         return {text.file: "\n".join([*lines[: text.first - 1], *new, *lines[text.last :]]) + "\n"}
 
     def replace_constant(self, name: str, value: str) -> dict[str, str]:
-        """Return the files that change where a constant gets another value."""
+        """Return the files with a constant's value replaced."""
         line = re.compile(rf"^{name}\s*=.*$", re.MULTILINE)
         changed = {
             file: line.sub(f"{name} = {value}", text)
@@ -94,7 +94,7 @@ class Tree:
 
     @contextmanager
     def lab(self, module: str, changes: Mapping[str, str] | None = None) -> Iterator[Lab]:
-        """Open a lab of this tree, its files changed or not."""
+        """Open a lab of this tree, with these files changed, if any."""
         if self.deaths >= MAX_DEATHS:
             raise CannotAsk("its process ended too often")
         sandbox = self.sandbox.changed(changes) if changes else self.sandbox
@@ -109,7 +109,7 @@ class Tree:
 
 @dataclass
 class Program:
-    """A student's program, and the reference beside it, where there is one."""
+    """A student's program, and the reference, if there is one."""
 
     own: Tree
     reference: Tree | None
@@ -117,7 +117,7 @@ class Program:
     given: frozenset[str] = frozenset()  # those that the course hands out done
 
     def can_show(self, todos: Iterable[str]) -> bool:
-        """Return whether all that depends on these TODOs is right."""
+        """Return whether these TODOs, and those they need, are right."""
         return (self.right | self.given).issuperset(todos)
 
 
@@ -125,7 +125,8 @@ class Program:
 def open_program(
     path: Path, options: Options, worker: Worker | None = None, result: Result | None = None
 ) -> Iterator[Program]:
-    """Grade what questions may be about, unless a result is there, and hold the program open."""
+    """Grade the TODOs that questions may be about, unless a result exists, and keep the program
+    open."""
     asked = list_askable(options.course)
     with grading(path, replace(options, only=asked), worker) as run:
         found = result or run.run()

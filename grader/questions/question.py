@@ -15,7 +15,7 @@ NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)(e[-+]?\d+)?", re.IGNORECASE)
 
 
 class Wrong(Struct, frozen=True):
-    """A wrong answer that people give, and the misunderstanding that leads to it."""
+    """A common wrong answer, and the misunderstanding behind it."""
 
     answer: str
     why: str
@@ -32,11 +32,12 @@ class Picture(Struct, frozen=True):
 class Question(Struct, frozen=True):
     """One question with its key.
 
-    `text` has a paragraph a line, and code between backticks. `answer` is a number, or for films
-    the letters of the choices in the order of the films. A person marks a `why`, by its rubric.
+    `text` has one paragraph per line, and code between backticks. `answer` is a number, or for
+    films the letters of the choices in the order of the films. A person marks a `why`, by its
+    rubric.
     """
 
-    name: str  # of what made it, such as "impulse"
+    name: str  # name of its maker, such as "impulse"
     kind: Kind
     todos: tuple[str, ...]  # that it is about
     text: str
@@ -45,11 +46,11 @@ class Question(Struct, frozen=True):
     tolerance: float = 0.0  # of a number, either way
     unit: str = ""
     wrong: tuple[Wrong, ...] = ()
-    why: str = ""  # how the answer comes about, for the key
+    why: str = ""  # explanation of the answer, for the key
     code: str = ""  # a line of the student's own
-    choices: tuple[str, ...] = ()  # of films: what was changed, called a, b, c and so on
+    choices: tuple[str, ...] = ()  # of films: the changes, named a, b, c and so on
     pictures: tuple[Picture, ...] = ()
-    rubric: tuple[str, ...] = ()  # a point each, for whoever marks by hand
+    rubric: tuple[str, ...] = ()  # a point each, for marking by hand
 
     @property
     def by_hand(self) -> bool:
@@ -60,14 +61,14 @@ class Sheet(Struct, frozen=True):
     """The questions of one student, and the ones that could not be asked."""
 
     student: str
-    seed: str  # with which it can be made again
+    seed: str  # to make it again
     questions: tuple[Question, ...]
     dropped: tuple[str, ...] = ()  # a sentence for each question that could not be asked
     full_name: str = ""  # of the student, as the class list has it
 
     @property
     def label(self) -> str:
-        """Return what people know the student by."""
+        """Return the student's name as people know it."""
         return f"{self.full_name} ({self.student})" if self.full_name else self.student
 
     @property
@@ -76,7 +77,7 @@ class Sheet(Struct, frozen=True):
 
 
 class Unreadable(Exception):
-    """Raised where an answer cannot be read; the message says what was expected."""
+    """Raised if an answer cannot be read; the message says what was expected."""
 
 
 def grade_answer(question: Question, answer: str) -> int:
@@ -109,7 +110,7 @@ def parse_number(text: str, unit: str = "") -> float:
 
 
 def find_misunderstanding(question: Question, answer: str) -> str:
-    """Return the misunderstanding behind a wrong answer, where it is a known one."""
+    """Return the misunderstanding behind a wrong answer, if it is known."""
     try:
         given = parse_number(answer.strip(), question.unit)
         off = [abs(given - float(each.answer)) for each in question.wrong]

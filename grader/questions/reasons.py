@@ -1,7 +1,7 @@
-"""Say why: questions that a person marks, about a line of the student's own.
+"""Make questions that ask why, about a student's own line, marked by a person.
 
-Each depends on how the student wrote a TODO: a line that does it in one way or another is found in
-the syntax tree, quoted, and asked about.
+Each depends on how the student wrote a TODO: a line of a known form is found in the syntax tree and
+quoted in the question.
 """
 
 import ast
@@ -17,7 +17,7 @@ from grader.questions.question import Question
 from grader.source.regions import parse
 from grader.text import printable
 
-MOST_CODE_TO_SEARCH = 8000  # characters of a function that is looked through
+MOST_CODE_TO_SEARCH = 8000  # characters of a function that is searched
 MOST_QUOTED = 160  # characters of a line
 
 
@@ -49,7 +49,7 @@ class Reason(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def walk_statement(node: ast.stmt) -> Iterator[ast.AST]:
-    """Walk a statement without the statements in it: of an `if`, its condition alone."""
+    """Walk a statement without the statements in it: for an `if`, only its condition."""
     waiting: list[ast.AST] = [node]
     while waiting:
         each = waiting.pop()
@@ -84,7 +84,7 @@ def ask_reason(todo: str, program: Program, points: int) -> Question:
 
 
 def quote_line(program: Program, todo: str) -> str:
-    """Return the line of the student's function to ask about, as they wrote it; or nothing."""
+    """Return the line of the student's function to ask about, as written; or None."""
     text = program.own.find_function(FUNCTIONS[todo])
     module = parse(text.source, MOST_CODE_TO_SEARCH) if text else None
     if text is None or module is None or not module.body:
@@ -98,7 +98,7 @@ def quote_line(program: Program, todo: str) -> str:
     forms = load_reasons()[todo].forms
     try:
         node = next((each for form in forms for each in statements if form.fits(each)), None)
-    except RecursionError:  # nested deeper than anybody writes
+    except RecursionError:  # nested deeper than usual code
         return ""
     if node is None:
         return ""

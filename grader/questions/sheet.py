@@ -1,4 +1,4 @@
-"""Make the sheet of one student: the same kinds for everybody, about TODOs that are right."""
+"""Make the sheet of one student: the same kinds for all, about TODOs that pass."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
@@ -31,7 +31,7 @@ class Asks(Protocol):
 def make_sheet(
     program: Program, student: str, seed: str, asked: Asked, makers: Sequence[Asks]
 ) -> Sheet:
-    """Make the questions to a student: always the same for the same program and seed."""
+    """Make a student's questions, the same for the same program and seed."""
     own = f"{seed}/{student}"
     dropped: list[str] = []
     found: list[Question] = []
@@ -50,7 +50,7 @@ def make_sheet(
     found += ask_some(numbers, asked.number, dropped)
     found += ask_some(shown, asked.film, dropped)
     missing = asked.number + asked.film - len(found)
-    found += ask_some(numbers, missing, dropped)  # where there is no film to ask about, a number
+    found += ask_some(numbers, missing, dropped)  # a number if there is no film to ask about
     found += ask_some(reasons, asked.why, dropped)
     return Sheet(student, seed, tuple(found), tuple(dropped))
 
@@ -68,7 +68,7 @@ def ask_some(asks: Iterator[Ask], count: int, dropped: list[str]) -> list[Questi
 
 
 def why_not(error: Exception) -> str:
-    """Say why a question is not asked; raise what has nothing to do with the program."""
+    """Say why a question is not asked; raise errors that the program did not cause."""
     match error:
         case CannotAsk():
             return str(error)
@@ -82,8 +82,8 @@ def why_not(error: Exception) -> str:
 def take_turns(makers: Iterable[Asks], program: Program) -> Iterator[Asks]:
     """Yield makers whose TODOs are all right: the first of each slot, then the second of each.
 
-    One about TODOs that have had their turn waits for all the others: no sheet asks the same twice
-    while there is something else. No question is only about a TODO that the course hands out done.
+    A maker whose TODOs were already used comes after all others, so that a sheet repeats a TODO
+    only if nothing else is left. No question is only about a given TODO.
     """
     able = [
         each
