@@ -1,6 +1,6 @@
 """Half-way states of students' work, and what the first failure must and must not say.
 
-Each file of `tests/bank/halfway/` is about one TODO. Its `code` is that of a student who is right.
+Each file of `tests/bank/halfway/` is about one TODO. Its `code` is a right student's.
 To add a state, add a table: `change` or `code` for the region, `files` for a given line or a name
 that was changed (see members.py), and regular expressions:
 
@@ -8,12 +8,11 @@ that was changed (see members.py), and regular expressions:
     change = [["if total < -limit:\\n    total = -limit", ""]]
     says = ["upper|one way"]
 
-Code that stands where it does not count has a `place`, and `moved` names a copy of the TODO's file
-in which the work is, beside the handed-out one.
+Code at a position where it does not count has a `place`; `moved` names a copy of the TODO's file
+with the work, beside the handed-out one.
 
 All in `says` must be found, none in `never` may be. They are searched in the *Meaning* of the first
-failure, or in its *Got* if it has none: a student who is alone reads that. A wrong member that
-`says` anything is a state as well.
+failure, or in its *Got* without one. A wrong member with `says` is a state as well.
 """
 
 import re
@@ -46,8 +45,8 @@ BANK = KIT / "tests" / "bank"
 PROGRAMS = ("mini_engine", "lab_runtime.py", "integrators.py", "pymunk_scene.py")
 
 
-# Where the code stands: alone in its region, with the stub's lines above or below it, or below the
-# region, which holds the stub.
+# Position of the code: alone in its region, with the stub's lines above or below, or below a region
+# that holds the stub.
 Place = Literal["region", "below the stub", "above the stub", "outside"]
 
 
@@ -62,7 +61,7 @@ class State(Variant, frozen=True, kw_only=True):
 
 
 class Sheet(Struct, frozen=True, forbid_unknown_fields=True):
-    code: str  # right, and as a student writes it
+    code: str  # right, as a student writes it
     state: dict[str, State]
 
 
@@ -111,7 +110,7 @@ class Halfway:
         return [line for part in parts[self.state.place] for line in part]
 
     def complaint(self, result: Result) -> str:
-        """Return what is wrong with the words of its first failure; empty if nothing is."""
+        """Return the fault in the words of its first failure, or an empty text."""
         first = first_failure(result)
         if first is None:
             return "nothing fails"
@@ -157,7 +156,7 @@ def make_state(todo: str, name: str, right: str, state: State) -> Halfway:
 
 
 def first_failure(result: Result) -> CheckResult | None:
-    """Return the first failed check, or one that passes with given code put back."""
+    """Return the first failed check, or one that passes with given code restored."""
     checks = [check for todo in result.todos for check in todo.checks]
     return next((each for each in checks if each.failed or each.meaning), None)
 

@@ -1,4 +1,4 @@
-"""Ladders: answers to one TODO from nothing to all, of which a better one never earns less.
+"""Ladders: answers to one TODO from nothing to complete; a better one must not earn less.
 
 The rungs of a ladder are the tables of `tests/bank/ladders/TODO.toml`. Their names begin with 0, 1
 and so on. A rung has the code of a `wrong` member, or its own `code` or `change` (see members.py).
@@ -16,7 +16,7 @@ from grader.judge.result import Result
 
 @dataclass
 class Ladder:
-    """The rungs of one sheet that were graded, lowest first."""
+    """The graded rungs of one sheet, lowest first."""
 
     sheet: Path
     points: dict[str, int] = field(default_factory=dict)  # by rung
@@ -41,7 +41,7 @@ class Ladder:
 
 
 def ladders(graded: Iterable[tuple[Member, Result | None]]) -> list[Ladder]:
-    """Return the ladders of which rungs were graded."""
+    """Return the ladders with graded rungs."""
     found: dict[Path, Ladder] = {}
     for member, result in graded:
         if member.is_rung and member.source and result is not None:

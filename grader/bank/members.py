@@ -1,8 +1,7 @@
 """The bank: wrong, right and hostile submissions, and the marks each must get.
 
-To add a wrong member, add a table to `tests/bank/wrong/TODO.toml`. Its name is the mistake's; `+`
-and more follow where another member makes the same mistake. TODO must lose points, and no other
-TODO may:
+To add a wrong member, add a table to `tests/bank/wrong/TODO.toml`, named by the mistake. If another
+member makes the same mistake, add `+` and more. TODO must lose points, and no other TODO may:
 
     [clamps-the-increment]
     why = "Clamps each pass's change to the limit instead of the accumulated total."
@@ -17,7 +16,7 @@ TODO may:
   `single_file = false` leaves that out.
 
 A member of `wrong/whole.toml` breaks a promise of the lesson in given code, by `files`. The program
-as a whole must lose points; of the TODOs, only those in `also` may.
+as a whole must lose points; only the TODOs in `also` may lose some.
 
 A right member must get every point. Where it differs from the solution in one TODO, add a table to
 `right/TODO.toml`, with `why`, and `change` or `code`. The other members:
@@ -65,9 +64,9 @@ Pairs = list[tuple[str, str]]  # old text, which must stand once, and new text
 Regions = Mapping[str, tuple[str, ...]]  # lines of code, by TODO
 
 CONSTANTS = "all-constants"  # the member that is made of the ladders' constants
-MOST_FOR_CONSTANTS = 3  # points, of all TODOs together
+MOST_FOR_CONSTANTS = 3  # points of all TODOs together
 LESSON = "lesson-"  # how the names of the lesson's programs and their variants begin
-BESIDES = ("__pycache__", "notebooks", ".*", *LAID_IN)  # of a tree: no submission is judged by them
+BESIDES = ("__pycache__", "notebooks", ".*", *LAID_IN)  # files of a tree that no mark depends on
 CLEAN = shutil.ignore_patterns(*BESIDES)
 TREES = ("solution", "starter")
 IS_TODO = re.compile(r"[0-9]+[a-z]?|B[0-9]+|whole")
@@ -119,9 +118,9 @@ class Entry(Variant, frozen=True):
     copy: dict[str, str] = {}  # new file, old file
     everywhere: str = ""  # code for every TODO
     transform: str = ""
-    points: int | None = None  # exactly; None: all of them
+    points: int | None = None  # exact points; None: all of them
     single_file: bool = True  # whether a wrong member is graded as a single file as well
-    seconds: int = 120  # the longest it may keep the judge busy; a limit on harm, not a score
+    seconds: int = 120  # the longest time it may take; a limit on harm, not a score
 
     @property
     def modules(self) -> set[str]:
@@ -136,7 +135,7 @@ class Printed(Entry, frozen=True):
 
 
 class Wrong(Entry, frozen=True):
-    """A wrong member. It is a half-way state as well if it `says` anything."""
+    """A wrong member; with `says`, also a half-way state."""
 
     breaks: str = ""  # the promise of the lesson that it breaks in given code
     also: list[str] = []  # TODOs that may lose points too: their checks need what is broken
@@ -149,7 +148,7 @@ class Attack(Entry, frozen=True):
     """A hostile member that attacks in the region of TODO 8a."""
 
     points: int | None = 98
-    tries: str = ""  # imports, an empty line, and what must raise OSError
+    tries: str = ""  # imports, an empty line, and code that must raise OSError
     numbers: tuple[int, int] | None = None  # of the system call that `tries` makes
 
     def rewrite(self, usual: str) -> str:
@@ -161,7 +160,7 @@ class Attack(Entry, frozen=True):
 
 
 class Rung(Variant, frozen=True):
-    """A rung of a ladder; the solution's code if nothing else is said."""
+    """A rung of a ladder, by default with the solution's code."""
 
     wrong: str = ""  # the wrong member whose code it has
 
@@ -189,7 +188,7 @@ class Member:
 
     @property
     def patched(self) -> frozenset[str]:
-        """Return the TODOs whose regions it replaces, whether its edits fit the solution or not."""
+        """Return the TODOs whose regions it replaces, even if its edits do not fit the solution."""
         if self.source is not None and self.source.suffix == ".py":
             return frozenset(regions_of(self.source))
         if isinstance(self.entry, Attack):
@@ -225,9 +224,9 @@ class Member:
     def judged_by(self) -> frozenset[str]:
         """Return the TODOs to grade; empty for all.
 
-        A patch changes regions of some programs, and the programs share no file: the others are
-        the solution's, letter by letter. The whole may suffer from a wrong member or not, so it is
-        left out; from a bonus task it must not suffer.
+        A patch changes regions of some programs. Programs share no file, so the others equal the
+        solution. A wrong member may or may not affect the whole, which is not graded then; a bonus
+        task must not.
         """
         if self.kind == "ladder":
             return self.todos
@@ -283,7 +282,7 @@ class Member:
             TRANSFORMS[self.entry.transform](folder)
 
     def complaint(self, result: Result, seconds: float) -> str:
-        """Return what is wrong with the marks it got; empty if they are what they must be."""
+        """Return the fault in its marks, or an empty text."""
         lost = {t.id: t.max_points - t.points for t in result.todos if t.points != t.max_points}
         if self.kind == "ladder":  # a rung is compared with the others of its ladder
             many = not self.is_rung and result.points > MOST_FOR_CONSTANTS
@@ -324,7 +323,7 @@ def base_of(member: Member, kit: Path) -> Member:
 def members(kit: Path, course: Course = FULL) -> Iterator[Member]:
     """Yield the members that concern a course.
 
-    Attacks are on the judge, whatever a course has: they are graded on every TODO.
+    Attacks target the judge, not a course: they are graded on every TODO.
     """
     for member in every_member(kit):
         if member.kind == "hostile":
@@ -418,13 +417,13 @@ def read_submission(bank: Path, kind: Literal["right", "hostile"], name: str) ->
 
 
 def read_marks(bank: Path, kind: Literal["right", "hostile"]) -> dict[str, Entry]:
-    """Return what bank.toml says of right or hostile members, by name."""
+    """Return the entries of right or hostile members in bank.toml, by name."""
     return parse_marks((bank / "bank.toml").read_bytes())[kind]
 
 
 @cache
 def parse_marks(text: bytes) -> dict[str, dict[str, Entry]]:
-    """Return what bank.toml says, by kind and name; each member asks for it."""
+    """Return the entries of bank.toml by kind and name; cached, since each member reads it."""
     return msgspec.toml.decode(text, type=dict[str, dict[str, Entry]])
 
 
@@ -443,7 +442,7 @@ def read_rungs(sheet: Path) -> dict[str, Rung]:
 
 
 def constants(kit: Path) -> Iterator[Member]:
-    """Yield the rungs that answer the same to every question."""
+    """Yield the rungs that give the same answer to every question."""
     for rung in rungs(kit / "tests" / "bank"):
         if re.match(r"\w+-\d+-constant", rung.name):
             yield rung
@@ -494,7 +493,7 @@ def change_files(files: Mapping[str, Pairs], folder: Path) -> None:
 
 
 def change_text(text: str, change: Pairs) -> str:
-    """Replace each old text by its new one; ValueError for an old one that does not stand once."""
+    """Replace each old text by its new one; ValueError unless the old one occurs once."""
     for old, new in change:
         pattern = SKIPPED_LINES.join(map(re.escape, old.split("\n...\n")))
         found = [match.span() for match in re.finditer(pattern, text)]
@@ -506,7 +505,7 @@ def change_text(text: str, change: Pairs) -> str:
 
 
 def fill_every_todo(folder: Path, code: str) -> None:
-    """Put the same code in the place of every TODO's."""
+    """Put the same code into every TODO."""
     lines = tuple(code.strip().splitlines())
     for path in python_files(folder):
         text = read_source(path)
@@ -521,7 +520,7 @@ def make_mistake(name: str, folder: Path) -> None:
 
 
 def patch(source: Path, folder: Path) -> None:
-    """Put the regions of one file in the place of the same ones in `folder`."""
+    """Replace regions in `folder` by the same regions of one file."""
     put_regions(regions_of(source), folder)
 
 
@@ -530,7 +529,7 @@ def regions_of(source: Path) -> Regions:
 
 
 def put_regions(regions: Regions, folder: Path) -> None:
-    """Put code in the place of the same regions in the files of `folder`."""
+    """Replace the code of these regions in the files of `folder`."""
     wanted = dict(regions)
     for path in python_files(folder) if wanted else ():
         text = read_source(path)
@@ -564,7 +563,7 @@ def rewrite(change: Callable[[bytes], bytes]) -> Callable[[Path], None]:
 
 
 def into_one_file(folder: Path) -> None:
-    """Merge the package into one mini_engine.py; each part follows those that it imports."""
+    """Merge the package into one mini_engine.py, each part after those that it imports."""
     package = folder / "mini_engine"
     texts = {path: read_source(path) for path in package.rglob("[!_]*.py")}
     needs = {path: list(imported_parts(path, text)) for path, text in texts.items()}
@@ -625,7 +624,7 @@ def add_odd_names(folder: Path) -> None:
             os.makedirs(os.path.dirname(os.path.join(os.fsencode(folder), name)), exist_ok=True)
             with open(os.path.join(os.fsencode(folder), name), "wb") as file:
                 file.write(b"x")
-        except OSError:  # a file system that knows text only
+        except OSError:  # a file system with names in Unicode only
             return
 
 

@@ -1,8 +1,8 @@
 """Change the solution in one small way, and see whether the checks notice.
 
-A mutant is built like a wrong member of the bank: one region of the solution, replaced. It is
-killed if its own TODO loses points. No other TODO may lose any, and a mistake that is named must be
-the one that was made.
+A mutant is built like a wrong member of the bank: one region of the solution is replaced. It is
+killed if its own TODO loses points. No other TODO may lose any, and a named mistake must be the
+real one.
 """
 
 import difflib
@@ -34,7 +34,7 @@ from grader.source.operators import make_changes, names_in, normalize
 from grader.source.regions import Region, python_files, read_source, regions_in
 
 MUTANT_CPU_SECONDS = 2  # budget of a child: many never end, and the solution needs a quarter
-OTHER_SEEDS = (7919, 104729)  # a name must hold for the questions of these as well
+OTHER_SEEDS = (7919, 104729)  # a named mistake must also fit the questions of these seeds
 
 # ---------------------------------------------------------------- making them
 
@@ -92,7 +92,7 @@ def code_of(region: Region) -> str:
 
 
 def find_difference(code: str, change: str) -> tuple[str, str]:
-    """Return the lines that differ, before and after; of an insertion, with the line below it."""
+    """Return the lines that differ, before and after; an insertion includes the line below it."""
     before, after = split_lines(normalize(code)), split_lines(change)
     was: list[str] = []
     now: list[str] = []
@@ -115,7 +115,7 @@ def list_mutants(todos: Collection[str] = ()) -> list[Mutant]:
     return [each for id in named if not todos or id in todos for each in mutants_of(id)]
 
 
-# ---------------------------------------------------------------- the ones that change nothing
+# ---------------------------------------------------------------- equivalent mutants
 
 
 class Equivalent(Struct, frozen=True, forbid_unknown_fields=True):
@@ -172,7 +172,7 @@ class Outcome:
 
     @property
     def complaint(self) -> str:
-        """Say what this mutant shows to be wrong with the grader; empty if nothing is."""
+        """Return the fault in the grader that this mutant shows, or an empty text."""
         others = sorted(set(self.lost) - {self.mutant.todo})
         if others:
             return f"TODO {', '.join(others)} must not lose anything"
@@ -242,13 +242,13 @@ def load_quick_rubric() -> Rubric:
 
 
 def name_holds(submission: Path, todo: str, name: str) -> bool:
-    """Return whether the mistake's model foretells the answers to other questions as well."""
+    """Return whether the mistake's model also predicts the answers to other questions."""
     answers = (grade_quickly(submission, frozenset({todo}), seed=seed)[1] for seed in OTHER_SEEDS)
     return all(foretells_answers(todo, name, each.get(todo, [])) for each in answers)
 
 
 def foretells_answers(todo: str, name: str, answers: Sequence[Observation]) -> bool:
-    """Return whether a model gives every answer that it is about, and all others are right."""
+    """Return whether a model predicts every answer that it covers, and all others are right."""
     misconceptions.load_known(todo)
     known = misconceptions.known_mistakes
     models = [each for each in known if (each.todo, each.id) == (todo, name)]

@@ -1,8 +1,8 @@
 """Make the slips of students: changes to a whole region that look right in most scenes.
 
-An operator of `operators.py` changes one node and need not know what it means. A slip does more
-than was asked, or goes wrong for some inputs or from some call on. `slips.toml` lists them;
-`scopes.toml` says what is a body or a number in each region, and how large it usually is.
+An operator of `operators.py` changes one node without its meaning. A slip does extra work, or fails
+for some inputs or after some calls. `slips.toml` lists them; `scopes.toml` says what is a body or a
+number in each region, and how large it usually is.
 """
 
 import ast
@@ -38,7 +38,7 @@ class Scope(Struct, frozen=True, forbid_unknown_fields=True):
     answers: list[str] = []
     many: int = 100
     parameters: frozenset[str] = frozenset()  # of the function
-    unfinished: str = ""  # what the starter has in the place of the region
+    unfinished: str = ""  # the starter's region
 
     def names(self, kind: str) -> list[str]:
         """Return the names of a kind, with the fields of bodies that are of this kind."""
@@ -64,7 +64,7 @@ FIELDS = {  # of a body; an inverse may become smaller, and a static body has no
 
 
 class SlipTable(Struct, frozen=True, forbid_unknown_fields=True):
-    """The slips of `slips.toml`: by name, with what is put into the code."""
+    """The slips of `slips.toml`, by name, with their code."""
 
     calls: list[str]
     deeds: dict[str, dict[str, list[str]]]
@@ -89,7 +89,7 @@ Slip = Callable[[str, Scope], Iterator[tuple[str, Code]]]
 
 
 def do_more(code: str, scope: Scope) -> Iterator[tuple[str, Code]]:
-    """Change inputs that must stay, add what nobody asked for, or return another list."""
+    """Change inputs that must stay, add unwanted work, or return another list."""
     for name, deeds in TABLE.deeds.items():
         for kinds, templates in deeds.items():
             for template in templates:
@@ -98,7 +98,7 @@ def do_more(code: str, scope: Scope) -> Iterator[tuple[str, Code]]:
 
 
 def miss_cases(code: str, scope: Scope) -> Iterator[tuple[str, Code]]:
-    """Go wrong for some bodies, or in a case for which the docstring holds as well."""
+    """Fail for some bodies, or in a case that the docstring includes."""
     for body in [*scope.bodies, *filter(None, [scope.each])]:
         for name, cases in TABLE.cases.items():
             for case in cases:
@@ -108,13 +108,13 @@ def miss_cases(code: str, scope: Scope) -> Iterator[tuple[str, Code]]:
 
 
 def misread_numbers(code: str, scope: Scope) -> Iterator[tuple[str, Code]]:
-    """Use another number than the given one."""
+    """Use another number instead of the given one."""
     for name, it, value in fill_templates(TABLE.reads, scope.reads):
         yield name, replace_number(code, it, value, scope)
 
 
 def change_results(code: str, scope: Scope) -> Iterator[tuple[str, Code]]:
-    """Leave another number than the computed one."""
+    """Return another number instead of the computed one."""
     for name, it, value in fill_templates(TABLE.results, scope.results):
         yield name, add_deed(code, f"{it} = {value}", scope)
 
@@ -131,7 +131,7 @@ def fill_templates(
 
 
 def count_calls(code: str, scope: Scope) -> Iterator[tuple[str, Code]]:
-    """Go wrong from some call on, or now and then."""
+    """Fail after some calls, or now and then."""
     count = "calls = globals().setdefault('calls', [])\ncalls.append(1)"
     for case in TABLE.calls:
         wrong = skip_case(code, f"len(calls) {case.format(many=scope.many)}", scope)
@@ -171,7 +171,7 @@ class DeedAtReturn(ast.NodeTransformer):
 
 
 def add_deed(code: str, deed: str, scope: Scope) -> Code:
-    """Do `deed` at the end of `code`; in its loop, where `deed` speaks of the loop's body."""
+    """Do `deed` at the end of `code`, or in its loop if `deed` uses the loop's body."""
     tree = ast.parse(code)
     if mentions(deed, scope.each) and not deed.startswith("for "):
         find_loop(tree, scope.each).body += parse_code(deed)
@@ -194,9 +194,9 @@ def find_loop(tree: ast.Module, name: str) -> ast.For:
 
 
 def skip_case(code: str, condition: str, scope: Scope) -> Code:
-    """Leave the region as the starter has it where `condition` holds.
+    """Keep the starter's region where `condition` holds.
 
-    In a loop over bodies, where it speaks of one of them, that body is skipped.
+    In a loop over bodies, if it is about one of them, skip that body.
     """
     tree, test = ast.parse(code), parse_expression(condition)
     if mentions(condition, scope.each):

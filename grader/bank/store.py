@@ -1,6 +1,6 @@
-"""Store members and half-way states that are graded as they must be, in build/verify.
+"""Store members and half-way states with the expected grade, in build/verify.
 
-Each file has a key of all that it was made from, and is ignored once any of that changes.
+Each file has a key of all its sources, and is ignored once one changes.
 """
 
 import hashlib
@@ -21,7 +21,7 @@ from grader.judge.grade import KIT
 from grader.judge.result import Result
 from grader.report.files import write_whole
 
-UNREAD = ("README.md", "Makefile", "requirements.txt")  # files of a tree: no mark hangs on them
+UNREAD = ("README.md", "Makefile", "requirements.txt")  # files of a tree that no mark depends on
 DECIDING = ("halfway.py", "members.py", "traces.py", "verify.py")  # of this folder
 
 
@@ -41,7 +41,7 @@ class Store:
         self.keys: dict[Path, str] = {}
 
     def key(self, item: Member | Halfway) -> str:
-        """Return the key as it was when first asked for: files may change while it is graded."""
+        """Return the key of the first call: files may change during grading."""
         path = self.file(item)
         if path not in self.keys:
             self.keys[path] = make_key(item) if isinstance(item, Member) else make_state_key(item)
@@ -65,13 +65,13 @@ class Store:
 
 
 def make_state_key(state: Halfway) -> str:
-    """Hash the state and all that decides about what it is told, and this machine."""
+    """Hash the state, everything that its message depends on, and this machine."""
     said = msgspec.json.encode([state.name, state.code, state.state]).decode()
     return hash_lines([hash_surroundings(), said])
 
 
 def make_key(member: Member) -> str:
-    """Hash all that decides about the member's marks, and this machine."""
+    """Hash everything that the member's marks depend on, and this machine."""
     todos, judges = member.course.rubric.todos, member.judged_by
     asked = [todo for todo in todos if not judges or todo.id in judges]
     line = [*member.lineage]

@@ -1,9 +1,9 @@
 """Keep the two trees in step: the solution's files everywhere, the starter's stubs in the regions.
 
-Each tree owns the inside of its TODO regions; everything else is written in `solution/` and carried
-over. Files that students use and do not edit are in `solution/` alone, and are laid in wherever
-students get the starter. The checks keep the stubs too, to recognize an untouched TODO, and the
-given code, to supply what a submission lacks.
+Each tree owns the inside of its TODO regions; everything else is written in `solution/` and copied.
+Files that students use and do not edit are in `solution/` alone, and are added wherever students
+get the starter. The checks keep the stubs too, to recognize an untouched TODO, and the given code,
+to supply what a submission lacks.
 """
 
 import json
@@ -31,9 +31,9 @@ class OutOfStep(Stop):
 
 
 def sync(solution: Path, starter: Path, write: bool) -> list[str]:
-    """Carry the solution over into the starter; return what was done, one line each.
+    """Copy the solution into the starter; return one line per change.
 
-    Without `write` nothing is done, and the lines say what differs.
+    Without `write`, only report the differences.
     """
     wanted = {
         name: merge_regions(solution / name, starter / name)
@@ -67,7 +67,7 @@ def sync(solution: Path, starter: Path, write: bool) -> list[str]:
 
 
 def mark_check_folders(write: bool) -> list[str]:
-    """Make each folder of checks a package; return a line for each that was none."""
+    """Make each folder of checks a package; return a line for each new one."""
     lines = []
     for folder in dict.fromkeys(todo.folder for todo in load_rubric().todos):
         path = CHECKS / folder / "__init__.py"

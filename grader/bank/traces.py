@@ -1,7 +1,7 @@
-"""Find what a grade leaves behind on the machine: processes, open descriptors, files.
+"""Find leftovers of a grade on the machine: processes, open descriptors, files.
 
-Other programs write files meanwhile, also into the home folder and shared memory, and a look at a
-folder cannot tell them apart. So only what is certainly of the grade counts:
+Other programs write files meanwhile, also into the home folder and shared memory. So only files
+that are certainly of the grade count:
 
 - all in a folder that is its temporary and its home folder while it runs;
 - files where every account may write that have the submission's name in their own. A submission of
@@ -34,7 +34,7 @@ class Traces:
 
 @contextmanager
 def watch_traces(own: Path, name: str) -> Iterator[Traces]:
-    """Let the grade use the folder `own`, and find what it leaves there and elsewhere.
+    """Let the grade use the folder `own`, and find leftovers there and elsewhere.
 
     With a `name`, files that have it in their names are looked for as well.
     """
@@ -72,7 +72,7 @@ def redirect_home(folder: Path) -> Iterator[None]:
 
 
 def find_named(name: str, folders: list[Path]) -> set[tuple[Path, int]]:
-    """Return what has this name in the folders, each with the time of its last change."""
+    """Return the files of this name in the folders, each with its last change."""
     found = set()
     for folder in folders if name else ():
         with suppress(OSError):

@@ -1,7 +1,7 @@
 """Grade the grader: both trees, the rubric, every member of the bank and every half-way state.
 
-A member that got the marks it must is not graded again until something changes that decides about
-them. So a run that was stopped resumes.
+A member with the right marks is not graded again until something they depend on changes. So a
+stopped run resumes.
 """
 
 import atexit
@@ -54,7 +54,7 @@ Judged = TypeVar("Judged", bound=HasComplaint)
 
 @dataclass
 class Verdict:
-    """The result of a member of the bank, and what is wrong with it."""
+    """The result of a member of the bank, and the fault in it."""
 
     member: Member
     result: Result | None
@@ -73,7 +73,7 @@ class Verdict:
 
 @dataclass
 class HalfwayVerdict:
-    """A half-way state, and what its first failure says wrongly or does not say."""
+    """A half-way state, and the fault in the words of its first failure."""
 
     state: Halfway
     complaint: str
@@ -102,7 +102,7 @@ class Report:
 
     @property
     def halfway_complaint(self) -> str:
-        """Say what is wrong with the words for half-way states; empty if nothing is."""
+        """Return the fault in the words for half-way states, or an empty text."""
         wrong = sum(each.complaint.startswith("says ") for each in self.halfway)
         helped = sum(not each.complaint for each in self.halfway)
         if wrong:
@@ -143,7 +143,7 @@ def verify(
 
 
 def count_unproven(course: Course) -> int:
-    """Count the members of a course's bank that no `verify` of this version found sound.
+    """Count the members of a course's bank that no `verify` of this version has proved.
 
     It grades by the whole rubric, so one `verify` serves every course.
     """
@@ -153,7 +153,7 @@ def count_unproven(course: Course) -> int:
 
 
 def collect(what: str, judged: Iterable[Judged], total: int, console: Console) -> list[Judged]:
-    """Collect what was judged, with its progress; print each complaint."""
+    """Collect the verdicts and show progress; print each complaint."""
     found: list[Judged] = []
     with Counter(what, total, console) as counter:
         for each in judged:
@@ -206,7 +206,7 @@ def list_trees(course: Course = FULL) -> list[Member]:
 
 
 def list_halfway(only: str, course: Course, complaints: list[str]) -> list[Halfway]:
-    """Return the half-way states of a course; where one cannot be built, none, and a complaint."""
+    """Return the half-way states of a course, or a complaint if one cannot be built."""
     todos = {todo.id for todo in course.rubric.todos}
     try:
         states = [each for each in list_states() if each.todo in todos]
@@ -256,9 +256,9 @@ def run_in_processes(
 def grade_member(
     member: Member, only: frozenset[str] = frozenset(), passed: PassedPrograms | None = PASSED
 ) -> Verdict:
-    """Grade it on all of its course that may judge it, or on the TODOs in `only`.
+    """Grade it on all TODOs that may judge it, or on those in `only`.
 
-    What has `passed` before is not run again, unless it is hostile and might tell.
+    Programs that have `passed` are not run again, unless hostile ones might notice.
     """
     if member.kind == "hostile":
         passed = None
@@ -266,7 +266,7 @@ def grade_member(
         submission = Path(folder).resolve() / member.name
         try:
             member.build(KIT, submission)
-        except ValueError as error:  # an edit of what the solution no longer has
+        except ValueError as error:  # an edit of text that the solution no longer has
             return Verdict(member, None, 0.0, f"cannot be built: {error}")
         todos, worker = only or member.judged_by, shared_worker()
         reference, course = shipped_reference(), member.course
@@ -275,10 +275,11 @@ def grade_member(
         try:
             name = member.name if member.source else ""  # a tree leaves nothing on purpose
             with watch_traces(Path(folder, "temporary"), name) as traces:
-                # One without fork keeps processes ahead, as if left behind: not to be shared.
+                # Without fork, a worker keeps processes ready, which look like leftovers: do not
+                # share it.
                 shared = worker if isinstance(worker, WarmWorker) else None
                 result = grade(submission, options, shared)
-        except Exception as error:  # a judge that falls over is the worst verdict of all
+        except Exception as error:  # a crash of the judge is the worst verdict
             text = f"the judge fell over: {type(error).__name__}: {error}"
             return Verdict(member, None, time.monotonic() - start, text)
         seconds = time.monotonic() - start
@@ -299,7 +300,7 @@ def judge_halfway(state: Halfway) -> HalfwayVerdict:
 
 
 def find_complaint(member: Member, result: Result, seconds: float) -> str:
-    """Say what is wrong with its marks, or with the name of its mistake."""
+    """Return the fault in its marks, or in the name of its mistake."""
     if complaint := member.complaint(result, seconds):
         return complaint
     if member.kind == "wrong" and member.compare_name(result) == "wrong":
@@ -314,7 +315,7 @@ def shared_worker() -> Worker:
     worker = start_worker()
     atexit.register(worker.close)
     if isinstance(worker, WarmWorker):
-        worker.wait_until_loaded()  # its own processes are none that a grade leaves behind
+        worker.wait_until_loaded()  # its own processes are no leftovers
     return worker
 
 
@@ -355,7 +356,7 @@ def make_row(verdict: Verdict) -> list[str]:
 def summarize(report: Report) -> Iterator[str]:
     """Count the members of each kind, the names of mistakes, and the complaints.
 
-    A ladder counts as one, whatever the number of its rungs.
+    A ladder counts as one, with any number of rungs.
     """
     judged = [(v.member.kind, v.complaint) for v in report.verdicts if not v.is_rung]
     judged += [("ladder", v.complaint) for v in report.verdicts if v.is_rung and v.complaint]
