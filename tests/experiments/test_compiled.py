@@ -123,3 +123,10 @@ def test_a_build_that_fails_says_what_it_needs(tmp_path, monkeypatch):
 def test_the_decorator_for_plain_effects_is_in_the_compiled_copy_alone():
     assert "mypyc_attr(allow_interpreted_subclasses=True)" in sources()["effect.py"]
     assert "mypyc" not in (compiled.TREE / "stable_engine/effect.py").read_text("utf-8")
+
+
+def test_constants_are_final_in_the_compiled_copy_alone():
+    text = sources()["contacts.py"]
+    assert "CORE: Final = 0.5" in text
+    assert text.startswith('"""Contacts') and "from typing import Final\n" in text
+    assert "Final" not in (compiled.TREE / "stable_engine/contacts.py").read_text("utf-8")

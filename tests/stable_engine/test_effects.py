@@ -130,6 +130,21 @@ def test_the_sleeping_cost_nothing(effects):
     assert prices[0] == prices[1] < 100
 
 
+@pytest.mark.parametrize("gravity", [0, 980])
+@pytest.mark.parametrize("speed", [0, 30, 600])
+def test_contacts_cost_little_where_nobody_is_near(speed, gravity):
+    """The balls fly away from each other, and none has to be looked at with another."""
+    places = [(i % 10 - 4.5, i // 10 - 4.5) for i in range(100)]
+    balls = [Ball((900 * x, 900 * y), vel=(speed * x / 5, speed * y / 5)) for x, y in places]
+
+    def price(*effects):
+        world = build(Scene(balls, effects, gravity=(0, gravity)))
+        run(world, 3 * DT)
+        return sum(count_opcodes(lambda: run(world, 60 * DT)).values())
+
+    assert price("Contacts") < 1.3 * price()
+
+
 def test_a_tall_silo_costs_no_more_than_a_wide_bin():
     def price(across, down):
         """The broad phase's opcodes for 60 balls in a row, one diameter apart."""
