@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from grader.classroom.marks import Scores
     from grader.questions.marking import Marking
 
-OTHER_RECIPIENTS = ("email", "nbgrader")  # of feedback, beside the learning systems
+OTHER_RECIPIENTS = ("email", "nbgrader")  # recipients of feedback besides learning systems
 
 app = typer.Typer()
 class_app = typer.Typer(help="A class, in a folder with its settings.", no_args_is_help=True)
@@ -227,9 +227,9 @@ def marks_command(
 def read_scores(
     known: "ClassFolder", so_far: bool, others_known: bool
 ) -> "tuple[Scores, list[str]]":
-    """Return everybody's parts with how to make marks of them, and notes on the results.
+    """Return each student's parts, the rules to make marks of them, and notes on the results.
 
-    Results hold the engine alone, so the shares of notebooks do not count there.
+    Results cover the engine only, so the shares of notebooks do not count there.
     """
     from grader.classroom.dashboard import read_outcomes
     from grader.classroom.marks import (
@@ -264,7 +264,7 @@ def upload_command(
         bool, typer.Option(help="No submission outside the class list is by a listed student.")
     ] = False,
 ) -> None:
-    """Show the marks and pages to send to Canvas, or send them. Exit status 1: some were left out.
+    """Show the marks and pages to send to Canvas, or send them. Exit status 1: some were skipped.
 
     The environment variable CANVAS_TOKEN holds the access token.
     """
@@ -288,7 +288,7 @@ def feedback_command(
         ),
     ] = "",
 ) -> None:
-    """Write each student's page for feedback. Exit status 1: some students were left out."""
+    """Write each student's page for feedback. Exit status 1: some students were skipped."""
     known = open_folder(folder)
     results = known.find_results()
     from grader.classroom.dashboard import read_class, write_dashboard
@@ -317,7 +317,7 @@ def feedback_command(
 
 
 def make_feedback(known: "ClassFolder", recipient: str, graded: "GradedClass") -> "Feedback":
-    """Make everybody's page for a learning system, for mail or for nbgrader."""
+    """Make each student's page for a learning system, for mail or for nbgrader."""
     from grader.classroom import feedback
     from grader.cli.classroom import require_same_class
     from grader.intake.listing import open_class
@@ -347,7 +347,7 @@ def questions_command(
 ) -> None:
     """Make a sheet of questions for each student about their own program, with its key.
 
-    Exit status 0: everybody has a sheet, or every answer is marked, 1: not so.
+    Exit status 0: every student has a sheet, or every answer is marked, 1: some are missing.
     """
     require_checkout("class questions")
     known, out = open_folder(folder), folder / "questions"

@@ -1,7 +1,7 @@
 """Define the commands for a course with nbgrader, for Gradescope, and for looking at a class.
 
-Each imports what it needs itself: all of it together would add a tenth of a second to every start
-of the grader, `check` included.
+Each command imports its own modules: together they would add a tenth of a second to every start of
+the grader, `check` included.
 """
 
 from collections.abc import Collection, Iterator
@@ -48,7 +48,7 @@ Key = Annotated[str, typer.Option(help="Its column that names students as their 
 Gradebook = Annotated[
     Path, typer.Argument(help="The class list: the gradebook as the LMS exports it.")
 ]
-COURSE = "course.toml"  # in the course folder of nbgrader: what it was made of
+COURSE = "course.toml"  # in the course folder of nbgrader: the source of the folder
 
 
 @course_app.command("course")
@@ -201,7 +201,7 @@ def course_check_command(course: CourseFile = None) -> None:
 
 
 def find_release_problems(path: Path | None) -> Iterator[str]:
-    """Yield why a release of a valid course would be refused."""
+    """Yield the reasons to refuse a release of a valid course."""
     if list_missing():
         return
     from grader.release.build import prove_cut
@@ -220,7 +220,7 @@ def find_release_problems(path: Path | None) -> Iterator[str]:
 def require_same_class(
     entries: "list[Entry]", names: Collection[str], results: Path, submissions: Path
 ) -> None:
-    """Stop where results and submissions are of two classes."""
+    """Stop if results and submissions belong to two classes."""
     known = {entry.outcome.name for entry in entries}
     if others := sorted(name for name in names if name not in known):
         raise Stop(

@@ -80,7 +80,7 @@ def release_command(
     """Make the archive for students, and check that it does not give the solution away.
 
     With Node.js and a network it also makes the page of `grader tab`.
-    Exit status 0: it was made, 2: it was not made.
+    Exit status 0: success, 2: failure.
     """
     require_checkout("release")
     from grader.release.build import release
@@ -125,7 +125,7 @@ def mutants_command(
 ) -> None:
     """Change the solution in small ways, and test whether the checks notice.
 
-    Exit status 0: every mutant lost points in its own TODO alone, 1: not so.
+    Exit status 0: every mutant lost points in its own TODO alone, 1: some did not.
     With --alone, other TODOs and the names of mistakes are not tested.
 
     A survivor with other results than the solution's is a wrong submission with full marks: put it
@@ -151,7 +151,7 @@ def bench_command(
         typer.Option(exists=True, file_okay=False, help="Another checkout, measured in turns."),
     ] = None,
 ) -> None:
-    """Measure how long a student waits, and what a grade and a class cost.
+    """Measure a student's waiting time, and the cost of a grade and a class.
 
     A round takes about a minute, twice as long with --against.
     """

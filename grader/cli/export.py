@@ -22,7 +22,7 @@ from grader.report.sinks.tables import write_csv, write_json_lines
 Format = Literal[
     "classroom50", "csv", "github", "gradescope", "html", "jsonl", "junit", "markdown", "reporter"
 ]
-TABLES = ("csv", "jsonl")  # of as many results as there are
+TABLES = ("csv", "jsonl")  # for any number of results
 
 app = typer.Typer()
 
@@ -53,7 +53,7 @@ def export_command(
 
 
 def write_form(form: Format, results: list[Result], folder: Path) -> bytes:
-    """Return the results in another form; all but tables take one. Replays are in `folder`."""
+    """Return the results in another form; only tables take several. Replays are in `folder`."""
     result = results[0]
     match form:
         case "csv":
@@ -67,7 +67,7 @@ def write_form(form: Format, results: list[Result], folder: Path) -> bytes:
         case "gradescope":
             return write_gradescope(result)
         case "html":
-            from grader.report.html import find_replays, render  # only here: it takes its time
+            from grader.report.html import find_replays, render  # imported here, since it is slow
 
             return render(result, find_replays(result, folder)).encode("utf-8")
         case "junit":

@@ -12,7 +12,7 @@ from grader.questions.pictures import draw_film, find_bounds
 from grader.questions.program import open_program
 from grader.report.files import write_whole
 
-SCENE, SECONDS = 12, 4.0  # the seed of the window's scene, and how much of it
+SCENE, SECONDS = 12, 4.0  # the seed of the window's scene, and the film's length
 
 
 def write_film(folder: Path, options: Options, worker: Worker, result: Result) -> Path:

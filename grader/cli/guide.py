@@ -1,7 +1,7 @@
 """Guide a student from task to task: `python -m grader` alone, and `make`.
 
 It is `check --watch` with the lab sheet's text of the next task, and keys for hints, replays and
-the program's window. At full marks there are keys for what comes next.
+the program's window. At full marks, other keys lead on.
 """
 
 import os
@@ -38,7 +38,7 @@ from grader.report.screen import Screen, Tasks, choose_failure, choose_todo, loa
 from grader.report.terminal import find_replay, say, wrap, write
 from grader.text import clean
 
-TICK = 200  # ms, until keys are looked at
+TICK = 200  # ms between two looks for keys
 MOST_OUTPUT = 4000  # characters of a program that was run, of which the last lines are shown
 MOST_LINES = 12
 KEYS = "h hint   r replay   w window   p printed   q quit"
@@ -180,11 +180,11 @@ class Guide(Watch):
 
     def show_film(self) -> None:
         """Open a film of the lab scene, run by the student's own engine."""
-        from grader.cli.film import write_film  # only here: it takes its time
+        from grader.cli.film import write_film  # imported here, since it is slow
 
         try:
             path = write_film(self.folder, self.options, self.worker, self.result)
-        except Exception as error:  # whatever a program does: the guide goes on
+        except Exception as error:  # the guide goes on after any error of a program
             self.say(f"There is no film: {clean(str(error))}")
             return
         self.open_page(path)

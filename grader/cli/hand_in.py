@@ -20,7 +20,7 @@ from grader.source.regions import read_source
 from grader.text import format_time, join_words, plural
 
 PACKED = "hand-in.zip"
-PROGRAMS = ("mini_engine", "pymunk_scene", "integrators")  # those without a TODO are given, too
+PROGRAMS = ("mini_engine", "pymunk_scene", "integrators")  # files without a TODO are given, too
 GIVEN = {  # the other files of the folder, which no student works on
     *("Makefile", "README.md", "requirements.txt", "MANIFEST.txt", "pyproject.toml", "uv.lock"),
     *("accuracy.py", "experiments", "stable_engine", "handouts", "report"),
@@ -28,7 +28,7 @@ GIVEN = {  # the other files of the folder, which no student works on
 COPY = re.compile(r"(?: \(\d+\)| copy| - Copy)(?=\.\w+$)")  # as browsers and systems name them
 EMPTY = ("Write your code here.", "Write your answer here.*")
 DIGITS = 16  # of a hash
-SUFFIXES = (".whl", ".zip")  # the grader, and what was packed before
+SUFFIXES = (".whl", ".zip")  # the grader, and earlier zips
 
 
 def pack_tree(tree: Path, course: Course = FULL, out: Path | None = None) -> tuple[Path, list[str]]:
@@ -90,7 +90,7 @@ def has_no_answer(path: Path) -> bool:
         cells = json.loads(path.read_bytes())["cells"]
         asked = [each for each in cells if each["metadata"].get("nbgrader", {}).get("solution")]
         return bool(asked) and all("".join(c["source"]).rstrip().endswith(EMPTY) for c in asked)
-    except (ValueError, KeyError, TypeError, AttributeError):  # no notebook, as far as we can tell
+    except (ValueError, KeyError, TypeError, AttributeError):  # probably no notebook
         return False
 
 

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from importlib import import_module
 
 MOST = 64  # bytes of one key, such as an arrow
-ESCAPE = "\x1b"  # begins the keys that are no letters
+ESCAPE = "\x1b"  # begins keys that are not letters
 
 
 @contextmanager

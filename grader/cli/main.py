@@ -42,7 +42,7 @@ from grader.report.terminal import Printer, show_isolation
 
 FOR_ONE = ("json", "ci", "at_least")  # options that count for one submission alone
 ENDINGS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
-FOR_INSTRUCTORS = ("grade", "release", "gradescope")  # what --help lists beside the groups
+FOR_INSTRUCTORS = ("grade", "release", "gradescope")  # commands that --help lists beside the groups
 EPILOG = (
     "handouts/instructor/term.md describes a term. With nbgrader: grader nbgrader --help. "
     "Students' commands work here too: check, hint, hand-in. All others: grader dev --help"
@@ -124,7 +124,7 @@ def grade_command(
     refuse_what_is_ignored(context, path, class_)
     taken = read_course(course)
     complete = reference or shipped_reference()
-    own = complete is None  # a student's copy: there is nothing but their own work
+    own = complete is None  # a student's copy grades only its own tree
     only, output = check_todos(todo, taken), Output(out, json, at_least)
     options = Options(complete, isolation, only, seed, trusted=own, course=taken)
     refuse_outputs(path, class_, output, options)
@@ -150,7 +150,7 @@ def grade_command(
 
 
 def refuse_what_is_ignored(context: typer.Context, path: Path | None, class_: bool) -> None:
-    """Stop at options that this way of grading would ignore."""
+    """Stop if an option would be ignored."""
     if path is None and class_:
         raise Stop("--class needs the submissions: name a folder or a zip of them")
     if class_ and not find_spec("grader.classroom"):
@@ -188,7 +188,7 @@ def finish(result: Result, output: Output) -> NoReturn:
     if output.json is not None:
         write_json(result, output.json)
     if output.out is not None:
-        from grader.report.html import write_report  # only here: it takes its time
+        from grader.report.html import write_report  # imported here, since it is slow
 
         write_json(result, output.out / f"{result.submission}.json")
         write_report(result, output.out / f"{result.submission}.html")
@@ -225,8 +225,8 @@ def demonstrate(options: Options) -> None:
 def interrupt_again(ignored: "sys.UnraisableHookArgs") -> None:
     """Raise Ctrl-C again if it came during a callback, such as a garbage collection's.
 
-    Python only prints it there, so a timer raises it a moment later. On a busy machine that may be
-    during this function, which then starts another timer.
+    Python only prints it there, so a timer raises it a moment later. On a busy machine, this
+    function may still be running and starts another timer.
     """
     if not issubclass(ignored.exc_type, KeyboardInterrupt):
         sys.__unraisablehook__(ignored)
@@ -258,7 +258,7 @@ def end_like_ctrl_c() -> None:
         raise KeyboardInterrupt
 
     for name in ENDINGS:
-        if signal.getsignal(name) == signal.SIG_DFL:  # nohup has a terminal's end ignored
+        if signal.getsignal(name) == signal.SIG_DFL:  # nohup ignores the end of a terminal
             signal.signal(name, end)
 
 

@@ -1,7 +1,7 @@
 """Define the students' command `questions`: a page to practise with their own program.
 
-It replaces the command that makes sheets and keys. Films, lines and reasons are made of the
-program; numbers are cases that came with the release. What `check` passes is right.
+It replaces the command that makes sheets and keys. Films, lines and reasons come from the program;
+numbers are cases of the release. TODOs that `check` passes count as right.
 """
 
 import secrets

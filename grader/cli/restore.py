@@ -56,7 +56,7 @@ def restore(tree: Path, name: str) -> list[str]:
     texts = make_texts(tree, name)
     if not texts:
         return [f"{name} is unchanged: there is nothing to put back."]
-    for file, text in texts.items():  # of two files both or none
+    for file, text in texts.items():  # write both files or none
         if flaw := find_flaw(text):
             raise Stop(
                 f"{file} would be no Python with that (line {flaw.line}: {flaw.message}): correct "

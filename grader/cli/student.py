@@ -53,7 +53,7 @@ def check_command(
 ) -> None:
     """Check your programs, and show what to do next.
 
-    One TODO at a time is explained, with --all every failure. Exit status 0: all checks pass,
+    One TODO at a time is explained; with --all, every failure. Exit status 0: all checks pass,
     1: some fail, 2: the checks could not run.
     """
     taken = read_course(course)

@@ -32,7 +32,7 @@ from grader.text import clean
 Sources = dict[str, str]  # the text of each Python file, by its path inside the tree
 
 SETTLED = 25  # ms without another event, until a save is looked at
-WITHOUT_EVENTS = 1000  # ms, until we look all the same
+WITHOUT_EVENTS = 1000  # ms until a look without an event
 MOST_NEWS = 3  # lines on what a save changed
 LOOK_EVERY = 0.25  # s, while checks are running
 
@@ -245,7 +245,7 @@ def wait_for_saves(folder: Path, most: int = 0) -> Iterator[None]:
                 yield
                 if not folder.is_dir() or list_folders(folder) != folders:
                     break
-        except OSError:  # a folder went away, or there are more than this machine can watch
+        except OSError:  # a folder was removed, or there are too many to watch
             time.sleep(WITHOUT_EVENTS / 1000)
             yield
 

@@ -1,4 +1,4 @@
-"""Cut unneeded definitions out of Python files; the others stay letter by letter."""
+"""Cut unneeded definitions out of Python files; the rest stays unchanged."""
 
 import ast
 from collections.abc import Collection, Iterable, Iterator

@@ -1,11 +1,11 @@
-"""Find the function that Python would run, by the text of a submission.
+"""Find the function that Python would run, from a submission's source text.
 
 A folder often holds other files too: a copy of the starter, a second try, notes. So the search
 follows imports from the program's module to the definition.
 
 A text may be written to cost much time and memory. So one file is parsed at a time, and no tree is
-kept; sizes of files are limited, alone and in sum; a name is looked up once in each module; and
-names that are too long, or have too many aliases, count as unknown.
+kept. Sizes of files are limited, each and in sum. A name is looked up once in each module. Names
+that are too long, or have too many aliases, count as unknown.
 """
 
 import ast
@@ -21,9 +21,9 @@ from grader.source.flaws import misplaced
 from grader.source.regions import parse
 
 MAX_READ = 1024 * 1024  # characters of a submission that are parsed, in all
-MAX_CALLED = 200  # names that are followed from a function
+MAX_CALLED = 200  # names followed from a function
 MAX_HOPS = 50  # from module to module, or from alias to alias; real names need three
-MAX_TRIED = 2000  # bindings that one search may try; real ones try ten
+MAX_TRIED = 2000  # bindings that one search may try; usual ones try ten
 MAX_NAME = 1000  # characters of a dotted name; real ones have twenty
 
 
@@ -75,8 +75,8 @@ Try = TypeVar("Try")
 class Module:
     """The bindings of a module's names, and the modules that its import loads."""
 
-    empty: bool = True  # without statements, or no Python
-    refused: bool = False  # it may be no Python, or has statements in places where none may be
+    empty: bool = True  # without statements, or not Python
+    refused: bool = False  # it may not be Python, or have misplaced statements
     names: dict[str, list[tuple[int, Binding]]] = field(default_factory=lambda: defaultdict(list))
     stars: list[tuple[int, Binding]] = field(default_factory=list)
     imports: dict[str, None] = field(default_factory=dict)
@@ -93,7 +93,7 @@ class Module:
 class Program:
     """The modules of a submission, and the definitions of their names.
 
-    A file is parsed when a name leads to it. `unread` are files that a name led to after the limit
+    A file is parsed when a name leads to it. `unread` are files that were needed after the limit
     was reached.
     """
 
@@ -112,7 +112,7 @@ class Program:
         self.parts: dict[str, list[str]] = {}  # modules that an import loads, by its name
 
     def tree(self, module: str) -> list[ast.stmt]:
-        """Return the statements of a module; none if it is no Python."""
+        """Return the statements of a module; none if it is not Python."""
         return statements(self.texts[self.paths[module]])
 
     def source(self, module: str, function: Function) -> str:
@@ -167,7 +167,7 @@ class Program:
                         called = defined.module, name
                     case ast.Attribute(attr=name):
                         called = defined.module, f"{owner}.{name}" if owner else name
-                    case ast.Constant(value=str(name)):  # of globals(), setattr and the like
+                    case ast.Constant(value=str(name)):  # from globals(), setattr and similar
                         found.add(name)
                         continue
                     case _:
@@ -296,7 +296,7 @@ class Program:
         return next((found for found in inherited if found is not None), None)
 
     def _limit(self, tries: Iterable[Try]) -> Iterator[Try]:
-        """Yield as many of these as one search may still try."""
+        """Yield these up to the limit of one search."""
         for each in tries:
             self.tried += 1
             if self.tried > MAX_TRIED:
@@ -338,7 +338,7 @@ def dotted(path: PurePath) -> str:
 def top_level(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
     """Yield the statements that run when a module or class is made, also under `if` and `try`.
 
-    There is no recursion, since an `elif` may follow thousands of others.
+    It does not recurse, since there may be thousands of `elif`.
     """
     waiting = list(reversed(body))
     while waiting:
@@ -357,7 +357,7 @@ def top_level(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
 
 
 def statements(text: str) -> list[ast.stmt]:
-    """Return the statements of a source text; none if it is no Python."""
+    """Return the statements of a source text; none if it is not Python."""
     tree = parse(text)
     return tree.body if tree else []
 

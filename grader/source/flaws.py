@@ -14,13 +14,13 @@ from io import BytesIO
 
 from grader.source.regions import CHAIN, MAX_SOURCE, is_usual, number_lines
 
-UNDECODED = "\ufffd"  # replaces bytes that are no text
+UNDECODED = "\ufffd"  # replaces undecodable bytes
 UNUSUAL = "the file says that it is in {encoding}: save it as UTF-8, and leave that out"
 MAX_LINE = 80  # characters of a line that are quoted
 MAX_SAID = 300  # characters of Python's message: it may quote a name of any length
 Version = tuple[int, int]
 
-# Syntax by the first Python that has it, and how to write the same in an older one.
+# Syntax by the first Python that has it, and the form for older ones.
 NEWER: tuple[tuple[Version, re.Pattern[str], str], ...] = (
     ((3, 12), re.compile(r"^\s*type\s+\w+\s*(\[.*\])?\s*="), "leave out the word type"),
     ((3, 12), re.compile(r"^\s*(async\s+)?(def|class)\s+\w+\["), "leave out the [...]"),
@@ -59,7 +59,7 @@ class Flaw:
     message: str
     text: str = ""  # the line
     file: str = ""
-    undecoded: bool = False  # the file's bytes are no text
+    undecoded: bool = False  # the file cannot be decoded
 
     @property
     def words(self) -> str:
@@ -87,7 +87,7 @@ def find_flaw(text: str) -> Flaw | None:
     """Return the first line of a text that Python refuses; None if it accepts all.
 
     A text that is too long counts as accepted. It is parsed and not compiled, since compiling can
-    take hours: of the errors that only a compiler finds, the usual ones are looked for.
+    take hours. Only the usual errors that a compiler finds are searched for.
     """
     if len(text) > MAX_SOURCE or CHAIN.search(text):
         return None
@@ -135,7 +135,7 @@ def misplaced(tree: ast.Module) -> Iterator[tuple[int, str]]:
 
 
 def find_bad_bytes(data: bytes) -> Flaw | None:
-    """Return the first line of a file whose bytes are no text in its encoding."""
+    """Return the first line of a file that cannot be decoded."""
     text = number_lines(data.decode("utf-8-sig", "replace"))
     try:
         encoding, _ = tokenize.detect_encoding(BytesIO(data).readline)

@@ -72,7 +72,7 @@ class GivenChange:
 
     @property
     def outside(self) -> str:
-        """Return a sentence about a line of a TODO's function outside its region, or nothing.
+        """Return a sentence about a line of a TODO's function outside its region, or an empty text.
 
         A line that was added above the region is a helper, and is allowed.
         """
@@ -129,7 +129,7 @@ def outside(text: str) -> list[str]:
 
 
 def compare_file(file: str, text: str, given: str) -> Iterator[GivenChange]:
-    """Yield the changes in a file; if it is no Python, the file as a whole."""
+    """Yield the changes in a file; if it is not Python, the file as a whole."""
     body = statements(text)
     lines, right = text.splitlines(), given.splitlines()
     if not body:
@@ -199,7 +199,7 @@ def with_regions(given: tuple[str, ...], theirs: Sequence[str]) -> tuple[str, ..
 def first_difference(mine: Sequence[str], given: Sequence[str]) -> tuple[int, str, str]:
     """Return the index of the first line that differs, that line, and the given one.
 
-    A line that occurs as often as in the given code has been moved; it is both of these.
+    A line that occurs as often as in the given code was moved; then it is both of these.
     """
     own, right = list(islice(code_lines(mine), MAX_COMPARED)), list(code_lines(given))
     matcher = SequenceMatcher(None, [line for _, line in own], [line for _, line in right], False)
@@ -250,7 +250,7 @@ def given_pieces(text: str) -> dict[str, Piece]:
 
 
 def with_markers(found: dict[str, Piece], text: str) -> dict[str, Piece]:
-    """Return the pieces, each with a last region after its last statement."""
+    """Return the pieces, each with a final region after its last statement."""
     lines = text.splitlines()
     regions = sorted(read_regions(text)[0], key=lambda each: each.start)
     code = list(accumulate(map(is_code, lines), initial=0))  # lines of code before each line
@@ -276,7 +276,7 @@ def indent_of(line: str) -> int:
 
 
 def pieces(body: Iterable[ast.stmt], owner: str = "") -> dict[str, Piece]:
-    """Return functions, constants and classes by name; of two, the last one counts."""
+    """Return functions, constants and classes by name; the last one of a name counts."""
     found: dict[str, Piece] = {}
     for node in body:
         start, stop = first_line(node) - 1, node.end_lineno or node.lineno
@@ -304,7 +304,7 @@ def names_in(target: ast.expr) -> str:
 
 
 def meaning_of(lines: Sequence[str]) -> str:
-    """Return a text that is equal for two pieces that differ in layout and comments alone."""
+    """Return a text that does not depend on the layout and comments of a piece."""
     body = statements(shift_left(lines))
     for node in body:
         if isinstance(node, Definition) and ast.get_docstring(node, clean=False) is not None:
@@ -340,7 +340,7 @@ def imported_names(body: Iterable[ast.stmt]) -> set[str]:
 def missing_imports(body: list[ast.stmt], given: str, passed_on: bool) -> Iterator[str]:
     """Yield the given imports of names that this file reads but does not define.
 
-    Of a file that passes its names on, yield all missing imports.
+    For a file that re-exports its names, yield all missing imports.
     """
     bound = imported_names(body) | pieces(body).keys()
     read = {node.id for node in ast.walk(ast.Module(body, [])) if isinstance(node, ast.Name)}

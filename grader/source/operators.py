@@ -1,6 +1,6 @@
 """Make small changes to code: swap, drop, shift or negate one thing at a time.
 
-Each operator takes one node of the syntax tree and yields others for its place. The result is code
+Each operator takes one node of the syntax tree and yields others to replace it. The result is code
 that a hurried student could have written, and that a good check should notice.
 """
 
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 Code = list[ast.stmt]
-Offer = ast.AST | Code  # for the place of one node
+Offer = ast.AST | Code  # replacements of one node
 Operator = Callable[[ast.AST, frozenset[str]], Iterator[Offer]]
 
 ARITHMETIC: dict[type[ast.operator], type[ast.operator]] = {
@@ -28,7 +28,7 @@ COMPARISONS: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
     ast.Eq: (ast.NotEq,),
     ast.NotEq: (ast.Eq,),
 }
-NAMES = (  # variables and functions that are easily taken for one another
+NAMES = (  # variables and functions that are easily confused
     ("max", "min"),
     ("a", "b"),
     ("ra", "rb", "axis"),
@@ -129,7 +129,7 @@ def parse_expression(text: str) -> ast.expr:
 
 
 class Replacer(ast.NodeTransformer):
-    """Put one expression in the place of another wherever its value is used."""
+    """Replace one expression by another wherever its value is used."""
 
     def __init__(self, old: str, new: str) -> None:
         self.old = old
@@ -146,13 +146,13 @@ class Replacer(ast.NodeTransformer):
 
 
 def change_arithmetic(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `+` for `-`, `*` for `/`, and `*` for `**`."""
+    """Replace `-` by `+`, `/` by `*`, and `**` by `*`."""
     if isinstance(node, ast.BinOp) and type(node.op) in ARITHMETIC:
         yield ast.BinOp(node.left, ARITHMETIC[type(node.op)](), node.right)
 
 
 def change_comparison(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `<=` or `>` for `<`, and so on."""
+    """Replace `<` by `<=` or `>`, and so on."""
     if isinstance(node, ast.Compare) and len(node.ops) == 1:
         for other in COMPARISONS.get(type(node.ops[0]), ()):
             yield ast.Compare(node.left, [other()], node.comparators)
@@ -184,7 +184,7 @@ def related_names(name: str, groups: Iterable[tuple[str, ...]]) -> list[str]:
 
 
 def unwrap(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `x` for `-x`, `not x`, `abs(x)` and any other call with one argument."""
+    """Replace `-x`, `not x`, `abs(x)` and any other call with one argument by `x`."""
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.Not):
         yield node.operand
     if isinstance(node, ast.Call) and len(node.args) == 1 and not node.keywords:
@@ -209,7 +209,7 @@ def swap_neighbours(items: list[ast.expr]) -> Iterator[list[ast.expr]]:
 
 
 def change_update(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `-=` or plain `=` for `+=`, and so on."""
+    """Replace `+=` by `-=` or plain `=`, and so on."""
     if isinstance(node, ast.AugAssign):
         if type(node.op) in ARITHMETIC:
             yield ast.AugAssign(node.target, ARITHMETIC[type(node.op)](), node.value)
@@ -217,7 +217,7 @@ def change_update(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
 
 
 def change_condition(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Negate a condition, or put `if` for `while`."""
+    """Negate a condition, or replace `while` by `if`."""
     if isinstance(node, ast.If):
         yield ast.If(ast.UnaryOp(ast.Not(), node.test), node.body, node.orelse)
     if isinstance(node, ast.While):
@@ -228,7 +228,7 @@ def change_condition(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
 
 
 def change_statement(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Leave out a statement or only its condition, run it twice, or return before it."""
+    """Remove a statement or only its condition, run it twice, or return before it."""
     if isinstance(node, ast.stmt):
         yield []
     if isinstance(node, ast.If) and not node.orelse:
@@ -240,7 +240,7 @@ def change_statement(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
 
 
 def cut_loop_short(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Leave out the first or the last item of a loop, or stop after one pass or a few."""
+    """Skip the first or the last item of a loop, or stop after one pass or a few."""
     if isinstance(node, ast.While):
         yield ast.While(node.test, [*node.body, ast.Break()], node.orelse)
     if isinstance(node, ast.For):

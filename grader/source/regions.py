@@ -19,7 +19,7 @@ MAX_SHAPE = 32 * 1024  # characters of a region or function that is parsed
 CHAIN = re.compile(r"(?:\.[\s\\]*+\w++[\s\\]*+){50}")
 # Encodings that editors write; others may take long to read.
 USUAL = re.compile(r"iso8859-\d+|cp\d+|koi8-[ru]|mac-\w+|gb\w+|big5\w*|shift_jis\w*|euc_\w+")
-TODO_ID = r"[0-9]+[a-z]?|B[0-9]+"  # the ids of TODOs, here and nowhere else
+TODO_ID = r"[0-9]+[a-z]?|B[0-9]+"  # the ids of TODOs, defined only here
 START = re.compile(rf"[ \t]*# TODO (?P<id>{TODO_ID}): (?P<task>\S.*)$")
 END = re.compile(rf"[ \t]*# END TODO (?P<id>{TODO_ID})\s{{0,80}}$")
 # A mistyped marker: an id with a colon, or at the end.
@@ -28,7 +28,7 @@ MEANT = re.compile(
 )
 # Characters that end a line for `str.splitlines` and not for Python, which refuses them in code.
 NO_END = dict.fromkeys(map(ord, "\v\x1c\x1d\x1e\x85\u2028\u2029"), "\u2424")
-# Python reads it as a space, and at the start of a line as nothing, with the spaces before it.
+# Python reads it as a space; at the start of a line, it and the spaces before it do not count.
 PAGE_BREAK = re.compile(r"(?P<start>^[ \t\f]*\f)|\f", re.MULTILINE)
 
 
@@ -48,12 +48,12 @@ class Region:
 
     @property
     def shape(self) -> str:
-        """Return the region's code without comments and layout; its text if it is no Python."""
+        """Return the region's code without comments and layout; its text if it is not Python."""
         return shape_of("\n".join(self.lines))
 
 
 def shape_of(source: str) -> str:
-    """Return a text that is equal for two pieces of code that differ in layout alone."""
+    """Return a text that does not depend on the layout of a piece of code."""
     text = textwrap.dedent(source)
     tree = parse(text, MAX_SHAPE)
     with suppress(ValueError, RecursionError, MemoryError):
@@ -62,9 +62,9 @@ def shape_of(source: str) -> str:
 
 
 def parse(text: str, most: int = MAX_SOURCE) -> ast.Module | None:
-    """Return the tree of a source text; None if it is no Python, or too long.
+    """Return the tree of a source text; None if it is not Python or too long.
 
-    The judge parses students' code here and nowhere else.
+    The judge parses students' code only here.
     """
     if len(text) > most or CHAIN.search(text):
         return None

@@ -1,9 +1,9 @@
 """Replace code that Python refuses, so that the rest can run.
 
-Python refuses the whole of a file with one missing bracket, and each program that imports it. So
-parts of it are replaced until it parses: TODO regions by the handed-out stubs, one at a time and
-then several; other functions by the given ones; then all of the file but its regions. Lines keep
-their numbers if possible.
+For one missing bracket, Python refuses a whole file and each program that imports it. So parts of
+the file are replaced until it parses: TODO regions by the handed-out stubs, one at a time and then
+several; other functions by the given ones; then all of the file but its regions. Lines keep their
+numbers if possible.
 """
 
 import ast
@@ -21,8 +21,8 @@ from grader.source.regions import parse, read_regions, regions_in, replace_regio
 MAX_REPAIR = 4 * 1024 * 1024  # characters that are parsed to repair one submission
 MAX_FUNCTIONS = 200  # of a file
 NEAREST = 8  # parts of a file that are replaced in pairs
-REFUSED = "\0"  # no file of Python may have one
-OUTSIDE = ""  # in the place of a TODO's id: the flaw is in no TODO
+REFUSED = "\0"  # not allowed in a Python file
+OUTSIDE = ""  # instead of a TODO's id: the flaw is in no TODO
 
 MAIN = 'if __name__ == "__main__":'
 CLASS = re.compile(r"class[ \t]+(\w+)")
@@ -51,7 +51,7 @@ class Patch:
     stop: int
     lines: tuple[str, ...]
     todo: str = OUTSIDE  # the TODO whose code is replaced
-    invented: bool = False  # the new lines are no given code
+    invented: bool = False  # the new lines are not given code
 
     def distance(self, line: int) -> tuple[bool, int]:
         """Return a sort key for the distance from a line; a patch after the line comes last."""

@@ -1,6 +1,6 @@
 """Find lines of a TODO's region that look wrong: handed-out lines, dead code, lost values.
 
-The text alone decides. Where a line can be left out, a run without it shows if that helps.
+Only the text decides. If a line can be removed, a run without it shows whether that helps.
 """
 
 import ast
@@ -145,7 +145,7 @@ def dump(node: ast.stmt) -> str:
 
 
 def find_idle(code: RegionCode) -> Suspect | None:
-    """Return the first line that computes a value, keeps it nowhere and does nothing else."""
+    """Return the first line that only computes a value and does not store it."""
     pure = PURE | {each.name for each in code.nodes if is_pure(each)}
     idle = [n.lineno for n in code.nodes if isinstance(n, ast.Expr) and is_idle(n.value, pure)]
     if not idle:
@@ -186,7 +186,7 @@ def is_idle(value: ast.expr, pure: Collection[str]) -> bool:
 
 
 def find_dead_end(code: RegionCode) -> Suspect | None:
-    """Return the first statement that ends its block although more of the region follows."""
+    """Return the first statement that ends its block before the rest of the region."""
     for block in list_blocks(code.function) if code.function and code.body else ():
         for last, never in pairwise(block):
             if is_end(last) and code.has_line(last.lineno) and code.has_line(never.lineno):
@@ -216,7 +216,7 @@ def is_end(node: ast.stmt) -> bool:
 def find_rebound(code: RegionCode) -> Suspect | None:
     """Return the line that gives another value to an argument whose fields are read.
 
-    An argument that is a number may well get another value.
+    An argument that is a number may get another value.
     """
     if code.function is None:
         return None
@@ -279,7 +279,7 @@ def find_needed(node: ast.AST, assigned: str = "") -> Iterator[str]:
 
 
 def find_assigned(node: ast.AST) -> str:
-    """Return the one name to which an assignment, or an `if` of such, gives a value; or nothing."""
+    """Return the one name that an assignment, or an `if` of assignments, sets; or None."""
     match node:
         case ast.Assign([ast.Name(name)]) | ast.AugAssign(ast.Name(name)):
             return name
