@@ -30,11 +30,11 @@ TOO_LONG = (
 
 
 def chosen(every: list[Member]) -> list[Member]:
-    """Return what `make test` has time for: one member of each group, and the lesson's program.
+    """Return the members for `make test`: one of each group, and the lesson's program.
 
-    The wrong members of a program are a group, and those of bonus tasks and in a single file are
-    others. The hash of its name decides on a member, so that a new one replaces one at most.
-    `make verify`, a CI job of its own, grades all members.
+    The wrong members of a program form a group, as do those of bonus tasks and single files.
+    Members are chosen by the hash of their names, so that a new one replaces at most one. `make
+    verify`, a CI job of its own, grades all members.
     """
     programs = {todo.id: todo.module for todo in load_rubric().todos}
     groups: dict[tuple[str, str], list[Member]] = {}
@@ -52,7 +52,7 @@ def chosen(every: list[Member]) -> list[Member]:
 
 
 def draw(member: Member) -> float:
-    """Return a number from 0 to 1 that belongs to its name."""
+    """Return a number from 0 to 1 that depends on its name."""
     return int(sha256(named(member).encode()).hexdigest()[:12], 16) / 16**12
 
 

@@ -1,4 +1,4 @@
-"""Test what the first failure says of a half-way state."""
+"""Test the words of the first failure of a half-way state."""
 
 from hashlib import sha256
 from pathlib import Path
@@ -42,7 +42,7 @@ def test_there_are_states_of_every_todo_and_each_can_be_built(tmp_path: Path):
         state.build(tmp_path / state.name)
 
 
-# ---------------------------------------------------------------- what is told
+# ---------------------------------------------------------------- messages
 
 
 def seen(disc: Disc, **changes: float) -> Observation:
@@ -83,7 +83,7 @@ def test_what_no_mistake_explains_is_narrowed_down():
 
 
 def test_a_tie_names_nothing():
-    """A on its arm's own axis: no spin term, or only the one of B, which is static, come to one."""
+    """A's arm is along the axis and B is static: no spin term and only B's give the same result."""
     a, b, axis = Lever(2.0, 10.0, 10.0, 0.0), Lever(0.0, 100.0, 30.0, -100.0), (0.0, 1.0)
     asked = [(a._replace(rx=rx), b, axis) for rx in (5.0, 10.0, 15.0)]
     words = told("2", [Observation("effective_mass", each, 0.5) for each in asked])
@@ -126,7 +126,7 @@ def test_a_renamed_method_is_told_with_both_names(tmp_path: Path):
 
 
 def test_what_was_handed_out_is_nobodys_new_name(tmp_path: Path):
-    """circle_circle is much like circle_box, and was there before."""
+    """circle_circle is similar to circle_box, but was handed out."""
     text = "def circle_circle(a, b):\n    pass\n"
     assert "circle_box" not in names_of(tmp_path, text)
 

@@ -96,7 +96,7 @@ def test_arguments_whose_order_does_not_matter_stay_where_they_are():
     assert "max(w, u)" not in {change for _, change in make_changes("max(u, w)")}
 
 
-# ---------------------------------------------------------------- which there are
+# ---------------------------------------------------------------- making them
 
 
 def test_every_mutant_is_other_code_and_none_is_the_solution():
@@ -131,7 +131,7 @@ def test_few_are_listed_as_equivalent():
     assert sum(map(is_equivalent, list_mutants())) < 0.08 * len(list_mutants())
 
 
-# ---------------------------------------------------------------- what is said of them
+# ---------------------------------------------------------------- messages
 
 
 def test_what_a_mutant_loses_decides_what_is_said_of_it():
@@ -195,7 +195,7 @@ def test_a_division_by_a_k_of_0_is_told_from_one_that_always_fails():
     )
 
 
-# ---------------------------------------------------------------- what comes of them
+# ---------------------------------------------------------------- grading
 
 
 def the_one(todo: str, now: str) -> Mutant:
@@ -242,7 +242,7 @@ def first_of(todo: str):
 
 @pytest.mark.soak
 def test_mutants_listed_as_equivalent_lose_nothing():
-    """Grade each that is listed by its lines, and of the others one for each entry and TODO."""
+    """Grade each mutant listed by its lines, and one for each other entry and TODO."""
     chosen = {
         (entry.why, each.todo, each.now if (each.was, each.now) in entry.changes else ""): each
         for entry in load_equivalents()

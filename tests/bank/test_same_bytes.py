@@ -1,7 +1,6 @@
-"""A submission has the same result, byte by byte, whatever else the machine does and knows.
+"""Test that results are the same, byte by byte, on a busy machine and with any memory.
 
-That is for any number of checks at a time, with and without the memory of passed programs, and
-beside programs that take all the time they get.
+The number of checks at a time varies, as do the memory of passed programs and the machine's load.
 """
 
 import subprocess
@@ -35,7 +34,7 @@ def choose_members() -> list[Member]:
 
 @pytest.fixture(scope="module")
 def passed(tmp_path_factory: pytest.TempPathFactory) -> PassedPrograms:
-    """Programs that have passed: the members of this file add to them, one after the other."""
+    """Passed programs, shared by the members of this file, which add to them."""
     return PassedPrograms(tmp_path_factory.mktemp("passed"))
 
 

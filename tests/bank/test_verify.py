@@ -37,12 +37,12 @@ RIGHT = Result(1, "ann", 100, 100, 16, [], [])
 BANK = [Member("right", name, "package", Entry(), None) for name in ("a", "b", "c", "d")]
 
 
-# ---------------------------------------------------------------- what is kept
+# ---------------------------------------------------------------- records
 
 
 @pytest.fixture
 def graded(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """List the names of the members that are graded; they get what they must, but for z."""
+    """List the names of graded members; all but z get the right marks."""
     names = []
 
     def grade_all(chosen: list[Member], jobs: int, passed: object) -> Iterator[Verdict]:
@@ -185,7 +185,7 @@ def test_a_half_way_state_is_judged_again_once_its_words_change(tmp_path: Path, 
     assert not verdict.earlier
 
 
-# ---------------------------------------------------------------- what is counted
+# ---------------------------------------------------------------- counts
 
 
 def test_every_kind_is_counted_by_itself():
@@ -253,7 +253,7 @@ def test_a_ladder_must_rise_from_nothing_to_all(tmp_path: Path, points, complain
 
 @pytest.fixture
 def shared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Make a folder in the place of those where every account may write."""
+    """Replace the folders where every account may write by a new one."""
     folder = tmp_path / "shared"
     folder.mkdir()
     monkeypatch.setattr(traces, "OPEN_TO_ALL", (str(folder),))
@@ -316,7 +316,7 @@ def test_processes_and_descriptors_left_open_are_seen(tmp_path: Path):
 
 
 def test_members_that_leave_files_name_them_after_themselves():
-    """Or else the watch could not tell them from those of other programs."""
+    """Otherwise the watch could not separate them from files of other programs."""
     open_to_all = re.compile(
         "|".join(map(re.escape, (*traces.OPEN_TO_ALL, "expanduser", "home()")))
     )

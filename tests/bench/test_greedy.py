@@ -12,7 +12,7 @@ from grader.judge.grade import KIT
 from grader.protocol import Limits
 
 MOST_CPU = 120.0  # s, of one submission: see grader/judge/budget.py
-GREEDY = {  # in the place of every TODO
+GREEDY = {  # code of every TODO
     "fork bomb": """
 import os
 while True:

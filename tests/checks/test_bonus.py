@@ -1,4 +1,4 @@
-"""Bonus tasks: graded like all others, and no part of any sum."""
+"""Test that bonus tasks are graded like all others, and count in no sum."""
 
 import base64
 import io
@@ -31,7 +31,7 @@ from grader.report.terminal import Printer, show_next
 
 BONUS = frozenset(todo.id for todo in load_rubric().todos if todo.bonus)
 WORTH = {"B1": 4, "B2": 3, "B3": 4, "B4": 2, "B5": 2, "B6": 1}
-RUNNER = dict.fromkeys(NEEDED.values(), "x")  # what Classroom 50 tells about a submission
+RUNNER = dict.fromkeys(NEEDED.values(), "x")  # what Classroom 50 passes for a submission
 
 
 def graded(folder: Path, only: frozenset[str] = frozenset()) -> Result:
@@ -40,9 +40,9 @@ def graded(folder: Path, only: frozenset[str] = frozenset()) -> Result:
 
 @pytest.fixture(scope="module")
 def without_bonus(solution: Result, tmp_path_factory: pytest.TempPathFactory) -> Result:
-    """Grade the solution of somebody who did no bonus task.
+    """Grade the solution without bonus tasks.
 
-    Graded again is the program as a whole, which bonus code would be run in, if any were.
+    It grades the program as a whole again, which would run bonus code.
     """
     folder = tmp_path_factory.mktemp("none") / "ann"
     again = graded(mixed(folder, "solution", "starter", BONUS), frozenset({"whole", *BONUS}))
@@ -92,7 +92,7 @@ def test_nobody_needs_a_bonus_for_full_marks(without_bonus: Result):
 def test_bonus_tasks_earn_their_points_in_an_unfinished_engine(
     tmp_path: Path, some: frozenset[str]
 ):
-    """The reference stands in for all that is not done."""
+    """The reference replaces all unfinished TODOs."""
     result = graded(mixed(tmp_path / "ben", "starter", "solution", BONUS), some)
     worth = {todo: points for todo, points in WORTH.items() if todo in some}
     assert {todo.id: todo.points for todo in result.todos} == worth
@@ -100,7 +100,7 @@ def test_bonus_tasks_earn_their_points_in_an_unfinished_engine(
 
 
 def test_a_picture_that_changes_by_itself_says_nothing_of_the_drawing(tmp_path: Path):
-    """A counter on the screen is something new in every frame, too."""
+    """A counter on the screen also changes in every frame."""
     folder = mixed(tmp_path / "cy", "solution", "starter", frozenset({"B5"}))
     window, loop = (folder / "mini_engine" / each for each in ("bonus/window.py", "game_loop.py"))
     stub = "    # TODO B5: draw between steps\n"

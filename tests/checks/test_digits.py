@@ -1,4 +1,4 @@
-"""*Expected* and *Got* are never the same text, nor told apart by what says nothing."""
+"""Test that *Expected* and *Got* always differ, by digits that matter."""
 
 from grader.checks.digits import say_apart
 

@@ -1,4 +1,4 @@
-"""What a ball may do that touches nothing, and what no film may show."""
+"""Test the allowed motions of a free ball, and the impossible ones."""
 
 import pytest
 from counting import count_calls
@@ -83,11 +83,11 @@ def test_what_touches_something_is_pushed_and_does_not_jump(after: Moment):
 
 
 class NoLab(Decoder):
-    """A lab that nothing is asked of."""
+    """A lab that answers no request."""
 
 
 def row_of(count: int) -> list[float]:
-    """Return the balls of the scene, and so many others that fall far above the window."""
+    """Return the balls of the scene, and other balls that fall far above the window."""
     places = [*BALLS, *((100.0 * number, -1e6) for number in range(count))]
     return [number for place in places for number in (*place, 0.0, 0.0, 0.0, 0.0)]
 
@@ -104,6 +104,6 @@ def test_a_film_of_too_many_bodies_is_not_compared(count: int):
 
 
 def test_a_bob_far_away_hangs_on_no_endless_rod():
-    """A circle for each few pixels of a rod to a bob at 1e300 px is more than a day's work."""
+    """Circles every few pixels of a rod to a bob at 1e300 px would take over a day."""
     few, many = (sum(1 for _ in Disc((x, 90.0), 24.0, 0.0, True).circles()) for x in (1e5, 1e300))
     assert few == many < 1000

@@ -1,4 +1,4 @@
-"""Scenes of the whole program hold with other balls and at other times: no mark is by chance."""
+"""Test that scenes of the whole program pass with other balls and times."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -49,7 +49,7 @@ def named(value: Any) -> str:
 def test_a_scene_holds_with_other_balls_and_at_other_times(
     module: str, scene: Callable[[Lab], None], seed: int, times: float, tmp_path: Path
 ):
-    """Ask the lesson's program for a scene, with balls and a length of its own."""
+    """Run a scene of the lesson's program with other balls and another length."""
     folder = tmp_path / "lesson"
     lay_over(LESSON, folder)
     for path in folder.glob("*.py"):

@@ -1,4 +1,4 @@
-"""The sentences of mistakes.toml, and the models that recognise a mistake."""
+"""Test the sentences of mistakes.toml, and the models that recognise a mistake."""
 
 from grader.checks.mistakes import MEANINGS, meaning_of
 from grader.judge.explain.misconceptions import known_mistakes, load_known

@@ -1,4 +1,4 @@
-"""Checks run as ordinary tests, for their authors."""
+"""Test that authors can run checks as ordinary tests."""
 
 import subprocess
 import sys

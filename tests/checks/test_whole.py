@@ -1,4 +1,4 @@
-"""The checks of the program as a whole: what each needs, and whose mistakes it sees."""
+"""Test the checks of the whole program: the TODOs each needs, and the mistakes it finds."""
 
 import shutil
 from collections.abc import Iterator
@@ -14,7 +14,7 @@ from grader.judge.wall.children import Worker, start_worker
 
 WHOLE = next(todo for todo in load_rubric().todos if todo.id == "whole")
 TASKS = [todo for todo in load_rubric().todos if todo.function]
-TOGETHER = {  # TODOs without which a check fails only where others are missing as well
+TOGETHER = {  # TODOs that a check needs only if others are missing as well
     "the_picture_shows_where_the_balls_are": {"1"},
     "the_pymunk_stack_falls_when_it_is_knocked_over": {"7a", "7d"},
 }
@@ -28,14 +28,14 @@ def worker() -> Iterator[Worker]:
 
 
 def without_needs() -> Rubric:
-    """The whole alone, with checks that run whether or not a TODO is done."""
+    """Return the whole alone, with checks that run even if a TODO is unfinished."""
     checks = [msgspec.structs.replace(each, needs=[], guard=False) for each in WHOLE.checks]
     whole = msgspec.structs.replace(WHOLE, checks=checks)
     return Rubric([*TASKS, whole])
 
 
 def failing(todo: Todo, work: Path, worker: Worker) -> set[str]:
-    """The checks that fail with this TODO's stub in the place of the solution's code."""
+    """Return the checks that fail with this TODO's stub instead of the solution's code."""
     tree = work / todo.id
     shutil.copytree(KIT / "solution", tree, ignore=shutil.ignore_patterns("notebooks", ".*"))
     for path in (KIT / "starter").rglob("*.py"):
@@ -50,7 +50,7 @@ def failing(todo: Todo, work: Path, worker: Worker) -> set[str]:
 
 
 def region_of(todo: Todo, path: Path) -> str:
-    """The lines of a region with its two markers, as far to the left as they go."""
+    """Return the lines of a region with its two markers, moved to the left edge."""
     lines = path.read_text(encoding="utf-8").splitlines()
     begin = next(n for n, line in enumerate(lines) if f"# TODO {todo.id}:" in line)
     end = next(n for n, line in enumerate(lines) if f"# END TODO {todo.id}" in line)
@@ -61,7 +61,7 @@ def region_of(todo: Todo, path: Path) -> str:
 @pytest.mark.soak
 @pytest.mark.parametrize("todo", TASKS, ids=lambda todo: todo.id)
 def test_a_check_needs_what_it_fails_without(todo: Todo, tmp_path: Path, worker: Worker):
-    """Each needs exactly those TODOs without which it fails."""
+    """Each needs exactly the TODOs without which it fails."""
     needing = {
         check.id
         for check in WHOLE.checks

@@ -1,6 +1,6 @@
-"""List what a hostile submission tries, as text; `{answers}` is a file of the instructor's.
+"""List attacks of hostile submissions as text; `{answers}` is an instructor's file.
 
-Each keeps to what a student can know: the graders' own documentation and source.
+Each uses only public knowledge: the graders' documentation and source.
 """
 
 ENDS = "import os\nos._exit(0)\n"
@@ -31,7 +31,7 @@ def rk4(x, v, dt, accel):
     return stolen("rk4")(x, v, dt, accel)
 """
 
-# Takes the place of both checks in every program that runs now.
+# Replaces both checks in every running program.
 REPLACES_CHECKS = """
 import sys
 frame = sys._getframe()

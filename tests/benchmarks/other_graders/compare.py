@@ -1,4 +1,4 @@
-"""The same six checks graded by this kit and by four other graders, in turns in one run.
+"""Grade the same six checks by this kit and by four other graders, in turns in one run.
 
     .venv/bin/python tests/benchmarks/other_graders/compare.py VENV
 
@@ -39,12 +39,12 @@ ASKED = [
 POINTS = len(ASKED)
 LIMIT = 60.0  # s for a submission; a grader that takes longer is stopped
 
-Class = dict[str, str]  # what each student handed in
-Points = dict[str, float]  # what each got; whoever is missing could not be graded
+Class = dict[str, str]  # submission of each student
+Points = dict[str, float]  # points of each student; missing ones could not be graded
 
 
 class Grader(NamedTuple):
-    """Say how to lay out a class for a grader, what to run then, and where the points are."""
+    """A grader: functions to lay out a class and read the points, and the command to run."""
 
     name: str
     prepare: Callable[[Path, Class], list[str]]
@@ -135,7 +135,7 @@ def prepare_nbgrader(folder: Path, handed_in: Class) -> list[str]:
 
 
 def points_of_nbgrader(folder: Path) -> Points:
-    """Return what its gradebook says of those whose notebook it has graded."""
+    """Return the points in its gradebook of the graded notebooks."""
     ask = (
         "import json; from nbgrader.api import Gradebook\n"
         "with Gradebook('sqlite:///gradebook.db') as book:\n"
@@ -165,7 +165,7 @@ def asked(env):
 """
 NAMES = ("semi_implicit_euler", "velocity_verlet", "rk4")
 
-# In one process, so that loading it is paid for once, as by the other two.
+# In one process, so that it is loaded once, as in the other two.
 OTTER_GRADES = """
 import json, sys
 from pathlib import Path
@@ -391,7 +391,8 @@ def compare(values: list[float], ours: list[float]) -> str:
 
 
 def make_outcome_table(runs: dict[str, dict[str, Run]]) -> Table:
-    """Return what a hostile one got, after how long, and whether the next one got its own."""
+    """Return the hostile submission's points and time, and whether the next one got its own
+    points."""
     table = Table("a submission that", *runs, title=f"points of {POINTS}; it deserves 0")
     for name in next(iter(runs.values())):
         table.add_row(name, *[describe(each[name]) for each in runs.values()])
@@ -422,7 +423,7 @@ def main(
         Grader("gradescope-utils", prepare_gradescope, points_of_gradescope),
     ]
     if hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})  # for all that is started, too
+        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})  # also for started processes
     console = Console()
     console.print(make_cost_table(measure_costs(graders, size, rounds), size))
     with tempfile.TemporaryDirectory(prefix="instructor-") as temporary:
