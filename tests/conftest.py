@@ -1,4 +1,4 @@
-"""Make what tests share: what students get, changed copies of a tree, and results."""
+"""Make shared fixtures: student files, changed copies of a tree, and results."""
 
 import gc
 import os
@@ -31,11 +31,11 @@ os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 for name in ("MAKELEVEL", "MAKEFLAGS", "MFLAGS"):
-    os.environ.pop(name, None)  # that of `make test` is not the make of a student
-os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # or each of many commands compiles the kit anew
+    os.environ.pop(name, None)  # students do not run below `make test`
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # otherwise each command compiles the kit again
 sys.dont_write_bytecode = False
 
-settings.register_profile(  # nothing that a busy machine can be too slow for
+settings.register_profile(  # enough for a busy machine
     "any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.load_profile("any machine")
@@ -48,11 +48,12 @@ Once = Callable[[str, Callable[[Path], object]], Path]
 Part = TypeVar("Part", TodoResult, CheckResult)
 RECORDED = {"1", "5", "8b"}  # TODOs whose right runs are recorded
 FEW_CASES = 3  # of each question for practice
-LONGEST = 1800  # s that a process waits for what another one makes
+LONGEST = 1800  # s that a process waits for another one's result
 
 
 def pytest_configure() -> None:
-    """Look for no garbage: collecting makes none, and looking takes a third of its time."""
+    """Switch off garbage collection: test collection makes no garbage, and it takes a third of the
+    time."""
     gc.disable()
 
 
@@ -63,7 +64,7 @@ def pytest_collection_finish() -> None:
 
 @pytest.fixture(scope="session")
 def handed_out(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Make a student's folder in which nothing is done yet: the starter, and what is laid in."""
+    """Make a student's folder with no work: the starter and the added files."""
     folder = tmp_path_factory.mktemp("handed-out")
     for name, path in list_students_files(KIT).items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -73,7 +74,7 @@ def handed_out(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def hand_in(tmp_path: Path) -> HandIn:
-    """Make a submission: a tree (or nothing), with files put in or, given None, left out."""
+    """Make a submission: a tree (or nothing), with files added or, given None, removed."""
 
     def make(base: str | None = None, **files: str | None) -> Path:
         folder = tmp_path / "handed-in"
@@ -95,7 +96,7 @@ def hand_in(tmp_path: Path) -> HandIn:
 
 @pytest.fixture(scope="session")
 def once(tmp_path_factory: pytest.TempPathFactory) -> Once:
-    """Have a folder filled once by one of the processes that run the tests, and read by all."""
+    """Fill a folder once, by one of the test processes, for all of them."""
     top = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
         top = top.parent
@@ -132,7 +133,7 @@ def wait_for(path: Path) -> None:
 
 @pytest.fixture(scope="session")
 def handout_pages(once: Once) -> Path:
-    """Write the pages of the handouts as students have them, those about engines included."""
+    """Write the pages of the handouts as students get them, including those about engines."""
 
     def fill(folder: Path) -> None:
         write_pages(KIT / "handouts", folder, FULL)
@@ -143,9 +144,9 @@ def handout_pages(once: Once) -> Path:
 
 @pytest.fixture(scope="session")
 def solution(starter: Result) -> Result:
-    """Return the result that the solution must get, made of the starter's without grading it.
+    """Return the solution's expected result, made from the starter's without grading.
 
-    That the solution gets it is asked by `make verify` and by `solution_graded`.
+    `make verify` and `solution_graded` check that the solution really gets it.
     """
 
     def with_full_marks(part: Part) -> Part:
@@ -173,7 +174,7 @@ def starter(once: Once) -> Result:
 def expected_runs(once: Once) -> bytes:
     """Record the solution's runs of some TODOs, for students' copies of the grader.
 
-    Those of a contact, of the damping and of an integrator, which tests look at.
+    They are those of a contact, the damping and an integrator, which tests use.
     """
 
     def fill(folder: Path) -> None:
@@ -186,7 +187,7 @@ def expected_runs(once: Once) -> bytes:
 
 @pytest.fixture(scope="session")
 def practice_file(once: Once, solution: Result) -> bytes:
-    """Make what a release has for practice, with fewer cases."""
+    """Make a release's practice file, with fewer cases."""
 
     def fill(folder: Path) -> None:
         with pytest.MonkeyPatch.context() as patch:
@@ -214,6 +215,6 @@ def result_of(tree: str, once: Once, todos: tuple[str, ...] = ()) -> Result:
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    """Open a browser, where this machine has one."""
+    """Open a browser, if this machine has one."""
     with chromium() as browser:
         yield browser

@@ -1,4 +1,5 @@
-"""A pool of processes that grade nothing and may fall over; a small file, since each loads it."""
+"""Pools of processes that grade nothing and may crash. The file is small, since each process loads
+it."""
 
 import os
 import signal
@@ -13,21 +14,21 @@ from grader.report.files import as_json
 
 
 def result_of(package: Package) -> bytes:
-    """A result that depends on the files and the name, as a real one does."""
+    """Return a result that depends on the files and the name, like a real one."""
     points = len(package.files)
     todo = TodoResult("8a", "", "passed" if points else "not yet", points, 2, None, [])
     return as_json(Result(1, package.name, points, 2, 0, ["processes"], [todo]))
 
 
 def stand_in(package: Package, options: Options) -> Answer:
-    """Instead of grading: what some submissions do to the process that grades them."""
+    """Replace grading by effects of some submissions on their process."""
     kind, held = package.name.partition("-")[0], []
     if kind.startswith("killer"):
         os.kill(os.getpid(), signal.SIGKILL)
     if kind == "raiser":
         raise ValueError("the judge fell over")
     if kind == "worker" and os.fork():
-        os.wait()  # the work is another process's
+        os.wait()  # another process does the work
     while kind in ("looper", "worker"):
         pass
     while kind == "eater":

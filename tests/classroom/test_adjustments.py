@@ -1,4 +1,4 @@
-"""Decisions about points: applied on top of the checks, with their reasons, and never lost."""
+"""Test decisions about points: applied after the checks, with reasons, and never lost."""
 
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
@@ -83,7 +83,7 @@ def test_rules_of_lateness(tmp_path, rules, after, earned, points):
     ],
 )
 def test_decisions_count_in_the_order_of_the_file(tmp_path, decisions, points, reasons):
-    """The learning system marked it late without a time, which is one day."""
+    """The learning system marked it late without a time, which counts as one day."""
     decided = final(tmp_path, LATE + decisions, late=True)
     assert (decided.points, list(decided.reasons)) == (points, reasons)
 
@@ -94,7 +94,7 @@ def test_an_extension_is_the_students_own_date(tmp_path):
     assert on_time.points == 80 and on_time.due == DUE + timedelta(days=2)
     assert on_time.reasons == ("due 2026-05-06 22:00 +00:00: ill",)
     assert final(tmp_path, text, handed_in=DUE + timedelta(days=2, seconds=1)).points == 70
-    assert final(tmp_path, text, late=True).points == 80  # late, and nobody knows by how much
+    assert final(tmp_path, text, late=True).points == 80  # late by an unknown time
 
 
 def test_points_by_hand_are_the_mark_of_what_could_not_be_graded(tmp_path):

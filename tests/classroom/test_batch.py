@@ -1,4 +1,4 @@
-"""Grading a class: what is kept, what is graded again, and what survives a kill."""
+"""Test grading a class: kept results, repeated grades, and recovery from a kill."""
 
 import ast
 import csv
@@ -42,7 +42,7 @@ ONLY_8A = Options(shipped_reference(), only=frozenset({"8a"}))  # a second inste
 
 
 class Inline:
-    """Grades at once, and remembers whom."""
+    """Grades at once, and records the names."""
 
     def __init__(self) -> None:
         self.names: list[str] = []
@@ -58,7 +58,7 @@ class Inline:
 
 
 class InThisProcess(Inline):
-    """Grades in earnest."""
+    """Really grades."""
 
     def submit(self, package: Package) -> "Future[Answer]":
         future: Future[Answer] = Future()
@@ -79,7 +79,7 @@ def start(intake: Intake, classroom: Path) -> Run:
 
 
 def graded(classroom: Path, key: str = "key", adjustments: Adjustments | None = None) -> Run:
-    """One run; `.names` of its executor are those that were graded anew."""
+    """Run once; the executor's `.names` are the newly graded ones."""
     executor = Inline()
     with open_class(classroom) as intake:
         run = Run(intake, Book(classroom.parent / "out"), key, adjustments or Adjustments())
@@ -88,7 +88,7 @@ def graded(classroom: Path, key: str = "key", adjustments: Adjustments | None = 
     return run
 
 
-# ---------------------------------------------------------------- how far it is
+# ---------------------------------------------------------------- progress
 
 
 @pytest.mark.parametrize("pause, lines", [(0.0, ["1 of 3, 1 graded", "2 of 3, 2 graded"]), (9, [])])
@@ -100,7 +100,7 @@ def test_a_log_gets_a_line_now_and_then(classroom, monkeypatch, pause, lines):
     assert log.export_text().splitlines()[:2] == [f"grading: {line}" for line in lines]
 
 
-# ---------------------------------------------------------------- what is kept
+# ---------------------------------------------------------------- kept results
 
 
 def test_only_what_changed_is_graded_again(classroom):
@@ -221,7 +221,7 @@ def test_whatever_goes_wrong_with_one_the_others_are_graded(classroom, monkeypat
 
 
 def test_names_that_are_no_text_are_graded(classroom):
-    """Of a file, or of a folder around one: another machine's letters, or what a terminal obeys."""
+    """Names of files or folders in another machine's encoding, or with terminal controls."""
     add_odd_names(classroom / "ben")
     run = graded(classroom)
     assert run.names == ["ann", "ben", "cem"]
@@ -338,19 +338,19 @@ def test_a_kill_in_the_middle_and_a_rerun_are_an_undisturbed_run(tmp_path, monke
     process.kill()
     process.wait()
     stands = len(list(results.glob("*.json")))
-    until(lambda: all(map(has_ended, family)))  # nobody works on without a parent
+    until(lambda: all(map(has_ended, family)))  # no process continues without its parent
 
     done = subprocess.run(command(tmp_path / "class"), cwd=KIT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     kept = int(done.stdout.split(" kept")[0].split()[-1])
-    assert kept in (stands, stands - 1)  # one may have been written and not yet been noted
+    assert kept in (stands, stands - 1)  # one may have been written but not yet recorded
     monkeypatch.setattr(grading, "open_executor", lambda _: nullcontext(InThisProcess()))
     undisturbed = run_class(tmp_path / "undisturbed" / "class", ClassOptions(ONLY_8A), QUIET)
     assert snapshot(results) == snapshot(undisturbed.book.folder)
 
 
 def has_ended(process: psutil.Process) -> bool:
-    """Also where nobody asks how it ended, as in a container whose first process does not."""
+    """Also if no process reads its exit status, as in a container whose first process does not."""
     try:
         return not process.is_running() or process.status() == psutil.STATUS_ZOMBIE
     except psutil.NoSuchProcess:

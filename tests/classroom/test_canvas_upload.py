@@ -1,4 +1,4 @@
-"""Marks on their way into Canvas: once, to the right student, and over nobody's decision."""
+"""Test the upload of marks to Canvas: once, to the right student, overwriting no decision."""
 
 import shutil
 import sys
@@ -39,7 +39,7 @@ def server() -> Iterator[Canvas]:
 
 @pytest.fixture(scope="module")
 def graded(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A graded class: dora handed in nothing, and eve what needs review."""
+    """Make a graded class: dora handed in nothing, and eve's work needs review."""
     rows = [f'"{name.title()}, A",{n},{name},' for n, name in enumerate(STUDENTS, 1)]
     lines = ["Student,ID,SIS Login ID,Section", "    Points Possible,,,", *rows, ""]
     lab = tmp_path_factory.mktemp("class")
@@ -57,7 +57,7 @@ def graded(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def lab(graded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, server: Canvas) -> Path:
-    """The class, of which Canvas has nothing yet."""
+    """Copy the class, whose marks Canvas does not have yet."""
     monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
     monkeypatch.setattr(canvas.time, "sleep", lambda seconds: None)
     monkeypatch.setenv("CANVAS_TOKEN", TOKEN)
@@ -74,7 +74,7 @@ def decide(lab: Path, points: int) -> None:
 
 
 def upload(lab: Path, *more: object) -> tuple[str, int]:
-    """Return what is said, and the exit status."""
+    """Return the output and the exit status."""
     done = run_grader("class", "upload", lab, *more)
     assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
     assert TOKEN not in done.output
@@ -243,7 +243,7 @@ def test_without_canvasapi_it_is_said_how_to_get_it(lab: Path, monkeypatch: pyte
 def test_the_stand_in_refuses_what_canvas_refuses(server: Canvas):
     course = Course(Requester(server.base, TOKEN), {"id": 7})
     ann, *_ = there = list(course.get_assignment(9).get_submissions(per_page=100))
-    assert len(there) == 5 and ann.submission_comments is None  # more than a page; not asked for
+    assert len(there) == 5 and ann.submission_comments is None  # more than a page; not requested
     with pytest.raises(exceptions.BadRequest, match="invalid grade 'ten'"):
         ann.edit(submission={"posted_grade": "ten"})
     with pytest.raises(exceptions.BadRequest):

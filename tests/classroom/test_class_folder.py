@@ -1,4 +1,4 @@
-"""A class in a folder that remembers: no option twice, and no other course by mistake."""
+"""Test class folders, which remember options and the course."""
 
 import csv
 import re
@@ -21,7 +21,7 @@ POINTS = {"ann": 5, "ben": 10, "cem": 20}
 
 @pytest.fixture
 def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A class list, an export and a course, and a stand-in for grading."""
+    """Make a class list, an export, a course, and a stand-in for grading."""
     monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
     rows = [f"{name}@x.edu,{name.title()} Lee" for name in (*POINTS, "dora")]
     (tmp_path / "list.csv").write_text("\n".join(["Email address,Full name", *rows, ""]))

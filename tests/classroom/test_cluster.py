@@ -1,4 +1,4 @@
-"""Grading a class on a Dask cluster: two worker processes of this machine."""
+"""Test grading a class on a Dask cluster: two worker processes of this machine."""
 
 import os
 import re
@@ -44,7 +44,7 @@ def workers() -> Iterator["distributed.LocalCluster"]:
 
 @pytest.fixture
 def classroom(tmp_path: Path) -> Path:
-    """Make a class of the solution and the starter in turns, each with something of its own."""
+    """Make a class of solution and starter copies in turns, each slightly different."""
     for number in range(SIZE):
         folder = tmp_path / "class" / f"student-{number}"
         folder.mkdir(parents=True)

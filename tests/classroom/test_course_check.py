@@ -1,4 +1,4 @@
-"""What would go wrong is said before anything is graded, and all of it at once."""
+"""Test that all problems of a course are reported at once, before grading."""
 
 from pathlib import Path
 
@@ -75,7 +75,7 @@ def test_a_class_list_that_does_not_tell_people_apart(place, roster, words):
 
 
 def test_a_gradebook_without_the_assignments_column(place):
-    """The title is the course's, or that of marks.toml."""
+    """The column's title is the course's, or that of marks.toml."""
     canvas = classes.canvas(place / "other", []).replace("(77)", "(77),Essay (78)")
     for title, marking in (("Physics engine", {}), ("Essay", {"marking": "title = 'Essay'\n"})):
         marking = {name: f"{text}shares.engine = 1\n" for name, text in marking.items()}

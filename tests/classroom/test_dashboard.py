@@ -1,4 +1,4 @@
-"""The page of a class: what it says adds up, its links lead somewhere, no word in it is obeyed."""
+"""Test the page of a class: its sums are right, its links work, and its texts are escaped."""
 
 import re
 from collections.abc import Iterator
@@ -36,7 +36,7 @@ def todo(number: int, state: State, mistake: str | None = None, words: str = "w"
 
 
 def result(student: int, words: str = "w") -> Result:
-    """Student n passes all TODOs but the first n % 15; what is wrong there changes with n."""
+    """Make the result of student n, who fails the first n % 15 TODOs, in different ways."""
     wrong = student % (TODOS + 1)
     todos = [
         todo(n, STATES[1 + (student + n) % 3] if n < wrong else "passed", None, words)
@@ -51,7 +51,7 @@ def result(student: int, words: str = "w") -> Result:
 
 
 def make_class(folder: Path, count: int, name: str = "student {:03}", words: str = "w") -> Path:
-    """Make a class in which student 3 is in trouble, 4 was late and 5 took longest."""
+    """Make a class in which student 3 has problems, 4 was late and 5 took longest."""
     outcomes = []
     with Book(folder) as book:
         for number in range(count):
@@ -192,7 +192,7 @@ def test_a_click_sorts_searches_and_shows_whom_a_count_counts(screen: Screen):
     head = screen.page.locator("#table thead th").nth(1)
     head.locator("button").click()
     falling = column(screen, 1)
-    assert falling[-1] == ""  # the one that was not graded stays at the end
+    assert falling[-1] == ""  # the ungraded one stays at the end
     numbers = [int(points) for points in falling[:-1]]
     assert numbers == sorted(numbers, reverse=True) and len(set(numbers)) > 10
     assert head.get_attribute("aria-sort") == "descending"

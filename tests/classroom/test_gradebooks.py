@@ -1,4 +1,4 @@
-"""Marks on their way into each gradebook, and who is who there."""
+"""Test writing marks into each gradebook, and matching its students."""
 
 import csv
 import io
@@ -30,7 +30,7 @@ def name_in(system: str, login: str) -> str:
 
 
 def grade_all(system: str) -> list[Outcome]:
-    """Two of one name, one that could not be read, one with points set by hand; Dora is absent."""
+    """Grade two students of one name, one unreadable and one adjusted by hand; Dora is absent."""
     return [
         Outcome(name_in(system, "ann"), points=16, max_points=FULL, final=16),
         Outcome(name_in(system, "ann2"), points=8, max_points=FULL, final=8),
@@ -71,7 +71,7 @@ def test_each_gradebook_reads_its_marks_back(tmp_path, system, monkeypatch):
     ],
 )
 def test_sheets_of_questions_have_a_column_of_their_own(tmp_path, system, column, monkeypatch):
-    """And no worksheet, whose grades would be those of the assignment."""
+    """There is no worksheet, since its grades would be those of the assignment."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "list.csv").write_text(list_class(system), encoding="utf-8")
     roster = read_roster(tmp_path / "list.csv")
@@ -86,7 +86,7 @@ def test_sheets_of_questions_have_a_column_of_their_own(tmp_path, system, column
 
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_the_number_behind_a_name_tells_two_of_one_name_apart(tmp_path, system, monkeypatch):
-    """Only Canvas's and Moodle's lists have it; other rows are left empty, and a note says so."""
+    """Only Canvas's and Moodle's lists have it; other rows stay empty, with a note."""
     monkeypatch.chdir(tmp_path)
     outcomes = [Outcome(f"Ann Lee_{n}", "", n, FULL, final=n) for n in (1, 2)]
     content, file = made(tmp_path, list_class(system), outcomes)

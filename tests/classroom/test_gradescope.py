@@ -1,4 +1,4 @@
-"""The zip for Gradescope, unpacked into a clean folder and run as Gradescope runs it."""
+"""Test the zip for Gradescope, unpacked into a clean folder and run as Gradescope does."""
 
 import json
 import os
@@ -39,7 +39,7 @@ print('{{"score": 100, "tests": []}}', flush=True)
 os._exit(0)
 """
 
-# Ends a right program that is able to do what it must not be.
+# Ends a right program that can do forbidden things.
 BURGLAR = """
 import os
 import re
@@ -68,7 +68,7 @@ def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def top(archive: Path, tmp_path: Path) -> Path:
-    """/autograder as Gradescope lays it out, with this Python in the place of the one set up."""
+    """Make /autograder as Gradescope lays it out, with this Python instead of the one set up."""
     lay_out(archive, tmp_path)
     python = tmp_path / "python" / "bin" / "python"
     python.parent.mkdir(parents=True)
@@ -89,7 +89,7 @@ def lay_out(archive: Path, top: Path) -> None:
 
 
 def hand_in(top: Path, tree: str) -> Path:
-    """What a student uploads often has a folder around it."""
+    """Uploads of students often have a folder around them."""
     target = top / "submission" / "engine"
     shutil.copytree(KIT / tree, target, ignore=shutil.ignore_patterns("__pycache__", ".*"))
     return target
@@ -163,12 +163,12 @@ def test_a_hostile_submission_cannot_reach_the_marks(top: Path):
     assert {"8a", "8b", "8c"} <= {test["number"].partition(".")[0] for test in failed}
 
 
-# ---------------------------------------------------------------- where nothing confines
+# ---------------------------------------------------------------- without confinement
 
 
 @pytest.fixture
 def open_top(archive: Path) -> Iterator[Path]:
-    """/autograder where every account may look in, with a Python that every account may run."""
+    """Make /autograder readable by every account, with a Python that every account may run."""
     python = next(filter(for_everybody, pythons()), None)
     if not sys.platform.startswith("linux") or os.geteuid() != 0 or python is None:
         pytest.skip("only root can become another user, and that one needs a Python it can read")
@@ -183,7 +183,7 @@ def open_top(archive: Path) -> Iterator[Path]:
 
 
 def pythons() -> list[Path]:
-    """This one, and the system's of the same version."""
+    """Return this Python, and the system's of the same version."""
     this = Path(sys.executable).resolve()
     return [this, Path("/usr/bin/python{}.{}".format(*sys.version_info))]
 
@@ -203,11 +203,11 @@ def test_root_without_namespaces_and_landlock_keeps_marks_and_reference(open_top
     assert "own-user" in log and "not confined here: files." in log
 
 
-# ---------------------------------------------------------------- when something is wrong
+# ---------------------------------------------------------------- errors
 
 
 def told_without_a_score(top: Path, results: dict[str, Any]) -> str:
-    """What the student reads where there is no score anywhere, so that none of 0 is counted."""
+    """Return the student's message; check that there is no score anywhere, so none counts as 0."""
     (told,) = results["tests"]
     assert "score" not in results and not {"score", "max_score"} & set(told)
     assert told["output"] == results["output"] and "no mark, and not 0 points" in told["output"]
@@ -270,7 +270,7 @@ def test_a_machine_without_a_fitting_python_is_refused(top: Path, tmp_path: Path
 
 @pytest.mark.soak
 def test_it_is_set_up_from_its_own_packages_and_grades(tmp_path: Path):
-    """With the packages in the zip nothing is fetched: the index that pip is told of is empty."""
+    """The packages are in the zip, so pip works with an empty index."""
     version = "{}.{}".format(*sys.version_info)
     try:
         write_autograder(tmp_path / "autograder.zip", Settings(), version)
@@ -287,7 +287,7 @@ def test_it_is_set_up_from_its_own_packages_and_grades(tmp_path: Path):
 
 
 def test_a_release_candidate_of_python_meets_every_marker():
-    """Ubuntu 22.04 has 3.11.0rc1, which to its pip is no full version below 3.12."""
+    """Ubuntu 22.04 has 3.11.0rc1, which its pip does not count as a full version below 3.12."""
     for path in KIT.glob("requirements*.txt"):
         core = path.name == "requirements.txt"
         markers = re.findall(r"python_full_version\s*\S+\s*'(\d+(?:\.\d+)*)'", path.read_text())

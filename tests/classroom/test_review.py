@@ -1,4 +1,4 @@
-"""Decisions about a class: in the file, on the local page, and by mail."""
+"""Test decisions about a class: in the file, on the local page, and by mail."""
 
 import csv
 import email
@@ -141,7 +141,7 @@ def test_of_long_files_only_a_part_is_kept_and_shown():
     assert show_file("report.pdf", b"%PDF-1.7", [], 9).lines == []
 
 
-# ---------------------------------------------------------------- which work is meant
+# ---------------------------------------------------------------- finding the submission
 
 
 def put(folder: Path, files: dict[str, str]) -> None:
@@ -196,7 +196,7 @@ def code(points: int) -> str:
 
 
 def lock(archive: bytes) -> bytes:
-    """Return a zip that says that it has a password."""
+    """Return a zip marked as encrypted."""
     content = bytearray(archive)
     for sign, at in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
         for found in re.finditer(re.escape(sign), archive):
@@ -433,7 +433,7 @@ def test_an_edited_draft_stays(lab: Path):
 
 
 def test_only_those_who_must_still_send_work_get_a_draft(lab: Path):
-    """Points decided are enough, work that still cannot be read is not."""
+    """Decided points are enough; unreadable work is not."""
     call_class("mail", lab)
     decision = '[[adjust]]\nstudent = "Dora Lee"\npoints = 9\nreason = "shown"\n'
     late = '[[adjust]]\nstudent = "eve"\nlate = false\nreason = "ill"\n'

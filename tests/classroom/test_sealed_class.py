@@ -1,4 +1,4 @@
-"""A class in which some submissions attack the judge: the others get what they get without them."""
+"""Test a class in which some submissions attack the judge: the others' results do not change."""
 
 import json
 import shutil
@@ -25,7 +25,7 @@ pytestmark = pytest.mark.skipif(
     sys.platform != "linux", reason="forks are watched where the system tells of all processes"
 )
 QUIET = Console(quiet=True)
-SEED = 1 << 127  # as long as those that a class draws
+SEED = 1 << 127  # as long as the sheets that a class draws
 ONLY_8A = Options(shipped_reference(), only=frozenset({"8a"}), seed=SEED)
 LITTLE = Allowance("reading it", cpu=0.3)
 GREEK = "\u0390" * 80  # each is three letters in NFKD: an honest name's worst case
@@ -41,7 +41,7 @@ def loop() -> int:
 
 
 def define_without_end(folder: Path) -> None:
-    """Write a class that is its own base in two ways, in a branch that is never run."""
+    """Write a class that is its own base in two ways, in a branch that never runs."""
     lines = ["def step():", "    pass", "if False:"]
     lines += [f"    class A{n}(A{n - 1}.a, A{n - 1}.b): pass" for n in range(1, 4000)]
     write(folder, "\n".join([*lines, "    class A0(A3999.a, A3999.b): pass", ""]))
@@ -131,7 +131,7 @@ def test_nine_attacks_leave_the_others_as_they_are(tmp_path: Path):
     assert not any(earned.values()), earned
 
 
-# ---------------------------------------------------------------- each place by itself
+# ---------------------------------------------------------------- each part by itself
 
 
 def test_an_export_that_cannot_be_listed_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

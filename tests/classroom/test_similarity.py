@@ -1,4 +1,4 @@
-"""Similar submissions: copies are shown however they are changed, others are not."""
+"""Test similar submissions: changed copies are shown, independent ones are not."""
 
 import io
 import re
@@ -31,7 +31,7 @@ from grader.intake.found import Package, Work
 from grader.intake.packing import pack
 from grader.judge.grade import KIT, Options
 
-WHOLE = [  # of the bank: written anew from end to end, each in another way
+WHOLE = [  # members of the bank, each written independently
     "whole-functional-style",
     "whole-numpy-inside",
     "whole-slots-and-floats",
@@ -42,12 +42,12 @@ WHOLE = [  # of the bank: written anew from end to end, each in another way
 
 @pytest.fixture(scope="module")
 def right(tmp_path_factory) -> dict[str, Package]:
-    """Independent right members of the bank: whole programs."""
+    """Return independent right members of the bank: whole programs."""
     return packed(tmp_path_factory.mktemp("right"), "|".join(WHOLE))
 
 
 def packed(place: Path, pattern: str) -> dict[str, Package]:
-    """The right members of the bank with such names."""
+    """Return the right members of the bank with these names."""
     found = {}
     for member in bank():
         if member.kind == "right" and re.fullmatch(pattern, member.name):
@@ -69,7 +69,8 @@ def test_independent_right_answers_stay_below_what_is_expected(right, tmp_path):
 
 
 def dressed(package: Package) -> Package:
-    """The same with other names, numbers, comments, line breaks, and the functions turned round."""
+    """Return the same code with other names, numbers, comments, line breaks and order of
+    functions."""
     files = []
     for name, content in package.files:
         text = content.decode()

@@ -1,4 +1,5 @@
-"""The instructor's guide of a term: each of its command lines runs, in order, on a tiny class."""
+"""Test the instructor's guide of a term: run each of its command lines, in order, on a tiny
+class."""
 
 import csv
 import re
@@ -51,7 +52,8 @@ def test_every_command_line_of_a_page_has_commands_and_options_that_exist(page: 
 
 
 def make_files() -> None:
-    """Write what the guide names: a class list, a course, exports and answers on paper."""
+    """Write the files that the guide names: a class list, a course, exports and answers on
+    paper."""
     rows = [f"{name}@x.edu,{name.title()} Lee" for name in NAMES]
     Path("list.csv").write_text("\n".join(["Email address,Full name", *rows, ""]))
     Path("autumn.toml").write_text(COURSE)

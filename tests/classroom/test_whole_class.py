@@ -1,4 +1,4 @@
-"""A class from the export to the gradebook and back: nobody is silently 0, nobody is lost."""
+"""Test a class from the export to the gradebook and back: no student is lost or silently 0."""
 
 import csv
 import io
@@ -34,7 +34,7 @@ SYSTEMS = list(classes.SYSTEMS)
 
 @dataclass
 class Class:
-    """A class that was graded, and who is in it."""
+    """A graded class, and its students."""
 
     system: str
     folder: Path
@@ -47,13 +47,14 @@ class Class:
         return self.run.book.folder
 
     def called(self, student: Student) -> str:
-        """Brightspace gives no identifier of the class list's: of two of one name none is known."""
+        """Brightspace has no identifier of the class list, so two students of one name do not
+        match."""
         if self.system == "brightspace" and student.full == "Ann Lee":
             return f"Ann Lee_{1001 + self.students.index(student)}-77"
         return self.name(student)
 
     def mark(self, student: Student) -> int | None:
-        """What the gradebook may say: nothing of those who could be one another."""
+        """Return the mark that the gradebook must have: none for students who may be confused."""
         known = self.called(student) == self.name(student)
         return student.mark if known else None
 
@@ -62,7 +63,7 @@ class Class:
 
 
 def name_in(system: str, student: Student) -> str:
-    """Return what the class list calls a student."""
+    """Return a student's name in the class list."""
     return student.email if system in classes.BY_EMAIL else student.login
 
 
@@ -73,7 +74,7 @@ def in_one_process(monkeypatch) -> None:
 
 
 def here(monkeypatch) -> None:
-    """Read archives in this process: `test_pieces.py` has them read as they are in earnest."""
+    """Read archives in this process: `test_pieces.py` reads them in processes, as in real use."""
     monkeypatch.setattr(repack, "set_limits", lambda seconds: None)
     make = lambda path, target, bounds: repack.main(str(path), str(target)) and []  # noqa: E731
     monkeypatch.setattr(archives, "repack_as_zip", lambda *args: make(*args) or [])
@@ -94,7 +95,7 @@ def with_list(folder: Path, roster: Path) -> ClassOptions:
 
 
 def test_people_are_listed_by_their_names_as_people_sort_and_all_of_them(tmp_path, in_one_process):
-    """Brightspace's # is no part of an identifier, and no warning ends in the middle of a list."""
+    """Brightspace's # is not part of an identifier, and no warning ends in the middle of a list."""
     names = {"a10": "Öz,Cem", "a2": "Park,Ann", "b1": "Orr,Bob"}
     absent = {f"c{number}": f"Zed,Student number {number}" for number in range(40)}
     rows = [f"#{id},{name},#" for id, name in (names | absent).items()]
@@ -130,7 +131,7 @@ def test_people_are_listed_by_their_names_as_people_sort_and_all_of_them(tmp_pat
 
 
 def result_with(**points: tuple[int, int]) -> Result:
-    """Return a result of TODOs with so many points, of a check that passed and one that did not."""
+    """Return a result whose TODOs have these points, each with a passed and a failed check."""
 
     def check(name: str, got: int, most: int) -> CheckResult:
         return CheckResult(name, name, "unit", "passed" if got else "not yet", got, most)
@@ -162,7 +163,7 @@ def test_grading_again_shows_what_changed_and_keeps_what_was(tmp_path, in_one_pr
 
     first = grade_again(5)
     assert not any(each.before or each.changed for each in first.outcomes)
-    for _ in range(2):  # the second time nothing is graded, and it is still said
+    for _ in range(2):  # the second time nothing is graded, but the note remains
         run = grade_again(9)
         ann, ben = run.outcomes
         assert ann.before == "5 / 20" and ann.changed == ["TODO 8a, A title: 5 → 9 of 20"]
@@ -282,7 +283,7 @@ def feedback_goes_back(graded: Class) -> None:
 
 
 def send_back(graded: Class, recipient: str):
-    """Write everybody's page for a recipient, into the folder around the class."""
+    """Write each student's page for a recipient, into the folder around the class."""
     lines = {"roster": graded.roster, "results": graded.results, "submissions": graded.folder}
     return run_in_class(graded.folder.parent, "feedback", "--for", recipient, **lines)
 
@@ -306,7 +307,7 @@ def test_a_column_of_ones_own_says_who_is_who(tmp_path, in_one_process):
 
 
 def grouped(roster: Path, system: str, group: list[Student], students: list[Student]) -> None:
-    """Return the class list with a column of groups, in which these are one."""
+    """Return the class list with a column of groups, in which these students form one."""
     mark = "\t" if system == "blackboard" else ","
     first, *rows = roster.read_text(encoding="utf-8").splitlines()
     own = {name_in(system, each) for each in group}
@@ -322,7 +323,7 @@ def grouped(roster: Path, system: str, group: list[Student], students: list[Stud
     sample(SYSTEMS, 9),
 )
 def test_each_of_a_group_has_a_mark_and_a_page_of_their_own(tmp_path, in_one_process, system):
-    """Kim was late and Hana handed in nothing; Ian has a decision of his own, and no files."""
+    """Kim was late, Hana handed in nothing, and Ian has his own decision and no files."""
     folder, roster, students = exported(tmp_path, system)
     by_login = {each.login: each for each in students}
     kim, hana, ian = (by_login[login] for login in ("kim", "hana", "ian"))

@@ -71,7 +71,7 @@ def test_both_files_call_the_same_commands_and_keep_the_report_whatever_the_mark
 
 @dataclass
 class Run:
-    """A run of the workflow's commands in a checkout, and what GitHub made of it."""
+    """A run of the workflow's commands in a checkout, and its results on GitHub."""
 
     checkout: Path
     status: int
@@ -97,7 +97,7 @@ def run_workflow(
 ) -> Run:
     """Run each `run` step in turn, by bash as on GitHub, until one fails.
 
-    Our own Python has the packages already, so that pip need not install any.
+    Our own Python already has the packages, so pip installs nothing.
     """
     files.mkdir()
     environment = {
@@ -147,7 +147,7 @@ def with_integrators(checkout: Path) -> Path:
 
 
 def in_agreement(run: Run) -> Run:
-    """Check that every form says the same points."""
+    """Check that every form has the same points."""
     points, most = run.result["points"], run.result["max_points"]
     assert run.result["submission"] == "cs-engine-anna"
     assert (run.outputs["points"], run.outputs["max-points"]) == (str(points), str(most))
@@ -166,7 +166,7 @@ def in_agreement(run: Run) -> Run:
 
 
 def unbegun_bonus(todo: dict[str, Any]) -> bool:
-    """Return whether a TODO is a bonus task that is not begun."""
+    """Return whether a TODO is an unstarted bonus task."""
     return is_bonus(todo["id"]) and todo["state"] == "not started"
 
 

@@ -1,4 +1,4 @@
-"""The command line as people and scripts use it."""
+"""Test the command line as people and scripts use it."""
 
 import json
 import os
@@ -150,7 +150,7 @@ def test_every_command_of_maintainers_is_one_of_the_kit():
 @pytest.mark.soak
 @pytest.mark.skipif(os.name == "nt", reason="an environment is laid out differently there")
 def test_an_installed_grader_grades_and_needs_a_checkout_for_the_rest(tmp_path: Path):
-    """Install a wheel into an environment with the same packages and without the kit."""
+    """Install a wheel into an environment with the same packages but without the kit."""
     pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
     source = tmp_path / "kit"
     shutil.copytree(KIT / "grader", source / "grader")

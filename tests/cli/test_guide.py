@@ -1,4 +1,4 @@
-"""`python -m grader` alone: the next task on the screen, and a key for each thing that helps."""
+"""Test `python -m grader` alone: the next task on the screen, and keys for help."""
 
 import io
 import os

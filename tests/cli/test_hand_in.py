@@ -1,4 +1,4 @@
-"""hand-in packs the work alone, and the instructor's side reads it."""
+"""Test that hand-in packs only the work, and that the instructor's side reads it."""
 
 import os
 import shutil

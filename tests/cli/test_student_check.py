@@ -1,4 +1,4 @@
-"""Students run `check` and `hint` from any folder, in any terminal."""
+"""Test `check` and `hint` from any folder, in any terminal."""
 
 import io
 import os
@@ -51,7 +51,7 @@ def test_a_fresh_tree_shows_every_todo_and_where_to_begin(hand_in):
     assert done.returncode == 1 and done.stderr == "" and "\x1b" not in done.stdout
     todos = " ".join(todo.id for todo in load_rubric().counted)
     assert done.stdout.startswith(f"NOT STARTED {todos} ") and len(done.stdout.splitlines()) == 4
-    assert "B1" not in done.stdout  # a bonus task is shown once it is begun
+    assert "B1" not in done.stdout  # a bonus task is shown once it is started
     lines = (tree / INTEGRATORS).read_text(encoding="utf-8").splitlines()
     (marker,) = (number for number, line in enumerate(lines, 1) if "# TODO 8a:" in line)
     place = f"{INTEGRATORS}:{marker + 2}"  # the stub's return, below its comment
@@ -115,7 +115,7 @@ def test_commands_are_shown_as_they_are_typed_here(monkeypatch, typed: list[str]
     assert command("hint", "3", 2) == "make hint TODO=3 LEVEL=2"
 
 
-# ---------------------------------------------------------------- what is next
+# ---------------------------------------------------------------- the next task
 
 
 def test_waiting_says_for_what(hand_in):
@@ -176,7 +176,7 @@ def test_a_terminal_that_knows_few_letters_gets_question_marks(hand_in):
 
 
 def is_in_a_loop(pid: int) -> bool:
-    """Return whether a child of a process has used more time than it takes to load."""
+    """Return whether a child of a process has used more time than loading takes."""
     with suppress(psutil.Error):
         children = psutil.Process(pid).children(recursive=True)
         return any(child.cpu_times().user > 1.5 for child in children)  # s, of the five it may use
@@ -224,7 +224,7 @@ try:
 except KeyboardInterrupt:
     print("heard")
 """
-    # Once as it is, and once on a machine that is so busy that a thread takes long to start.
+    # Once as usual, and once as on a busy machine, where a thread starts slowly.
     slow = """
 import threading
 start, slept = threading.Timer.start, []
@@ -251,7 +251,7 @@ def test_no_line_is_longer_than_80_columns(hand_in, monkeypatch: pytest.MonkeyPa
     monkeypatch.setenv("COLUMNS", "200")
     wide = check(Path(), "8b")
     assert max(map(len, wide.splitlines())) <= 80
-    assert re.search(r"^ {14}\S", wide, re.MULTILINE)  # words that go on below hang
+    assert re.search(r"^ {14}\S", wide, re.MULTILINE)  # continuation lines are indented
     command = [sys.executable, "-m", "grader", "check", "--todo", "8b"]
     environment = {**os.environ, "PYTHONPATH": str(KIT), "COLUMNS": "76"}  # read at the start
     narrow = subprocess.run(command, env=environment, stdout=subprocess.PIPE, text=True).stdout
@@ -323,7 +323,7 @@ def test_the_examples_do_not_depend_on_what_else_is_loaded(tmp_path: Path):
     assert len(drawn) == 1
 
 
-# ---------------------------------------------------------------- what to type
+# ---------------------------------------------------------------- commands
 
 
 @pytest.mark.parametrize(
@@ -402,7 +402,7 @@ def test_work_beside_its_region_is_not_called_changed_given_code(hand_in):
 def test_make_says_that_the_checks_are_not_installed(hand_in):
     tree = hand_in("starter")
     shutil.copyfile(KIT / "starter" / "Makefile", tree / "Makefile")
-    python = f"{sys.executable} -S"  # without what was installed
+    python = f"{sys.executable} -S"  # without the installed packages
     done = subprocess.run(
         ["make", "check", f"PYTHON={python}"], cwd=tree, capture_output=True, encoding="utf-8"
     )

@@ -1,4 +1,4 @@
-"""`check --watch` checks again what a save changed, and shows nothing out of date."""
+"""Test that `check --watch` checks changed TODOs again, and shows no outdated result."""
 
 import io
 import os
@@ -95,7 +95,7 @@ def graded(monkeypatch: pytest.MonkeyPatch) -> list[frozenset[str]]:
     return asked
 
 
-# ---------------------------------------------------------------- what is checked again
+# ---------------------------------------------------------------- repeated checks
 
 
 def test_a_finished_todo_is_told_with_its_points_and_what_is_next(open_session):
@@ -149,7 +149,7 @@ SHARE = "keep_vel = math.exp(-self.linear_damping * dt)"
 CHANGES = [
     ("starter", WORLD, put("keep_vel = 0.99", "keep_vel = 0.98"), "TODO 5: 0 of 8 as before"),
     ("solution", WORLD, put(SHARE, f"raise RuntimeError\n        {SHARE}"), "in all 10 → 2 of 10"),
-    # Given code costs the whole alone.
+    # Changed given code costs only the whole.
     ("solution", WORLD, put("self.apply_damping(dt)\n", "pass\n"), "TODO 5: 8 of 8 as before"),
     ("starter", SOLVER, lambda text: f"# mine\n{text}", "nothing new: 0 of 10 points"),
 ]
@@ -162,7 +162,7 @@ def test_each_change_is_checked_and_shown(open_session, tree, file, change, word
     assert session.is_up_to_date()
 
 
-# ---------------------------------------------------------------- what editors do
+# ---------------------------------------------------------------- editors
 
 
 def test_a_file_that_is_no_python_yet_costs_nothing(open_session, graded):
@@ -241,7 +241,7 @@ def test_files_that_come_go_and_move(open_session):
 @pytest.mark.soak
 def test_a_given_file_that_goes_is_supplied_as_it_was_handed_out(open_session):
     session = open_session("solution")
-    (session.folder / SOLVER).unlink()  # of no TODO that is asked about
+    (session.folder / SOLVER).unlink()  # of no requested TODO
     assert session.look() == "saved: mini_engine/solver.py\nnothing new: 10 of 10 points\n"
     assert session.is_up_to_date()
     (session.folder / WORLD).rename(session.folder / "mini_engine" / "worlds.py")
@@ -273,7 +273,7 @@ def test_a_tree_that_cannot_be_copied_now_is_taken_at_the_next_save(
     assert session.is_up_to_date()
 
 
-# ---------------------------------------------------------------- when it looks
+# ---------------------------------------------------------------- time of a look
 
 
 def test_a_virtual_environment_is_not_watched(hand_in):

@@ -1,4 +1,4 @@
-"""Each wrong call ends in a sentence before any work begins: no traceback, no silence, no file."""
+"""Test that each wrong call ends with a message before any work, without traceback or files."""
 
 import shlex
 import shutil
@@ -134,7 +134,7 @@ needs_make = pytest.mark.skipif(shutil.which("make") is None, reason="there is n
 
 
 class Begun(Exception):
-    """Raised where work begins."""
+    """Raised when work begins."""
 
 
 @pytest.fixture(autouse=True)

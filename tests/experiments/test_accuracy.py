@@ -1,4 +1,4 @@
-"""accuracy.py: exact answers, measured orders, costs, verdicts, and the program as a whole."""
+"""Test accuracy.py: exact answers, measured orders, costs, verdicts, and the whole program."""
 
 import json
 import math
@@ -52,7 +52,7 @@ def test_an_order_is_said_with_what_a_digit_costs(order, said):
 
 
 def test_after_whole_swings_the_errors_of_semi_implicit_euler_cancel():
-    """The handout says so: there it is as close as Verlet, and in its last swing it is not."""
+    """As the handout says: there it is as accurate as Verlet, but not during its last swing."""
     last, worst = {}, {}
     for method in smooth.METHODS[1:3]:
         x, v = integrators.X0, 0.0
@@ -248,7 +248,7 @@ def test_an_engine_that_meets_nan_or_raises_gives_up(problem, word):
 
 
 def ladder(engine, *rungs):
-    """Runs with substeps 1, 2, 4 ..., from their errors and times (ms) in each repeat."""
+    """Make runs with substeps 1, 2, 4 ..., from their errors and times (ms) in each repeat."""
     return [
         {"engine": engine, "setting": f"{2**i} substeps", "error": error, "ms": ms}
         for i, (error, ms) in enumerate(rungs)

@@ -1,4 +1,4 @@
-"""The same scenes in Box2D, where it is installed."""
+"""Test the same scenes in Box2D, if it is installed."""
 
 import math
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The compiled build of the stable engine: the same source, the same bits."""
+"""Test the compiled build of the stable engine: same source, same bits."""
 
 import importlib
 import re
@@ -63,11 +63,11 @@ def test_the_project_of_a_wheel_names_every_module_that_is_compiled(tmp_path):
     assert tomllib.loads((tmp_path / "pyproject.toml").read_text("utf-8"))["project"]["version"]
     trial = tmp_path / "trial" / "falls.py"
     assert "from stable_compiled import" in trial.read_text("utf-8")
-    assert not (trial.parent / compiled.NAME).exists()  # what it imports is what was installed
+    assert not (trial.parent / compiled.NAME).exists()  # it imports the installed package
 
 
 def stand_in(folder):
-    """A package that looks as if it were compiled: the source, but for the name of one file."""
+    """Make a package that looks compiled: the source with one file renamed."""
     package = folder / compiled.NAME
     package.mkdir()
     for name, text in sources().items():
@@ -77,7 +77,7 @@ def stand_in(folder):
 
 @pytest.fixture
 def no_package(monkeypatch):
-    """Leave no compiled package behind, neither imported nor in use."""
+    """Remove the compiled package from imports and from use."""
     monkeypatch.setattr(Compiled, "package", None)
     monkeypatch.setitem(ENGINES, "stable", Stable)
     yield

@@ -1,4 +1,4 @@
-"""The window with dials, without a window: frames, keys, figures and pictures."""
+"""Test the window with dials, without opening it: frames, keys, figures and pictures."""
 
 import itertools
 import math
@@ -90,7 +90,7 @@ def test_the_camera_shows_all_balls_at_the_start(scene):
 
 @pytest.mark.parametrize("scene", sample(NAMED, 3))
 def test_no_text_is_cut_off(scene, picture):
-    """All that the panel ever says fits beside the scene and above the help lines."""
+    """All texts of the panel fit beside the scene and above the help lines."""
     for engine in ENGINES:
         show = Show(scene, engine)
         for note in ("A body has a number that is NaN or infinite.", show.note):
@@ -324,7 +324,7 @@ def test_a_wrong_name_gets_a_sentence_with_the_right_ones(option, right, capsys)
 
 
 def run_in(tree, picture, engine, **environment):
-    """The screenshot that the window's program makes, started in a folder."""
+    """Return the screenshot that the window's program makes, started in a folder."""
     program = [sys.executable, "-m", "experiments.dials", "--scene", "lab", "--engine", engine]
     program += ["--screenshot", str(picture), "--frames", "60"]
     env = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", **environment}

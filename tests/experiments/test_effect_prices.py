@@ -1,4 +1,4 @@
-"""The price list of effects: what is counted is what runs, and what is not declared is free."""
+"""Test the price list of effects: it counts executed code, and undeclared effects are free."""
 
 import json
 import platform
@@ -28,7 +28,7 @@ HEAP = 40
 SOAK = pytest.mark.soak
 HANDOUT = KIT / "handouts" / "effects.md"
 RECORDED = json.loads((HANDOUT.parent / "results.json").read_text("utf-8"))["effects.md"]
-SHOWN = 0.005  # of a number of opcodes, which the handout has in three digits
+SHOWN = 0.005  # share of a number of opcodes, which the handout gives in three digits
 
 
 @pytest.fixture(scope="module")
@@ -123,7 +123,7 @@ def test_what_was_done_is_what_the_scene_holds(results):
 
 
 def test_prices_are_differences_and_add_up(results):
-    """The sum of the parts is the whole, to 1 %: no effect makes another one dearer."""
+    """The parts add up to the whole, within 1 %: no effect makes another more expensive."""
     for lines in prices_of(results):
         parts = sum(lines[title]["price"] for title in results["stacked"])
         assert parts == pytest.approx(lines["all of them together"]["price"], rel=0.01)
@@ -186,7 +186,7 @@ def test_no_pair_of_sleepers_is_looked_at_or_solved(results):
     assert not any(asleep["done"].values())
 
 
-# ---------------------------------------------------------------- what comes out
+# ---------------------------------------------------------------- output
 
 
 def test_everything_is_written(results, tmp_path, capsys, monkeypatch):
@@ -239,7 +239,7 @@ MEASURED_WITH = pytest.mark.skipif(
 
 
 def find_stale(results):
-    """Return what a run counts that the handout has otherwise."""
+    """Return the counts that differ from the handout."""
     lines = effects_report.make_lines(results)
     assert set(lines) <= set(RECORDED)
     del lines["python"]

@@ -1,4 +1,4 @@
-"""The window under somebody's hands: mouse, buttons, engines side by side, and strips."""
+"""Test the window in use: mouse, buttons, engines side by side, and strips."""
 
 import math
 
@@ -67,7 +67,7 @@ def on_screen(side, i):
 
 
 def click(words, comparison, picture):
-    """Press the button with these words, or with the key that it stands for."""
+    """Press the button with this label or key."""
     key = dict(drawing.BUTTONS).get(words, words)
     place = next(place for place, each in picture.buttons if each == key)
     press(place.center, comparison, picture)
@@ -123,7 +123,7 @@ def test_there_is_an_end_to_dropping():
 
 
 def test_energy_is_counted_from_the_last_touch(picture):
-    """A hand puts energy in; that is no drift of the engine's."""
+    """Dragging adds energy; that is not the engine's drift."""
     comparison = Comparison("pendulum", "stable")
     run(comparison, picture, 30)
     comparison.hand.take(comparison.first.engine, comparison.first.engine.read(1)[:2])

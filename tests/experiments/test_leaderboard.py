@@ -1,4 +1,4 @@
-"""The leaderboard: its rows, how it judges and counts, and what its page says."""
+"""Test the leaderboard: its rows, verdicts, counts and page."""
 
 import json
 import math
@@ -40,7 +40,7 @@ LESSON = Contestant("lesson", "lesson's engine", partial(make, Lesson), ("Spring
 
 
 def fall(trial, scene):
-    """How far off a ball is after two seconds of free fall."""
+    """Return a ball's error after two seconds of free fall."""
     engine = trial.build(scene)
     for _ in range(240):
         engine.step(DT)
@@ -94,7 +94,7 @@ def test_a_changed_scene_is_the_same_one_elsewhere(change):
     assert change.back(*other.gravity) == pytest.approx(scene.gravity)
 
 
-# ---------------------------------------------------------------- how it judges
+# ---------------------------------------------------------------- verdicts
 
 
 @pytest.mark.parametrize(("error", "good"), [(3.0, True), (3.1, False), ("NaN", False)])
@@ -133,7 +133,7 @@ def test_renewing_one_engine_keeps_what_the_others_came_to():
     }
     found, engines = leaderboard.renew([FALL], [STABLE], recorded)
     assert found[FALL.title] == {
-        "stable": {"substeps": ask(FALL, STABLE, 4)[0]},  # without "time", as it was recorded
+        "stable": {"substeps": ask(FALL, STABLE, 4)[0]},  # without "time", as recorded
         "box2d": {"substeps": "stopped", "time": 1.5, "fitting": 64.0},
     }
     assert {one.name: one.words for one in engines} == {
@@ -158,11 +158,11 @@ def test_as_many_substeps_as_fit_are_found(monkeypatch, each, fitting):
     assert len(asked) <= 3
 
 
-# ---------------------------------------------------------------- what comes of it
+# ---------------------------------------------------------------- results
 
 
 def found_for(*errors):
-    """What a run of FALL finds, with these errors of the two engines."""
+    """Return the findings of a run of FALL, with these errors of the two engines."""
     return {
         "a fall": {
             name: {"substeps": error, "time": error, "fitting": 4}
@@ -211,7 +211,7 @@ CELLS = RESULTS["rows"]
 
 
 def errors_of(name):
-    """What results.json has of an engine at equal substeps, by row."""
+    """Return an engine's errors in results.json at equal substeps, by row."""
     first = {title: row[name].split(" / ")[0] for title, row in CELLS.items() if name in row}
     return {title: float(e) if re.match(r"[\d.]", e) else e for title, e in first.items()}
 

@@ -1,6 +1,6 @@
-"""Test that results.json bears out what the handouts claim of measurements.
+"""Test that results.json supports the handouts' claims about measurements.
 
-claims.toml names, for each such sentence, the lines it rests on and what they must say.
+For each such sentence, claims.toml names the lines it depends on and their required values.
 """
 
 import json
@@ -16,7 +16,7 @@ HANDOUTS = Path(__file__).parents[2] / "handouts"
 RESULTS = json.loads((HANDOUTS / "results.json").read_text(encoding="utf-8"))
 CLAIMS = tomllib.loads((HANDOUTS / "claims.toml").read_text(encoding="utf-8"))
 RULES = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "=": operator.eq}
-ROWS = {  # of the leaderboard: how far off each engine is at equal substeps
+ROWS = {  # of the leaderboard: each engine's error at equal substeps
     f"{title}: {name}": float(off) if (off := cell.split(" / ")[0])[0].isdigit() else off
     for title, row in RESULTS["rows"].items()
     for name, cell in row.items()
@@ -41,7 +41,7 @@ def value(lines: dict[str, Any], term: Any) -> Any:
 
 
 def wrong(lines: dict[str, Any], evidence: list[Any]) -> str:
-    """Say what is wrong with a claim's evidence; empty if nothing is."""
+    """Return the fault in a claim's evidence, or an empty text."""
     name, rule, limit = evidence
     if name not in lines:
         return f"{name}: there is no such line"

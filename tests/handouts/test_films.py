@@ -1,4 +1,4 @@
-"""The films of the handouts: made of the engines as they are, light, played by pointer and keys."""
+"""Test the films of the handouts: current, small, and played by pointer and keys."""
 
 import importlib
 import io
@@ -62,7 +62,7 @@ def test_a_prediction_stands_before_the_task_and_says_what_its_films_show() -> N
 
 
 def last_places(scene: dict[str, Any]) -> list[list[float]]:
-    """Return x, y and the angle of what moves in each third of a film."""
+    """Return x, y and angle of moving bodies in each third of a film."""
     rows: dict[int, list[float]] = {}
     places, frames = [], scene["yours"]
     for number, frame in enumerate(frames, 1):
@@ -75,7 +75,7 @@ def last_places(scene: dict[str, Any]) -> list[list[float]]:
 
 @pytest.mark.parametrize("todo", PREDICTIONS)
 def test_the_three_films_can_be_told_apart(todo: str) -> None:
-    """By ten px, or half a turn, at least once in each pair."""
+    """Each pair differs by ten px or half a turn at least once."""
     data = film(f"predict-{todo}")
     assert data["right"] == "ABC".index(PREDICTIONS[todo]["right"]) and len(data["films"]) == 3
     seen = [last_places(each["scene"]) for each in data["films"]]
@@ -89,7 +89,7 @@ def test_the_three_films_can_be_told_apart(todo: str) -> None:
 
 
 def test_the_tower_sinks_less_for_more_work() -> None:
-    """In the lesson's engine and in pymunk: more passes or substeps help, whatever the step."""
+    """In the lesson's engine and in pymunk, more passes or substeps help at any step size."""
     films = film("tower")["films"]
     assert len(films) == 42
     for engine in ("lesson", "pymunk"):
@@ -179,7 +179,7 @@ def test_the_tower_tells_what_was_recorded(lesson: Screen) -> None:
 
 @pytest.mark.soak
 def test_drawings_are_no_white_slabs_in_the_dark(lesson: Screen) -> None:
-    """White paper comes out as dark as the page; what is drawn in black, bright."""
+    """White paper becomes as dark as the page, and black lines become bright."""
     screen = lesson
     screen.page.emulate_media(color_scheme="dark")
     drawing = screen.page.locator('img[data-figure$=".svg"]:visible').first

@@ -1,4 +1,4 @@
-"""Test that the handouts say what is true, and give no solution away."""
+"""Test that the handouts are true and give no solution away."""
 
 import ast
 import html
@@ -57,7 +57,7 @@ def without_code(text: str) -> str:
 
 
 def script(name: str) -> ModuleType:
-    """Load one of the programs that make a part of the handouts."""
+    """Load one of the programs that make parts of the handouts."""
     spec = importlib.util.spec_from_file_location(name, HANDOUTS / f"{name}.py")
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
@@ -95,7 +95,7 @@ def links(text: str) -> list[str]:
 
 
 def trouble_with(page: Path, link: str) -> str:
-    """Say what is wrong with a link; empty if nothing is."""
+    """Return the fault in a link, or an empty text."""
     target, _, anchor = link.partition("#")
     place = (page.parent / target).resolve() if target else page
     if not place.is_file():
@@ -156,7 +156,7 @@ def test_what_students_get_with_the_lab_is_short(handout_pages: Path) -> None:
     assert sum(map(shown_words, pages)) + len(readme) <= 12_000
 
 
-# ---------------------------------------------------------------- what is made by programs
+# ---------------------------------------------------------------- generated parts
 
 
 def test_the_page_of_hints_says_what_the_command_says() -> None:
@@ -359,7 +359,7 @@ def squeezed(text: str) -> str:
 
 @cache
 def solution_lines() -> list[tuple[str, str]]:
-    """List each line that a TODO asks for, with its id, except those in given code."""
+    """List each line of a TODO's solution, with its id, except those in given code."""
     texts = [path.read_text(encoding="utf-8") for path in python_files(STARTER)]
     given = {squeezed(line) for text in texts for line in text.splitlines()}
     found = [

@@ -1,4 +1,4 @@
-"""Test that figures of measurements say what results.json has, and obey pointer and keys."""
+"""Test that figures of measurements show the values of results.json, and obey pointer and keys."""
 
 import json
 import re
@@ -108,7 +108,7 @@ def test_a_curve_says_what_the_lines_say(name: str, look: str, place: int, line:
 
 
 def told(curve: dict[str, Any], place: int, unit: str) -> str:
-    """Return the start of a figure's words about a point."""
+    """Return the start of a figure's text about a point."""
     number = float(f"{curve['points'][place][1]:.3g}")
     return f"{curve['name']}: sink {number:g}{unit}; work (the engine as it is: 1): "
 

@@ -1,4 +1,4 @@
-"""Test that results.json has the errors that the engines give now."""
+"""Test that results.json has the errors of the current engines."""
 
 import json
 import re
@@ -24,7 +24,7 @@ from experiments.accuracy.runs import EXACT, Effort, run_setting
 
 HANDOUTS = Path(__file__).parents[2] / "handouts"
 LINES: dict[str, Any] = json.loads((HANDOUTS / "results.json").read_text("utf-8"))["accuracy.md"]
-DOUBLINGS = 16  # of substeps: more do not fit into a frame
+DOUBLINGS = 16  # substeps: more do not fit into a frame
 QUICK = 170_000  # solves of a body: the stable engine takes about a second
 AGAIN = "run accuracy.py --markdown"
 
@@ -43,7 +43,7 @@ def name_lines() -> Iterator[tuple[str, Question, Setting]]:
 
 
 def is_quick(question: Question, setting: Setting) -> bool:
-    """Return true for the engines as they are, and where a frame of the stable one is short."""
+    """Return true for unchanged engines, and if a frame of the stable one is short."""
     steps = question.seconds * setting.rate * setting.substeps
     short = 2 * steps * len(question.scene().bodies) < QUICK
     return setting == LESSON or (setting.engine == STABLE.engine and short)
@@ -75,7 +75,7 @@ CELL = re.compile(r"(.*), (lesson|stable|compiled|pymunk): (.*) within \d+ ms, (
 
 
 def test_every_cell_of_the_table_is_the_error_of_a_line() -> None:
-    """Box2D is not among them: it may be missing."""
+    """Box2D is excluded: it may be missing."""
     cells = [(CELL.fullmatch(name), error) for name, error in LINES.items()]
     known = [(found, error) for found, error in cells if found]
     assert len(known) == 2 * 3 * 4 * len(QUESTIONS)

@@ -1,4 +1,4 @@
-"""Test the figures that can be moved: they compute what the grader does, and obey all controls."""
+"""Test movable figures: they compute the same as the grader, and obey all controls."""
 
 import json
 import math
@@ -65,7 +65,7 @@ def screen(browser: Any, handout_pages: Path) -> Iterator[Screen]:
     screen.page.close()
 
 
-# ---------------------------------------------------------------- what they compute
+# ---------------------------------------------------------------- computing
 
 
 def computed(screen: Screen, law: str, inputs: list[Any]) -> list[Any]:
@@ -120,7 +120,7 @@ def test_frames_run_the_steps_of_the_reference(screen: Screen) -> None:
             rest, steps = mini_engine.advance(Counted(), rest, length / 1000)
             paid += frame["steps"] - steps
             seconds += (frame["steps"] - steps) * mini_engine.STEP
-            # Where the sum is just a step, rounding decides in which frame that step runs.
+            # If the sum is exactly a step, rounding decides in which frame it runs.
             assert abs(paid) <= 1
             assert frame["waiting"] / 1000 + seconds == pytest.approx(rest, abs=1e-9)
 
@@ -316,7 +316,7 @@ def test_an_impulse_through_the_centre_does_not_turn(screen: Screen) -> None:
 
 @pytest.mark.soak
 def test_a_ball_rolls_in_real_time_and_stops_when_asked(screen: Screen) -> None:
-    """The page's clock is ours: no moment can be missed, however busy the machine is."""
+    """The test controls the page's clock, so it misses no moment on a busy machine."""
     slide(screen, "rolling", "friction", 0.5)
     slide(screen, "rolling", "time", 0)
     found = figure(screen, "rolling")
@@ -335,7 +335,7 @@ def test_a_ball_rolls_in_real_time_and_stops_when_asked(screen: Screen) -> None:
 
 @pytest.mark.soak
 def test_a_step_takes_a_fifth_of_a_rods_error(screen: Screen) -> None:
-    """Where the rods do not disturb each other: a heavy middle, the far end as meant."""
+    """The rods do not disturb each other: the middle is heavy, and the far end is in place."""
     found = figure(screen, "rod")
     found.get_by_role("button", name="Again").click()
     slide(screen, "rod", "mass of B", 8)

@@ -2,8 +2,8 @@
 
     python bare_container.py namespaces,landlock COMMAND ...
 
-A filter on system calls, as of seccomp(2), refuses them as a plain container and an old kernel do.
-Where namespaces are, root keeps those capabilities that Docker leaves it.
+A seccomp(2) filter refuses system calls as a plain container and an old kernel do. With namespaces,
+root keeps the capabilities that Docker allows.
 """
 
 import ctypes

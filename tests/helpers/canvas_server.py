@@ -1,4 +1,4 @@
-"""A stand-in for Canvas on this machine, which refuses what Canvas's documentation refuses."""
+"""Stand in for Canvas on this machine: refuse requests as its documentation says."""
 
 import json
 import re
@@ -9,7 +9,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from urllib.parse import parse_qs, urlsplit
 
 TOKEN = "11~secret-token"
-PAGE = 2  # submissions, however many a request asks for
+PAGE = 2  # submissions per page, at any requested number
 HERE = "/api/v1/courses/7/assignments/9"
 GRADE = re.compile(r"-?\d+(\.\d+)?%?|[A-F][+-]?|pass|fail|complete|incomplete")
 FIELDS = {"submission[posted_grade]", "comment[text_comment]", "comment[file_ids][]"}
@@ -24,7 +24,9 @@ class Canvas(ThreadingHTTPServer):
         self.users = {user: {"entered_score": None, "submission_comments": []} for user in users}
         self.files: dict[int, dict[str, object]] = {}
         self.points, self.kind, self.deducted = 10.0, "points", None
-        self.troubles: list[tuple[str, int | str]] = []  # a status, or where the line is cut
+        self.troubles: list[
+            tuple[str, int | str]
+        ] = []  # a status, or the point where the connection is cut
         self.graded: list[int] = []  # students, in the order of requests
         threading.Thread(target=self.serve_forever, args=(0.01,), daemon=True).start()
 

@@ -1,4 +1,4 @@
-"""Read what the grader writes as other systems do, each by its own rules."""
+"""Read the grader's output as other systems do, each by its own rules."""
 
 import base64
 import json
@@ -18,7 +18,8 @@ Command = tuple[str, dict[str, str], str]  # its name, its properties, its messa
 
 
 def commands_in(log: str) -> list[Command]:
-    """List what GitHub's runner obeys in a log: `::name p=v::message`, and `##[name]` anywhere."""
+    """List the commands of a log for GitHub's runner: `::name p=v::message`, and `##[name]`
+    anywhere."""
     known, token, found = set(COMMANDS), "", []
     for line in re.split(r"\r\n|\r|\n", log):
         modern = re.match(r"\s*::(?P<info>.*?)::(?P<data>.*)", line)
@@ -61,7 +62,7 @@ def outputs_in(text: str) -> dict[str, str]:
 
 
 def reported(encoded: str) -> dict[str, Any]:
-    """Return what the reporter reads from an output, in the form that it demands."""
+    """Return the reporter's input from an output, in the form that it requires."""
     results = json.loads(base64.b64decode(encoded, validate=True))
     assert results["version"] == 1 and results["status"] in ("pass", "fail", "error")
     assert type(results["max_score"]) is int and results["tests"]
@@ -72,7 +73,7 @@ def reported(encoded: str) -> dict[str, Any]:
 
 
 def reporter_log(results: dict[str, Any]) -> str:
-    """Return what the reporter prints into the log of its job."""
+    """Return the reporter's text in the log of its job."""
     lines = []
     for test in results["tests"]:
         line = f" - line {test['line_no']}" if test["line_no"] else ""

@@ -1,7 +1,7 @@
-"""A class as each learning system exports it, with all that goes wrong in one.
+"""Make a class as each learning system exports it, with all its usual problems.
 
-The same students hand in the same work everywhere. `Student.points` is what the stand-in for
-grading finds in it: the number that stands in its integrators.py.
+The same students hand in the same work in each system. Instead of grading, tests read the points
+from integrators.py: `Student.points`.
 """
 
 from collections.abc import Callable
@@ -27,14 +27,14 @@ def work(points: int) -> Files:
 
 @dataclass
 class Student:
-    """One student, what was handed in, and what must become of it."""
+    """One student, the submission, and the expected result."""
 
     login: str
     first: str
     last: str
     files: Files = field(default_factory=dict)  # as uploaded, by their names; none: nothing
-    points: int | None = None  # that grading must find; None: there is nothing to find
-    before: Files = field(default_factory=dict)  # an attempt before this one
+    points: int | None = None  # that grading must find; None: none
+    before: Files = field(default_factory=dict)  # an earlier attempt
     text: bool = False  # only a text was handed in
     late: bool = False
     by_hand: int | None = None
@@ -50,7 +50,7 @@ class Student:
 
     @property
     def mark(self) -> int | None:
-        """What must stand in the gradebook: None for nothing, until a person has looked."""
+        """Return the expected mark in the gradebook; None if a person must review first."""
         if self.by_hand is not None:
             return self.by_hand
         if not self.files and not self.text:
@@ -98,7 +98,7 @@ def students() -> list[Student]:
 
 
 def hour(student: Student) -> int:
-    """When the last attempt came: before noon, or after it where it is late."""
+    """Return the hour of the last attempt: before noon, or after it if late."""
     return 13 if student.late else 11
 
 
@@ -129,7 +129,7 @@ def put(path: Path, content: str | bytes) -> None:
 
 
 def canvas(folder: Path, class_: list[Student]) -> str:
-    """One file for each upload; the last attempt alone, its files numbered."""
+    """Write one file for each upload of the last attempt, with numbered names."""
     for number, each in enumerate(class_, 1):
         start = f"{each.last}{each.first}".lower().replace("'", "") + "_LATE" * each.late
         for at, (name, content) in enumerate(each.files.items()):
@@ -146,7 +146,7 @@ def canvas(folder: Path, class_: list[Student]) -> str:
 
 
 def moodle(folder: Path, class_: list[Student]) -> str:
-    """A folder for each upload; when it came is in the worksheet."""
+    """Write a folder for each upload; the worksheet has its time."""
     rows = []
     for number, each in enumerate(class_, 1):
         for name, content in each.files.items():
@@ -166,7 +166,7 @@ def moodle(folder: Path, class_: list[Student]) -> str:
 
 
 def gradescope(folder: Path, class_: list[Student]) -> str:
-    """A folder for each submission, unpacked by Gradescope or not, and one list for all."""
+    """Write a folder for each submission, unpacked by Gradescope or not, and one list for all."""
     listed = []
     for number, each in enumerate(class_, 1):
         files = dict(each.files) or ({"text.html": "see my page"} if each.text else {})
@@ -187,7 +187,7 @@ def gradescope(folder: Path, class_: list[Student]) -> str:
 
 
 def blackboard(folder: Path, class_: list[Student]) -> str:
-    """Loose files with the attempt's time in the name, and a receipt for each attempt."""
+    """Write loose files with the attempt's time in the name, and a receipt for each attempt."""
     for each in class_:
         attempts = [(hour(each), each.files, each.text), (10, each.before, False)]
         for at, files, text in attempts:
@@ -208,7 +208,7 @@ def blackboard(folder: Path, class_: list[Student]) -> str:
 
 
 def brightspace(folder: Path, class_: list[Student]) -> str:
-    """A folder for each time that somebody handed in, and a page that lists them."""
+    """Write a folder for each attempt, and a page that lists them."""
     put(folder / "index.html", "<p>a list</p>")
     for number, each in enumerate(class_, 1):
         files = each.files or ({"text.html": "see my page"} if each.text else {})
@@ -233,7 +233,7 @@ SYSTEMS: dict[str, Callable[[Path, list[Student]], str]] = {
     "brightspace": brightspace,
 }
 BY_EMAIL = {"moodle", "gradescope"}  # their class lists identify students by addresses
-READERS: dict[str, Callable[[bytes], Marks]] = {  # of the marks; any other takes plain columns
+READERS: dict[str, Callable[[bytes], Marks]] = {  # of the marks; other systems take plain columns
     "canvas": lambda content: gradebooks.canvas(content, TITLE),
     "moodle": gradebooks.moodle_worksheet,
     "blackboard": lambda content: gradebooks.blackboard(content, TITLE),

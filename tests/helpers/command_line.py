@@ -22,7 +22,7 @@ def run_grader(*words: object, **options: object):
 
 
 def start_grader(*words: object, cwd: Path = KIT, **variables: str):
-    """Run a command in a process of its own, in a folder, with these variables besides."""
+    """Run a command in its own process, in a folder, with these additional variables."""
     kept = {name: each for name, each in os.environ.items() if not name.startswith(OTHERS)}
     return subprocess.run(
         [sys.executable, "-m", "grader", *map(str, words)],
@@ -34,7 +34,7 @@ def start_grader(*words: object, cwd: Path = KIT, **variables: str):
 
 
 def call_class(*words: object) -> str:
-    """Run a command of a class; return what it says, on one line."""
+    """Run a command of a class; return its output on one line."""
     done = run_grader("class", *words)
     assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
     return " ".join(done.output.split())

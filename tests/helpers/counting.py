@@ -1,4 +1,4 @@
-"""Count work, so that a test can hold it against the size of its input without a clock."""
+"""Count work, so that a test can compare it with the size of its input without a clock."""
 
 import gc
 import sys
@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 
 def count_calls(work: Callable[[], object]) -> int:
-    """Return how many functions, Python's own included, a piece of work calls."""
+    """Return the number of calls in a piece of work, including Python's own functions."""
     calls = 0
 
     def count(frame: object, event: str, argument: object) -> None:
@@ -14,7 +14,7 @@ def count_calls(work: Callable[[], object]) -> int:
         calls += event in ("call", "c_call")
 
     before, collects = sys.getprofile(), gc.isenabled()
-    gc.disable()  # hypothesis is called at each collection, whenever that is
+    gc.disable()  # hypothesis runs at each garbage collection
     sys.setprofile(count)
     try:
         work()

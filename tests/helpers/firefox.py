@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 LISTENS = re.compile(r"WebDriver BiDi listening on (ws://\S+)")
-PATIENCE = 600  # s, however busy the machine is
+PATIENCE = 600  # s, enough for a busy machine
 SETTINGS = {
     "browser.download.folderList": 2,  # the folder named below
     "browser.download.alwaysOpenPanel": False,
@@ -34,7 +34,7 @@ class Firefox:
         self.tab = self.send("browsingContext.getTree")["contexts"][0]["context"]
 
     def send(self, method: str, **params: Any) -> Any:
-        """Return the result of a command, without what happens meanwhile."""
+        """Return the result of a command; skip events."""
         number = next(self.numbers)
         self.socket.send(json.dumps({"id": number, "method": method, "params": params}))
         while (answer := json.loads(self.socket.recv())).get("id") != number:
@@ -46,7 +46,7 @@ class Firefox:
         self.send("browsingContext.navigate", context=self.tab, url=address, wait="complete")
 
     def run(self, script: str) -> Any:
-        """Return the value of an expression as JSON can hold it, or of what it promises."""
+        """Return the value of an expression, or of its promise, as JSON."""
         done = self.send(
             "script.evaluate",
             expression=f"(async () => JSON.stringify((await ({script})) ?? null))()",
@@ -70,7 +70,7 @@ class Firefox:
         raise AssertionError(f"never true: {script}")
 
     def press(self, *keys: str, held: str = "") -> None:
-        """Press and release keys, one after the other, while another one is held."""
+        """Press and release keys in turn while another one is held."""
         acts = [{"type": kind, "value": key} for key in keys for kind in ("keyDown", "keyUp")]
         if held:
             acts = [

@@ -1,10 +1,10 @@
-"""Readers of gradebook files, each by the columns that its learning system documents for import."""
+"""Read gradebook files, each by the columns that its learning system documents for import."""
 
 import csv
 import io
 import re
 
-Marks = dict[str, tuple[str, str]]  # by what identifies a student: the mark, the feedback
+Marks = dict[str, tuple[str, str]]  # by a student's identifier: the mark, the feedback
 
 
 def rows_of(content: bytes, delimiter: str = ",") -> list[dict[str, str]]:

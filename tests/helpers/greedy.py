@@ -1,4 +1,4 @@
-"""Make submissions that take all they can get."""
+"""Make submissions that use all available resources."""
 
 import shutil
 from pathlib import Path

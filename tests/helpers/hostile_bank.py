@@ -1,4 +1,4 @@
-"""Grade the hostile bank where this runs; print the complaint of each member, as JSON."""
+"""Grade the hostile bank on this machine; print the complaint of each member, as JSON."""
 
 import json
 import sys
@@ -12,7 +12,7 @@ from grader.bank.verify import collect, run_in_processes
 
 
 def main(world: str) -> None:
-    """Grade as many members at a time as there are cores, and show how far it is."""
+    """Grade one member per core at a time, and show the progress."""
     hostile = [member for member in bank() if member.kind == "hostile"]
     judged = run_in_processes(grade_briefly, hostile, 0)
     verdicts = collect(f"grading with {world}", judged, len(hostile), Console(stderr=True))
@@ -22,7 +22,8 @@ def main(world: str) -> None:
 
 
 def remove_traces(name: str) -> None:
-    """Remove the files that a member named after itself: one of the next world could meet them."""
+    """Remove the files that a member named after itself, before one of the next world finds
+    them."""
     for path, _ in find_named(name, [Path("/"), *map(Path, OPEN_TO_ALL)]):
         if path.is_file():
             path.unlink()

@@ -21,7 +21,7 @@ def as_zip(files: Files) -> bytes:
 
 
 def as_zip_of(members: Iterable[tuple[str, str | bytes]]) -> bytes:
-    """Make a zip with these members, of which two may have one name."""
+    """Make a zip with these members; two may have the same name."""
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in members:

@@ -10,10 +10,10 @@ from typing import Any
 
 import pytest
 
-WIDTHS = (1280, 390)  # px, of a desk and of a phone
-PATIENCE = 600_000  # ms, however busy the machine is
+WIDTHS = (1280, 390)  # px, of desktop and phone
+PATIENCE = 600_000  # ms, enough for a busy machine
 
-# What a submission may put into its names and messages: HTML, Markdown, controls, directions.
+# Texts that a submission may put into names and messages: HTML, Markdown, controls, directions.
 HOSTILE = (
     "</script ><script>alert(1)</script>\"'><img src=x onerror=alert(2)>&lt;b&gt; *a* \u202e\x07\n#"
 )
@@ -46,7 +46,7 @@ class Reader(html.parser.HTMLParser):
 
 @contextmanager
 def chromium() -> Iterator[Any]:
-    """Open a browser, where this machine has one."""
+    """Open a browser, if this machine has one."""
     sync_api = pytest.importorskip(
         "playwright.sync_api", reason="needs playwright, of the extra `dev`"
     )
@@ -63,9 +63,9 @@ def chromium() -> Iterator[Any]:
 
 
 def barriers(browser: Any, *paths: Path) -> list[str]:
-    """List what axe calls a serious or critical barrier.
+    """List the serious and critical barriers that axe finds.
 
-    All that is folded is opened, in light and in dark, on a desk and on a phone.
+    All folded parts are opened, in light and dark, on desktop and phone.
     """
     axe = pytest.importorskip("axe_playwright_python", reason="needs axe, of the extra `dev`")
     rules = Path(axe.__file__).with_name("axe.min.js").read_text(encoding="utf-8")
@@ -86,7 +86,7 @@ def barriers(browser: Any, *paths: Path) -> list[str]:
 
 
 class Screen:
-    """A page in the browser; whatever it says to the console or asks of the network is kept."""
+    """A page in the browser; records its console output and network requests."""
 
     def __init__(self, browser: Any, path: Path, **options: Any) -> None:
         self.page = browser.new_page(viewport={"width": 900, "height": 1000}, **options)

@@ -1,4 +1,4 @@
-"""A pool that finds the points that stand in a submission; a small file, since each loads it."""
+"""A pool that reads the points in a submission. The file is small, since each process loads it."""
 
 import re
 from concurrent.futures import Future
@@ -25,7 +25,7 @@ def stand_in(package: Package, options: Options) -> Answer:
 
 
 class Inline(AbstractContextManager["Inline"]):
-    """Find the points in this process; stopped, as by Ctrl-C, when it has graded `patience`."""
+    """Finds the points in this process; stops, as by Ctrl-C, after `patience` grades."""
 
     def __init__(self, patience: int = 1000) -> None:
         self.patience = patience

@@ -1,4 +1,4 @@
-"""Leave some cases of a large family in `make test` and the rest to `make soak`."""
+"""Keep some cases of a large family in `make test` and leave the rest to `make soak`."""
 
 from collections.abc import Iterable
 from typing import Any

@@ -24,7 +24,7 @@ def member_named(name: str) -> Member:
 
 
 def grade_briefly(member: Member) -> Verdict:
-    """Grade it on what it is about, however long that takes here: `make verify` has limits."""
+    """Grade it on its TODOs, without a time limit: `make verify` has limits."""
     patient = replace(member, entry=replace_in(member.entry, seconds=10**9))
     return grade_member(*briefly(patient))
 

@@ -1,4 +1,4 @@
-"""One intake for every way in: the same submission has the same mark, or needs the same review."""
+"""Test all entry points: the same submission gets the same mark, or needs the same review."""
 
 import json
 import shutil
@@ -74,7 +74,7 @@ ENTRIES: dict[str, Callable[[Path, Path], Graded]] = {
 
 
 def hand_in(folder: Path, form: str) -> Path:
-    """Write a submission in a form that students use, or that a person must look at."""
+    """Write a submission in a form that students use, or that needs manual review."""
     path = folder / ("ann.zip" if form.endswith("zip") else "ann")
     if form == "zip":
         path.write_bytes(packed.as_zip({"work/integrators.py": RIGHT}))

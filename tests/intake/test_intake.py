@@ -1,4 +1,4 @@
-"""The intake of a class: exports of learning systems, class lists, and zips of every kind."""
+"""Test the intake of a class: exports of learning systems, class lists, and zips of every kind."""
 
 import io
 import os
@@ -71,7 +71,7 @@ def refused(classroom: Path, content: bytes) -> str:
     return str(caught.value)
 
 
-# ---------------------------------------------------------------- what LMSs export
+# ---------------------------------------------------------------- exports
 
 
 def test_canvas_names_late_marks_and_loose_files(classroom):
@@ -197,7 +197,7 @@ def test_a_download_of_a_class_is_read_whatever_is_in_it(classroom, kind):
     assert {path.name for path in classroom.parent.iterdir()} == {"class"}
 
 
-# ---------------------------------------------------------------- what people keep
+# ---------------------------------------------------------------- folders of people
 
 
 def test_folders_checkouts_and_system_files(classroom):
@@ -362,7 +362,7 @@ def test_broken_encrypted_and_unusual_zips_are_refused(classroom):
 
 @pytest.mark.parametrize("hidden", [b"", b"PK\x05\x06", b"PK\x06\x07"])
 def test_a_zip_that_lists_too_many_files_is_not_even_listed(classroom, monkeypatch, hidden):
-    """Nor where a second end, in the comment of the first, says that the list is short."""
+    """Nor if a second end record, in the comment of the first, claims that the list is short."""
     monkeypatch.setattr(archives, "MAX_DIRECTORY", 1000)
     content = bytearray(zipped({f"{n}.py": "" for n in range(40)}))
     if hidden:
@@ -378,7 +378,7 @@ def test_a_short_list_is_read_where_another_end_is_hidden_in_it(classroom):
 
 
 def test_many_archives_have_the_bounds_of_one(classroom, monkeypatch):
-    """Each costs a process, or a list; so their number, sizes, lists and seconds are counted."""
+    """Each costs a process or a list, so their number, sizes, lists and seconds are counted."""
     monkeypatch.setattr(archives, "MAX_ARCHIVES", 3)
     monkeypatch.setattr(archives, "MAX_DIRECTORY", 10_000)
     opened = []
@@ -471,7 +471,7 @@ def test_a_zip_with_any_bytes_changed_is_taken_or_refused_with_a_sentence(classr
     assert {path.name for path in classroom.parent.iterdir()} == {"class"}
 
 
-# ---------------------------------------------------------------- what would hold others up
+# ---------------------------------------------------------------- delays
 
 
 def test_what_has_no_end_is_for_a_person(classroom, monkeypatch):
@@ -483,7 +483,7 @@ def test_what_has_no_end_is_for_a_person(classroom, monkeypatch):
 
 
 def test_folders_in_each_other_without_end_are_for_a_person(classroom):
-    """Deeper than Python's own functions can go."""
+    """They are deeper than Python's own functions can go."""
     folder = write(classroom / "ann", PROGRAM)
     here = os.getcwd()
     try:

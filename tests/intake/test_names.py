@@ -1,4 +1,4 @@
-"""Names of any kind are read in little time, and names of any script are known."""
+"""Test that names of any kind are read fast, and names of any script are matched."""
 
 from pathlib import Path
 
@@ -15,7 +15,7 @@ from grader.intake.systems import SYSTEMS
 
 MOST = 255  # bytes of a file's name on any disk
 
-# A name that takes twice as long with each part would take years: this file would not end.
+# If the time of a name doubled with each part, this file would take years.
 PARTS = [
     *("\u03b1", "\u4e2d", "\N{GRINNING FACE}", "e\u0301", "a", "_", "1", "-", "-1", " ", "  ", "."),
     *(

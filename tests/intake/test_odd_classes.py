@@ -1,4 +1,4 @@
-"""Unusual classes: nobody is lost, nobody has 0 in silence, every refusal says why."""
+"""Test unusual classes: no student is lost or silently 0, and every refusal has a reason."""
 
 import base64
 import errno
@@ -58,7 +58,7 @@ def people_of(path: Path, text: str | bytes) -> ClassList:
     return ClassList(read_roster(path))
 
 
-# ---------------------------------------------------------------- what is in a submission
+# ---------------------------------------------------------------- files of a submission
 
 CHANGED = (
     *("integrators (1).py", "integrators-2.py", "integrators - Copie (2).py", "INTEGRATORS.PY"),
@@ -80,7 +80,7 @@ def test_a_name_that_python_cannot_import_is_taken_as_what_it_was(tmp_path: Path
 
 @pytest.mark.parametrize("what", ["ann/mini_engine", "ann/mini_engine/world.py"])
 def test_what_may_not_be_read_is_for_a_person_and_not_nothing(tmp_path: Path, monkeypatch, what):
-    """A folder that its owner has shut, or one of another user: somebody's work may lie in it."""
+    """A locked folder, or one of another user, may contain work."""
     found = one(tmp_path, WORK | {"mini_engine/__init__.py": "", "mini_engine/world.py": ""})
     shut(monkeypatch, tmp_path / what)
     with pytest.raises(CannotTake, match=f"{what[4:]} cannot be read: Permission denied"):
@@ -90,11 +90,11 @@ def test_what_may_not_be_read_is_for_a_person_and_not_nothing(tmp_path: Path, mo
 
 
 def shut(monkeypatch, path: Path) -> None:
-    """As if a file or a folder were not ours to read, for the superuser too."""
+    """Make a file or folder unreadable, also for the superuser."""
 
     def refusing(usual):
         def ask(asked, *args, **options):
-            here = (path, Path(path.name))  # a name alone: in a folder that is open
+            here = (path, Path(path.name))  # the name alone, in an open folder
             if not isinstance(asked, int) and Path(asked) in here:
                 raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(asked))
             return usual(asked, *args, **options)
@@ -128,7 +128,7 @@ def zipped(folder: Path, files: packed.Files) -> Work:
 
 
 def raw_zip(name: bytes) -> bytes:
-    """A zip whose name is in letters of its own time, without a word of which."""
+    """Return a zip with a name in an old encoding that it does not declare."""
     content = SOURCE.encode()
     crc, size = zlib.crc32(content), len(content)
     head = struct.pack("<HHHHHIIIHH", 20, 0, 0, 0, 0, crc, size, size, len(name), 0)
@@ -148,7 +148,7 @@ def test_names_in_old_letters_hide_no_program(tmp_path: Path, name: str, letters
     assert dict(package.files)["integrators.py"] == SOURCE.encode()
 
 
-# ---------------------------------------------------------------- whose it is
+# ---------------------------------------------------------------- authors
 
 
 def test_a_loose_file_of_who_is_listed_is_theirs_and_so_is_what_cannot_be_read(tmp_path: Path):
@@ -356,7 +356,7 @@ def test_canvas_with_names_in_two_columns(tmp_path: Path):
 
 @pytest.mark.parametrize("most", ["20,00", "20.00"])
 def test_marks_that_moodle_would_leave_out_are_told(tmp_path: Path, most: str):
-    """Its worksheet takes none above the assignment's maximum, and does not say so."""
+    """Its worksheet silently skips marks above the assignment's maximum."""
     head = "Identifier,Full name,Email address,Status,Grade,Maximum Grade,Feedback comments\n"
     rows = (
         f'Participant 1,Ann Lee,ann@x.de,,,"{most}",\nParticipant 2,Ben Öz,ben@x.de,,,"{most}",\n'
@@ -404,7 +404,7 @@ def test_a_program_that_cannot_be_imported_is_said_in_the_table():
 
 # ---------------------------------------------------------------- a .rar as its makers pack it
 
-RAR = (  # 1,271 bytes of integrators.py in 156, by their own program
+RAR = (  # integrators.py, 1,271 bytes in 156, packed by the makers' program
     "UmFyIRoHAQDz4YLrCwEFBwAGAQGAgIAALbmmaCQCAtMABvcJpIMCgA6Aab4xLEWABQEOaW50ZWdyYXRv"
     "cnMucHnEzlA1RDQvdQM5yimkSk5EUw0LkDQd8IbhL/FnFLdQGpbmbtVZDknl71P2q1IdNk1yzSOZI6zk"
     "nYQia09BMWfQLW7Fj/XglnuAOUN8fBVl36xWcB13VlEDBQQA"
@@ -430,7 +430,7 @@ def test_a_packed_rar_is_read(tmp_path: Path):
     assert dict(package.files)["integrators.py"] == SOURCE.encode() + 20 * line
 
 
-OWN_NAMES = {  # what each system puts before the name that a student gave to a file
+OWN_NAMES = {  # prefix of each system before a file's own name
     "blackboard": "Lab_{name}_attempt_2026-05-04-10-00-00_",
     "brightspace": "{number}-1 - {name} - May 4, 2026 1159 PM - ",
     "canvas": "{name}_{number}_9_",

@@ -1,4 +1,4 @@
-"""The lab's files in a submission: in archives of all kinds, anywhere, under any name."""
+"""Test finding the lab's files in a submission: in archives, in any folder, under any name."""
 
 import bz2
 import gzip
@@ -115,7 +115,9 @@ def test_links_in_a_tar_are_left_out(tmp_path):
 
 @pytest.mark.parametrize("kind", sample(["7z", "tar.xz"], 2))
 def test_a_bomb_of_one_file_gives_the_program_alone(tmp_path, kind):
-    assert repack.MAX_CONTENT == MAX_BYTES  # a script of its own, repack can import nothing
+    assert (
+        repack.MAX_CONTENT == MAX_BYTES
+    )  # a separate script, from which repack can import nothing
     bomb = bytes(repack.MAX_CONTENT + 1)
     found = one(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {"big.bin": bomb}))
     package = read_package(found)
@@ -142,7 +144,7 @@ def test_a_bomb_of_many_files_is_refused(tmp_path, kind, monkeypatch, capsys):
 
 
 def test_all_archives_of_a_submission_share_the_seconds_of_one(tmp_path, monkeypatch):
-    """A hundred bytes of bz2 hold ten megabytes; forty of them must not cost forty times that."""
+    """A hundred bytes of bz2 hold ten megabytes; forty files must not cost forty times as much."""
     given, used = [], iter([0.0, 2.5, 2.5, 3.5, 3.5, 9.0])
 
     def run(script, **options):
@@ -311,7 +313,7 @@ def test_a_second_of_an_lms_is_known_again(tmp_path):
 
 @pytest.mark.soak
 def test_what_deserves_points_is_taken_in_whole(tmp_path):
-    """No right submission of the bank loses a file or meets a doubt on its way in."""
+    """The intake of a right submission of the bank loses no file and has no doubts."""
     for member in bank():
         if member.kind == "right" and member.name.startswith(("copies", "structure", "imports-m")):
             member.build(KIT, tmp_path / member.name)
