@@ -10,7 +10,6 @@ import warnings
 from itertools import pairwise
 
 import pytest
-from samples import sample
 
 import stable_engine
 from experiments.steps import at_random, hiccups, lasting
@@ -99,7 +98,7 @@ def all_stay(seed, steps):
             assert not cells.lost(), f"seed {seed}, {cells.names}"
 
 
-@pytest.mark.parametrize("seed", sample([10, 24, 31, 41, 755, 7, 64], 4))  # each lost a ball once
+@pytest.mark.parametrize("seed", [10, 24, 31, 41, 755, 7, 64])  # each lost a ball once
 def test_balls_stay_in_their_cells(seed):
     all_stay(seed, 100)
 
