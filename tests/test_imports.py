@@ -1,4 +1,4 @@
-"""Test that imports go one way: down the floors of the grader, and in no circle.
+"""Test that imports go only to lower layers of the grader, and in no circle.
 
 The files are read, not run, so an import inside a function counts as well. An import for type
 checking alone never runs and may close a circle.
@@ -15,7 +15,7 @@ import pytest
 from conftest import KIT
 
 GRADER = KIT / "grader"
-FLOORS = [  # from the ground up: a room imports from lower floors only
+FLOORS = [  # from the bottom up: a package imports from lower layers only
     {"errors", "protocol", "text", "source"},
     {"worker", "judge"},
     {"checks", "player", "intake"},
@@ -43,8 +43,11 @@ class Import(NamedTuple):
 @cache
 def imports_below(root: Path) -> list[Import]:
     """List the imports of one file below a root from another one."""
-    base = root.parent if (root / "__init__.py").exists() else root  # what is on Python's path
-    apart = {"build", "tab"}  # what is made, and programs of a page that meet the grader there only
+    base = root.parent if (root / "__init__.py").exists() else root  # folders on Python's path
+    apart = {
+        "build",
+        "tab",
+    }  # generated files, and programs that only run with the grader on a page
     files = [path for path in root.rglob("*.py") if apart.isdisjoint(path.relative_to(root).parts)]
     return [found for path in sorted(files) for found in imports_in(path, base)]
 
@@ -117,7 +120,7 @@ def test_the_worker_imports_nothing_of_the_grader_but_the_protocol():
 
 
 def room_of(path: Path) -> str:
-    """Return the room of the grader that a file is in; the package itself is none."""
+    """Return the subpackage of the grader that a file is in; empty for the package itself."""
     name = path.relative_to(GRADER).parts[0].removesuffix(".py")
     return "" if name == "__init__" else name
 

@@ -1,4 +1,4 @@
-"""The files that a visitor of the repository and its services read agree with the kit."""
+"""Test that the repository's public files agree with the kit."""
 
 import re
 import tomllib

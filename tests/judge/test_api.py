@@ -1,4 +1,4 @@
-"""Test what other programs import: the names of `grader`, and the guide's example."""
+"""Test the public API: the names of `grader`, and the guide's example."""
 
 import re
 import subprocess
@@ -55,7 +55,7 @@ def test_every_name_is_there_and_says_what_it_is_for():
 
 
 def test_the_package_alone_loads_nothing_of_the_judge(tmp_path: Path):
-    """Children of the worker import it, and so does what only wants the version."""
+    """Children of the worker import it, as do programs that only need the version."""
     code = "import sys, grader; print(grader.__version__, *sorted(sys.modules))"
     version, *loaded = run(code, tmp_path).stdout.split()
     assert version == grader.__version__

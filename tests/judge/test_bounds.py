@@ -128,7 +128,7 @@ def test_a_text_that_is_cut_says_so():
 
 
 def test_no_more_than_one_process_of_a_submission_is_open(tmp_path: Path, monkeypatch):
-    """So its memory is at most that of one: RLIMIT_AS, and the scratch folder in memory."""
+    """So its memory is at most that of one process: RLIMIT_AS plus the scratch folder in memory."""
     member = next(each for each in bank() if each.todos == {"8a"} and each.kind == "wrong")
     tree = tmp_path / "tree"
     member.build(KIT, tree)
@@ -195,7 +195,7 @@ CIRCLES = {
     [pytest.param(each, marks=() if n % 3 else pytest.mark.soak) for n, each in enumerate(CIRCLES)],
 )
 def test_a_name_that_leads_far_is_not_followed_for_ever(name: str):
-    """Each of these took hours, gigabytes or ended the judge."""
+    """Each of these once took hours or gigabytes, or ended the judge."""
     program = program_of(**CIRCLES[name])
     for path in ("f", "World.f", "A.f"):
         found = program.definition("m0", path)

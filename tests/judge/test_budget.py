@@ -86,7 +86,7 @@ def test_all_together_ends_within_two_minutes_of_work_and_one_of_rest():
 
 @LINUX
 def test_a_process_that_waits_for_a_processor_is_busy():
-    """Two loops on one processor: each has worked or queued all the time, a sleeper has not."""
+    """Two loops on one processor have worked or queued all the time; a sleeper has not."""
     loop, sleep = "while True: pass", "time.sleep(600)"
     started = [begun(code) for code in (loop, loop, sleep)]
     try:
@@ -117,7 +117,7 @@ def begun(code: str) -> "subprocess.Popen[str]":
 @pytest.mark.soak  # ten seconds of it
 @LINUX
 def test_a_todo_that_runs_in_circles_leaves_the_others_their_points(tmp_path: Path):
-    """Two checks of 8a are cut; the third of their program is none of its business."""
+    """Two checks of 8a are cut, but not the third, which belongs to the program."""
     tree = tmp_path / "tree"
     shutil.copytree(KIT / "solution", tree, ignore=shutil.ignore_patterns("notebooks"))
     path = tree / "integrators.py"
@@ -134,7 +134,7 @@ def test_a_todo_that_runs_in_circles_leaves_the_others_their_points(tmp_path: Pa
 def test_time_in_which_the_judge_itself_waits_for_a_processor_is_nobodys_rest(
     monkeypatch: pytest.MonkeyPatch,
 ):
-    """On a busy machine an answer lies there until the judge's turn comes."""
+    """On a busy machine, an answer waits until the judge runs again."""
     queued = {os.getpid(): 2.0}
     monkeypatch.setattr(children, "seconds_in_queue", lambda pid: queued[pid])
     monkeypatch.setattr(children, "busy_seconds", lambda pid: 1.0)
@@ -157,7 +157,7 @@ def test_a_thread_that_ends_while_it_is_measured_is_skipped(monkeypatch: pytest.
 
 @LINUX
 def test_many_threads_that_wait_at_once_wait_once(monkeypatch: pytest.MonkeyPatch):
-    """Otherwise a hundred that queue for a second would pay for a rest of a hundred."""
+    """Otherwise a hundred threads that queue for a second would count as a hundred seconds."""
     monkeypatch.setattr(children, "list_waits", lambda pid: [1.0] * 100)
     assert children.seconds_in_queue(os.getpid()) == 1.0
     monkeypatch.setattr(children, "list_waits", lambda pid: [])
@@ -190,7 +190,7 @@ SLOW = """
 @pytest.mark.soak
 @LINUX
 def test_who_rests_only_in_pictures_rests_a_few_times(tmp_path: Path):
-    """The marks are decided by then, and nobody's time is charged for them."""
+    """The marks are final by then, so pictures are charged to no TODO."""
     text = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
     for todo in ("8a", "8b", "8c"):
         begin, end = text.index(f"    # TODO {todo}"), text.index(f"    # END TODO {todo}")

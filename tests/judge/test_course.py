@@ -1,4 +1,4 @@
-"""Read a course file, follow its settings in every room, and report its mistakes."""
+"""Read a course file, follow its settings in every package, and report its mistakes."""
 
 import importlib
 import io
@@ -59,7 +59,7 @@ def graded(path: Path, course: Course) -> Result:
     return grade(path, Options(shipped_reference(), course=course), shared_worker())
 
 
-# ---------------------------------------------------------------- what it takes
+# ---------------------------------------------------------------- valid files
 
 
 def test_the_shipped_course_and_an_empty_file_are_all_there_is(tmp_path: Path):
@@ -91,7 +91,7 @@ def test_points_are_spread_in_whole_numbers(weights: list[int], points: int):
     assert sum(shares) == points and min(shares) >= 0
     assert 0 not in shares or points < len(weights)
     assert spread_points(sum(weights), weights) == weights
-    assert spread_points(7, [9, 1, 1]) == [5, 1, 1]  # the largest remainder, and none of them 0
+    assert spread_points(7, [9, 1, 1]) == [5, 1, 1]  # by the largest remainder, and none is 0
 
 
 def test_todos_stand_in_the_order_of_the_rubric_and_points_add_up():
@@ -125,7 +125,7 @@ def test_bonus_tasks_are_left_out_or_added():
     assert Course().added(9, 0) == 0
 
 
-# ---------------------------------------------------------------- what is wrong in its file
+# ---------------------------------------------------------------- mistakes in the file
 
 WRONG = {
     "todos = []": "todos = [] must name TODOs",
@@ -213,7 +213,7 @@ def test_the_solution_earns_all_and_what_is_handed_out_nothing(course: Course, t
 
 @pytest.mark.soak
 def test_a_stub_of_what_is_given_takes_nothing_from_the_whole_program(hand_in):
-    """A starter of another course, in which only what this one asks for was done."""
+    """The starter of another course, with only this course's TODOs done."""
     course = Course(todos=("6", "whole"))
     done = {"mini_engine__game_loop_py": (KIT / "solution/mini_engine/game_loop.py").read_text()}
     result = graded(hand_in("starter", **done), course)
@@ -345,7 +345,7 @@ def test_why_a_hidden_check_failed_is_shown_from_the_courses_day_on():
             assert check == full
 
 
-# ---------------------------------------------------------------- what students get
+# ---------------------------------------------------------------- students' files
 
 
 @pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
@@ -371,14 +371,14 @@ def test_no_page_names_a_program_that_is_left_out(course: Course):
 
 
 TODOS = [todo.id for todo in load_rubric().todos if todo.function]
-MEASURED = ("effects.md",)  # tells of what was measured in the whole lab
+MEASURED = ("effects.md",)  # is about measurements of the whole lab
 
 
 @pytest.mark.parametrize(
     "todo", [pytest.param(t, marks=() if t in TODOS[::6] else pytest.mark.soak) for t in TODOS]
 )
 def test_the_pages_of_a_course_of_one_task_name_no_other(todo: str):
-    """With one bonus task there is a page of them, and not all that others link to on it."""
+    """With one bonus task there is a page for it, without some of the linked sections."""
     course = Course(todos=tuple(dict.fromkeys(("1", todo))))
     texts = make_handouts(KIT / "handouts", course)
     others = "|".join({each.id for each in course.given if each.bonus})
@@ -546,7 +546,8 @@ def test_all_of_a_courses_bank_is_as_it_must(course: Course):
 @pytest.mark.soak
 @pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
 def test_the_release_of_a_course_builds(course: Course, tmp_path: Path):
-    """Its own proof is that the students' copy gives the solution all and the tree nothing."""
+    """The release itself proves that the students' copy gives the solution full marks and the tree
+    0."""
     wrong = list(build_wrong_members(tmp_path / "wrong", course))[:3]
     built = build(tmp_path / "work", wrong, course)
     assert [path.suffix for path in sorted(built.iterdir())][-1] == ".zip"

@@ -50,7 +50,7 @@ def examples_of_all(folder: Path, *modules: str) -> tuple[list[str], list[str]]:
 
 @pytest.mark.soak
 def test_what_else_is_loaded_changes_no_example(tmp_path: Path):
-    """Large integers show that hypothesis does take numbers from this module."""
+    """Large integers show that hypothesis takes numbers from this module."""
     numbers = ", ".join(f"{n}, {n / 8}" for n in range(100, 600))
     (tmp_path / "full_of_numbers.py").write_text(f"NUMBERS = [{numbers}]\n")
     usual, usual_large = examples_of_all(tmp_path)

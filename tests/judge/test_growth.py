@@ -39,8 +39,8 @@ from grader.source.suspects import RegionCode, find_dead_end, find_leftover, fin
 from grader.text import clean, escape_inside, format_csv
 
 TIMES = 4  # as much input
-MOST = 2.5 * TIMES  # as much work: more than n log n, less than n squared, with a margin
-FEW_CALLS, FEW_SECONDS, FEW_BYTES = 2_000, 0.05, 2 << 20  # what is no matter, whatever it grew from
+MOST = 2.5 * TIMES  # times the work: more than n log n, less than n squared, with a margin
+FEW_CALLS, FEW_SECONDS, FEW_BYTES = 2_000, 0.05, 2 << 20  # below this, any growth is accepted
 
 
 class Cost(NamedTuple):
@@ -77,7 +77,7 @@ def measure(work: Callable[[], object]) -> Cost:
 
 
 def find_growth(work: Callable[[str], object], shape: Shape, length: int) -> list[str]:
-    """Return the costs that grow too fast from a text to one that is a few times as long."""
+    """Return the costs that grow too fast from a text to a longer one."""
     little, much = (measure(partial(work, shape(size))) for size in (length, TIMES * length))
     return [
         f"{name}: {before:.4g} -> {after:.4g}"

@@ -1,7 +1,7 @@
-"""Measure by the kernel that a grade takes no more memory than the security page says.
+"""Let the kernel check that a grade uses no more memory than the security page says.
 
-The page adds up what a child may have, what the kernel keeps for it and what the judge needs. Here
-a submission takes all of that, in a control group that ends whoever takes more.
+The page adds up the memory of a child, of the kernel for it and of the judge. Here a submission
+uses all of that, in a control group that kills processes at the limit.
 """
 
 import os
@@ -70,7 +70,7 @@ def group_with(megabytes: int) -> Iterator[Path]:
     try:
         yield group
     finally:
-        for _ in range(100):  # what was ended is a moment in leaving
+        for _ in range(100):  # killed processes take a moment to leave
             with suppress(OSError):
                 group.rmdir()
                 break

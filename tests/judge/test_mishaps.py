@@ -1,4 +1,4 @@
-"""Stop or kill the judge, or take away its place to write."""
+"""Stop or kill the judge, or fill its disk."""
 
 import os
 import signal
@@ -74,7 +74,7 @@ def test_a_class_that_is_told_to_end_leaves_nothing_either(tmp_path: Path):
     process.terminate()
     _, said = process.communicate(timeout=600)
     assert process.returncode == 2 and "what is graded stays" in said
-    assert emptied(tmp_path / "place")  # by the process of the class's own, which ends by itself
+    assert emptied(tmp_path / "place")  # by the class's own process, which ends by itself
 
 
 def emptied(folder: Path) -> bool:
@@ -132,7 +132,7 @@ def test_a_place_that_cannot_be_written_is_a_sentence_and_status_2(tmp_path: Pat
 @soak
 @posix
 def test_a_full_disk_is_a_sentence_and_status_2(tmp_path: Path):
-    """Files of more than 100 kB are refused: the copy of a submission, as on a full disk."""
+    """Files of over 100 kB are refused, as on a full disk, so the copy of a submission fails."""
     ann = tmp_path / "ann"
     ann.mkdir()
     (ann / "integrators.py").write_bytes((KIT / "solution" / "integrators.py").read_bytes())
@@ -161,7 +161,7 @@ def add(a, b): return a + b
 
 @posix
 def test_a_warm_process_that_was_stopped_is_replaced(tmp_path: Path, monkeypatch):
-    """As by a child, where nothing forbids it."""
+    """A child could stop it if no layer forbids that."""
     monkeypatch.setattr(children, "STOPPED_SECONDS", 1)
     for name in ("submission", "bytecode", "first", "second"):
         (tmp_path / name).mkdir()

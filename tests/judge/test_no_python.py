@@ -1,4 +1,4 @@
-"""Take points for code that Python refuses from its own TODO, or from the whole, alone."""
+"""Test that code that Python refuses costs only points of its own TODO, or of the whole."""
 
 import random
 import shutil
@@ -18,7 +18,7 @@ from grader.source.repair import MAX_REPAIR, HandedOut, Repairer
 SOLVER, CONTACTS = "mini_engine/solver.py", "mini_engine/contacts.py"
 SPRINGS, POISON = "mini_engine/bonus/springs.py", b"    # caf\xe9\n"
 SIGNS = '()[]{}:"'
-Edit = tuple[str, str, str]  # a file, what stands there, and what stands there instead
+Edit = tuple[str, str, str]  # a file, the old text and the new text
 
 
 def take(tree: Path, copy: Path) -> Submission:
@@ -26,7 +26,7 @@ def take(tree: Path, copy: Path) -> Submission:
 
 
 def refused(tree: Path, copy: Path) -> tuple[set[str], set[str]]:
-    """Return the TODOs and programs with code that is no Python; check that the rest compiles."""
+    """Return the TODOs and programs with code that is not Python; check that the rest compiles."""
     taken = take(tree, copy)
     for path in copy.rglob("*.py"):
         compile(path.read_bytes(), path.name, "exec")
@@ -143,7 +143,7 @@ def test_an_encoding_that_is_declared_is_no_flaw(programs, tmp_path: Path):
 @pytest.mark.soak
 @pytest.mark.parametrize("single", [False, True], ids=["package", "single file"])
 def test_a_missing_sign_costs_the_place_it_is_missing_from(programs, tmp_path: Path, single: bool):
-    """Signs drawn from all files: not all are tried, since each is one place."""
+    """The signs are drawn at random from all files, since there are too many."""
     tree = programs()
     if single:
         shutil.rmtree(tree / "mini_engine")

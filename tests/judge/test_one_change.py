@@ -1,4 +1,4 @@
-"""Name the line in which one small change mends a TODO, in checks of one's own work."""
+"""Name the line in which one small change corrects a TODO, in a student's own checks."""
 
 import difflib
 from pathlib import Path
@@ -18,7 +18,7 @@ SOLVER = "mini_engine/solver.py"
 SPIN = "total += cross(rb, axis) ** 2 * b.inv_inertia"
 SLIP = "total += cross(rb, axis) ** 2 * (a.inv_inertia if a.omega > b.omega else b.inv_inertia)"
 FEW = ("7b-largest-never-turn", "2-inertia-kept-on-the-body", "5-kept-by-dt")
-ELSEWHERE = "B4-one-a-step"  # can be mended in another line as well: its helper counts rightly
+ELSEWHERE = "B4-one-a-step"  # can be corrected in another line as well
 LOOP = """
 def run(left, step):
     done = 0
@@ -116,7 +116,7 @@ def test_changes_leave_all_else_as_it_is():
 
 
 def tried(text: str, is_right: str = "") -> tuple[Mend | None, list[str]]:
-    """Return the mend of a text that has all these parts, and the texts that were tried."""
+    """Return the mend of a text with all these parts, and the texts that were tried."""
     asked: list[str] = []
 
     def passes(changed: str) -> bool:

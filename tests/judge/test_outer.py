@@ -169,5 +169,5 @@ def test_a_command_that_is_ended_ends_what_it_watches():
     assert process.stdout is not None
     assert process.stdout.readline() == "works\n"
     process.kill()
-    assert process.stdout.read() == ""  # also the one that it watched is gone, whose output it is
+    assert process.stdout.read() == ""  # also the watched process is gone, whose output this is
     process.wait()

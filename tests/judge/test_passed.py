@@ -1,4 +1,4 @@
-"""Remember programs that have passed, which changes no result."""
+"""Test that the memory of passed programs changes no result."""
 
 import shutil
 from dataclasses import replace
@@ -82,7 +82,7 @@ def test_all_but_replaced_code_belongs_to_a_program(
 
 @pytest.mark.soak
 def test_the_bank_gets_the_same_results_without_a_memory(tmp_path: Path):
-    """Of every member, and however long that takes."""
+    """Grade every member, without a time limit."""
     passed = PassedPrograms(tmp_path / "passed")
     differ = []
     for member in members(KIT):

@@ -1,4 +1,4 @@
-"""Read files of a submission only if they are no links, also when somebody swaps them."""
+"""Read files of a submission only if they are not links, even if they are swapped meanwhile."""
 
 import os
 from pathlib import Path
@@ -29,7 +29,7 @@ def tree(tmp_path: Path) -> Path:
 @LINKS
 @pytest.mark.parametrize("by_folders", [True, False])
 def test_no_link_is_followed_wherever_on_the_way(tree: Path, monkeypatch, by_folders: bool):
-    if not by_folders:  # as on Windows, which sees a link in the last place
+    if not by_folders:  # as on Windows, which only detects a link in the last part
         monkeypatch.setattr(plain, "BY_FOLDERS", False)
     (tree / "link.py").symlink_to(tree.parent / "out" / "__init__.py")
     (tree / "folder").symlink_to(tree.parent / "out")
@@ -82,7 +82,7 @@ def test_a_link_put_in_after_the_look_is_not_taken_in(tree: Path, monkeypatch, w
 def test_a_link_put_in_after_the_look_is_not_packed(
     tree: Path, monkeypatch, what: str, beside: str
 ):
-    """As the submission lies, and as it is copied where there is an archive to unpack."""
+    """Test a submission as handed in, and as copied when it has an archive."""
     if beside:
         (tree / beside).write_bytes(b"PK")
 

@@ -17,7 +17,7 @@ from grader.protocol import Answered, Import, Record, Request
 
 SOME = frozenset({"8b", "B4"})
 ALL = frozenset[str]()
-Asked = tuple[bytes, ...]  # all that a child was asked so far
+Asked = tuple[bytes, ...]  # all requests to a child so far
 
 encode = msgspec.msgpack.encode
 ask = Child.ask

@@ -1,4 +1,4 @@
-"""Run several checks at a time, which changes no result."""
+"""Test that running several checks at a time changes no result."""
 
 import shutil
 from dataclasses import replace

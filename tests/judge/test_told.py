@@ -18,7 +18,7 @@ from grader.player.replay import grade_with_replays
 from grader.protocol import CodeLine, Raised
 from grader.report.files import as_json
 
-TOLD = 424_242.0  # px: the depth of a contact where the reference stands in
+TOLD = 424_242.0  # px: the depth of a contact if the reference is there
 ONLY_1, ONLY_8A = (Options(shipped_reference(), only=frozenset({each})) for each in ("1", "8a"))
 CONTACTS = "mini_engine/contacts.py"
 BEGIN, END = "    # TODO 1", "    # END TODO 1"
@@ -76,7 +76,7 @@ RAISES = """
     ],
 )
 def test_only_files_of_the_submission_are_told_as_places(tmp_path: Path, name: str):
-    """Code may name any file as its own, and a workflow would put its error there."""
+    """Code may claim to be in any file, and a workflow would show its error there."""
     tree = tmp_path / "tree"
     tree.mkdir()
     text = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
@@ -134,7 +134,7 @@ denied()
     ],
 )
 def test_what_the_child_says_of_the_reference_does_not_matter(tmp_path: Path, answer: str):
-    """Nor how it ends: a message that is none is quoted, and an exit status is a number."""
+    """Nor does its end matter: an invalid message is quoted, and an exit status is a number."""
     tree, pages = tmp_path / "tree", tmp_path / "pages"
     tree.mkdir()
     text = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
@@ -151,7 +151,7 @@ def test_what_the_child_says_of_the_reference_does_not_matter(tmp_path: Path, an
 
 @pytest.mark.parametrize("todo", [each for each in load_rubric().todos if each.function])
 def test_the_function_that_is_asked_for_is_never_sent_along(tmp_path: Path, todo: Todo):
-    """Whatever is sent to a child can be read there, whether it is put in place or not."""
+    """A child can read everything sent to it, even unused code."""
     rubric = load_rubric()
     begun = {each.id: True for each in rubric.todos}
     reference = Reference(shipped_reference(), rubric)
@@ -165,7 +165,7 @@ def test_the_function_that_is_asked_for_is_never_sent_along(tmp_path: Path, todo
 
 
 def given_lines() -> set[str]:
-    """Return lines that give nothing away: given ones, and those of more than one TODO."""
+    """Return lines that are no secret: given ones, and those of several TODOs."""
     rubric = load_rubric()
     sources = [each.source for each in Reference(shipped_reference(), rubric).pieces.values()]
     often = Counter(line.strip() for each in sources for line in set(each.splitlines()))
@@ -174,7 +174,7 @@ def given_lines() -> set[str]:
 
 
 def test_words_of_a_result_are_none_that_a_screen_obeys(tmp_path: Path):
-    """A folder may be named by anything, and an error may say anything."""
+    """A folder's name and an error's message may contain anything."""
     tree = tmp_path / "a\u202eb\x1b[31m"
     shutil.copytree(KIT / "starter", tree, ignore=shutil.ignore_patterns("notebooks"))
     (tree / "mini_engine" / "x\u202e\x1b[2J").mkdir()

@@ -38,14 +38,14 @@ def test_a_mistake_in_a_todo_costs_nothing_in_the_whole(hand_in, file, regions):
 
 
 def test_where_all_that_was_begun_is_wrong_nothing_stands_in(hand_in):
-    """Else a line in each TODO would earn the points of the whole."""
+    """Otherwise a line in each TODO would earn the points of the whole."""
     tree = with_regions(hand_in("starter"), WORLD, NO_DAMPING)
     result = graded(tree, "5", "whole", reference=shipped_reference())
     assert result.points == 0
 
 
 def test_where_nothing_stands_in_the_todos_are_named(hand_in):
-    """Not the code around them, which is right."""
+    """The right code around them is not named."""
     tree = with_regions(hand_in("starter"), WORLD, NO_DAMPING)
     with_regions(tree, "mini_engine/joints.py", {"3": ("        self.k = 1.0 * self.k",)})
     result = graded(tree, "3", "5", "whole", reference=shipped_reference())
@@ -64,7 +64,7 @@ def test_without_the_reference_the_whole_names_the_todo(hand_in):
 
 @pytest.mark.soak
 def test_what_is_wrong_outside_of_all_todos_is_said_to_be_there(hand_in):
-    """A program of one's own, with no given code in it that could be put back."""
+    """It is a student's own program, without given code to restore."""
     source = Path(__file__).parents[1] / "bank" / "single_file" / "mini_engine.py"
     text = read_source(source)
     assert text.count("pygame.K_r") == 1

@@ -80,7 +80,7 @@ def run(course, *arguments):
 
 
 def hand_in(folder, tree, notebooks):
-    """Make a folder that a student hands in, of a tree's files and these notebooks."""
+    """Make a student's submission folder from a tree's files and these notebooks."""
     ignored = shutil.ignore_patterns("__pycache__", "notebooks", "build")
     shutil.copytree(KIT / tree, folder, ignore=ignored)
     for name, notebook in notebooks.items():

@@ -4,8 +4,8 @@ The output of the last cell is printed too.
 
     python run_cells.py NOTEBOOK [--draw]
 
-A failing cell does not stop the next one. Figures are drawn where that is asked for, since
-matplotlib takes longer to load than most notebooks to run, and where it is installed.
+A failing cell does not stop the next one. Figures are drawn only with --draw and if matplotlib is
+installed, since it takes longer to load than most notebooks to run.
 """
 
 import io
@@ -20,7 +20,7 @@ from unittest.mock import MagicMock
 
 
 def stand_in():
-    """Replace pyplot by one that draws nothing."""
+    """Replace pyplot by a stub that draws nothing."""
 
     def subplots(rows=1, columns=1, **look):
         axes = [MagicMock() for _ in range(rows * columns)]

@@ -1,4 +1,4 @@
-"""The bridge writes the grader's marks into nbgrader's gradebook."""
+"""Test that the bridge writes the grader's marks into nbgrader's gradebook."""
 
 import shutil
 import warnings

@@ -223,7 +223,7 @@ def test_the_untouched_release_gets_nothing_and_waits_for_nobody(book):
 def test_noise_costs_nothing(book):
     for name in ("integrators", "accuracy", "quiz"):
         assert lost(book, "chen", name) == set()
-    assert lost(book, "chen", ENGINE) == {"todo-4", "todo-whole"}  # the rules of contacts are both
+    assert lost(book, "chen", ENGINE) == {"todo-4", "todo-whole"}  # both are rules of contacts
 
 
 def test_a_loop_in_a_notebook_costs_its_own_part_and_says_why(course, book):

@@ -1,4 +1,4 @@
-"""The course folder of nbgrader remembers which course it was made of."""
+"""Test that the course folder of nbgrader stores the course it was made from."""
 
 from pathlib import Path
 

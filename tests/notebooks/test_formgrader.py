@@ -19,7 +19,7 @@ from grader.classroom.nbgrader.submissions import ASSIGNMENT
 from grader.release import nbgrader_course as courses
 
 pytestmark = pytest.mark.soak
-FULL, BY_HAND = 142, 20  # points of all notebooks, and those that wait for a person
+FULL, BY_HAND = 142, 20  # points of all notebooks, and those that need manual grading
 COLLECTOR = r".*/extracted/(?P<student_id>[^/]+)/(?:notebooks/)?(?P<file_id>.+)"
 ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/")
 

@@ -1,4 +1,4 @@
-"""The students' notebooks hold no answer, and every test in them can fail."""
+"""Test that students' notebooks hold no answer, and that every test in them can fail."""
 
 import ast
 import hashlib
@@ -29,7 +29,7 @@ from grader.judge.rubric import load_rubric
 from grader.release.notebooks import PRACTICE, add_practice, make_engine_notebook, tidy
 
 RUNNER = Path(__file__).with_name("run_cells.py")
-MISSING = {  # what Run All says in the end of a notebook as it was handed out
+MISSING = {  # last output of Run All in a handed-out notebook
     "accuracy": ["spring_curves", "by_step", "by_passes", "spring_error", "worst_stretch"],
     "integrators": ["semi_implicit_euler", "velocity_verlet", "rk4"],
     "quiz": [f"answer_{number}" for number in range(1, 9)],
@@ -54,7 +54,7 @@ def test_these_are_the_notebooks():
     assert sorted(path.stem for path in RELEASED.glob("*.ipynb")) == NAMES
 
 
-# ---------------------------------------------------------------- as nbgrader wants them
+# ---------------------------------------------------------------- nbgrader's rules
 
 
 @ALL
@@ -88,7 +88,7 @@ def test_the_engine_notebook_has_the_rubrics_todos_and_points():
 
 @ALL
 def test_no_graded_cell_ends_in_a_value(name):
-    """nbgrader reads a number as points, and anything else as full points."""
+    """nbgrader reads a number as points, and any other value as full points."""
     for cell in cells(name):
         if kind(cell) == "grade+locked":
             assert not isinstance(ast.parse(source(cell)).body[-1], ast.Expr), cell["id"]
@@ -117,7 +117,7 @@ def test_a_rubric_adds_up_to_the_points_of_the_cell_below_it(name):
             assert sum(map(int, rows)) == details(cell)["points"], cell["id"]
 
 
-# ---------------------------------------------------------------- what students get
+# ---------------------------------------------------------------- students' notebooks
 
 
 @ALL

@@ -160,7 +160,7 @@ def test_the_shipped_settings_name_the_notebooks():
     assert sorted(marking.shares) == NAMES and sum(marking.shares.values()) == 100
 
 
-# ---------------------------------------------------------------- what cannot be read
+# ---------------------------------------------------------------- unreadable lists
 
 
 @pytest.mark.parametrize(

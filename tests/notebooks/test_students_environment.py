@@ -1,4 +1,4 @@
-"""A student sets up nbgrader's release by its README, in a new folder with a new Python."""
+"""Set up nbgrader's release by its README, in a new folder with a new Python."""
 
 import os
 import re
@@ -51,7 +51,7 @@ def handed_out(tmp_path_factory: pytest.TempPathFactory) -> Path:
     course = top / "course"
     exchange = top / "exchange"
     exchange.mkdir()
-    exchange.chmod(0o777)  # as nbgrader wants it, whatever the umask
+    exchange.chmod(0o777)  # as nbgrader requires, with any umask
     for place, command in (
         (KIT, ["python", "-m", "grader", "nbgrader", "course", course, "--release", archive]),
         (course, ["nbgrader", "generate_assignment", ASSIGNMENT]),

@@ -100,7 +100,7 @@ def test_notebooks_may_lie_beside_the_engine_as_nbgrader_releases_them(course, c
 
 
 def test_notebooks_may_lie_beside_a_folder_of_programs(course, classroom):
-    """Also where programs are found by their names."""
+    """Also if programs are found by their names."""
     for student, names in {"anna": (), "ben": ("integrators.py",)}.items():
         tree = untouched(classroom / student / "lab3")
         (tree / "notebooks").rename(tree.parent / "my notebooks")

@@ -65,7 +65,7 @@ DISC = BodyLook(0, [ShapeLook([(0.0, 0.0)], 10.0)], 1.0, 50.0)
 def grade_mistakes(once: Once, name: str, todos: set[str]) -> Path:
     """Make the solution with mistakes in several TODOs, grade some, and write the result beside it.
 
-    One of the processes that run the tests grades it for all.
+    One test process grades it for all.
     """
 
     def fill(top: Path) -> None:

@@ -53,7 +53,7 @@ RIGHT = [each for each in bank() if each.kind == "right" and not each.bonus]
 
 @contextmanager
 def program_of(folder: Path, result: Result) -> Iterator[Program]:
-    """Open a program that is right where the result says so."""
+    """Open a program with this result."""
     with open_program(folder, OPTIONS, shared_worker(), result) as program:
         yield program
 
@@ -76,7 +76,7 @@ def program_with(right: Iterable[str], given: Iterable[str] = ()) -> Program:
     [
         (ALL, (), ["impulse", "steps", "verlet"]),
         ({"5", "8a"}, (), ["semi-implicit", "damping"]),
-        ({"4"}, ALL - {"4"}, ["friction"]),  # given TODOs take part and are not asked about
+        ({"4"}, ALL - {"4"}, ["friction"]),  # given TODOs count, but get no questions
     ],
 )
 def test_everybody_with_the_same_todos_is_asked_alike(right, given, names: list[str]):
@@ -199,7 +199,7 @@ def test_films_are_different_pictures_that_run_no_script(whole_sheet: Sheet):
 
 
 def film_of(heights: Iterable[float], turns: float = 0.0) -> Film:
-    """Make a film of a ball at these heights that turns so often in all."""
+    """Make a film of a ball at these heights, with this number of turns."""
     ups = list(heights)
     each = 2 * math.pi * turns / (len(ups) - 1)
     rows = [[50.0, -up, 0.0, 0.0, each * row, 0.0] for row, up in enumerate(ups)]
@@ -327,7 +327,7 @@ ONE = Question("steps", "number", ("6",), "How many?", 2, answer="15")
 
 
 def test_a_table_may_have_full_names(tmp_path: Path):
-    """As they stand on the sheets; of two students with one name, none is guessed."""
+    """They are the names on the sheets; two students of one name do not match."""
     twins = [sheet_of("s1", "Ann Lee", ONE), sheet_of("s2", "Ann Lee", ONE)]
     for each in (*twins, sheet_of("s3", "Ben Öz", ONE), sheet_of("s4", "Cem Roe")):
         write_whole(msgspec.json.encode(each), tmp_path / "keys" / f"{each.student}.json")
@@ -338,12 +338,12 @@ def test_a_table_may_have_full_names(tmp_path: Path):
         "line 3: 'Ann Lee': write s1 or s2",
         "line 5: Cem Roe has 0 questions, and no '1'",
         "line 6: 'Dora': there is no sheet of that name",
-        "no answer of s1 is in the table",  # and nobody asked Cem anything
+        "no answer of s1 is in the table",  # and Cem has no questions
     ]
 
 
 def test_the_points_of_a_class_go_into_its_gradebook(tmp_path: Path):
-    """Out of a whole sheet, for each student alone, and none where there is nothing to mark."""
+    """Points are out of a whole sheet, for each student alone; without a sheet there are none."""
     four = Question("impulse", "number", ("1",), "How large?", 4, answer="3")
     sheets = [sheet_of("ann", "Ann Lee", ONE, four), sheet_of("ben", "", ONE), sheet_of("cem", "")]
     for each in (*sheets, sheet_of("dora", "", ONE)):
@@ -380,7 +380,7 @@ def test_a_table_without_its_columns_is_refused(handed_back: Path):
 
 # ---------------------------------------------------------------- Moodle
 
-# What Moodle's importer reads of each kind of question, and what all of them have.
+# Fields that Moodle's importer reads from each kind of question, and from all.
 ALWAYS = {"name", "questiontext", "generalfeedback", "defaultgrade", "penalty", "hidden"}
 READ_BY_MOODLE = {
     "numerical": {"answer", "unitgradingtype", "unitpenalty", "unitsleft", "showunits"},
@@ -463,7 +463,7 @@ def test_at_home_all_kinds_are_asked_without_a_reference(
     assert not known & {each.answer for each in some.questions[:3]}
 
 
-# ---------------------------------------------------------------- files, and everybody's sheet
+# ---------------------------------------------------------------- files, and sheets of a class
 
 
 def test_the_command_makes_sheets_that_can_be_answered_and_marked(tmp_path: Path, solution: Result):
@@ -475,7 +475,7 @@ def test_the_command_makes_sheets_that_can_be_answered_and_marked(tmp_path: Path
     (tmp_path / "class" / "ben" / "notes.txt").write_text("nothing")
     lines = {"course": "course.toml", "results": "results", "submissions": "class"}
     run = run_in_class(tmp_path, "questions", **lines)
-    assert run.exit_code == 1, run.output  # ben has nothing to be asked about
+    assert run.exit_code == 1, run.output  # ben has no right TODO to ask about
     assert "ann: 2 questions, 5 points" in run.output and "ben: " in run.output
     sheet, key = ((out / name / "ann.html").read_text() for name in ("sheets", "keys"))
     assert "Us &lt;b&gt;: ann" in sheet
@@ -515,7 +515,7 @@ def test_what_a_course_cannot_ask_is_said(text: str, words: str, tmp_path: Path)
 
 
 def solution_lines() -> set[str]:
-    """Return the lines of the solution's regions that are long enough to tell."""
+    """Return the lines of the solution's regions that are long enough to recognise."""
     texts = [read_source(path) for path in python_files(KIT / "solution")]
     lines = {line.strip() for text in texts for r in regions_in(text) for line in r.lines}
     return {line for line in lines if len(line) > 12 and not line.startswith("#")}

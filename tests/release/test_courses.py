@@ -1,4 +1,4 @@
-"""Any choice of TODOs can be released: the students' copy has all that its checks lead to."""
+"""Test that any choice of TODOs can be released with all files that its checks need."""
 
 import ast
 import random
@@ -98,7 +98,7 @@ ODDER = ("1,B4", "7b", "6,whole", "2", "4,5,B1,B6", "7a,8b,whole", "5,B3")
     "names", [*ODD, *(pytest.param(each, marks=pytest.mark.soak) for each in ODDER)]
 )
 def test_nothing_asks_for_what_a_course_leaves_out(names: str):
-    """Except where a page says that a TODO is given, and in the program of effects."""
+    """Exceptions are pages that say a TODO is given, and the program of effects."""
     course = Course(todos=tuple(names.split(",")))
     left = [todo.id for todo in course.given]
     about = re.compile(

@@ -1,4 +1,4 @@
-"""A TODO 9 is added to a copy of the kit by the steps in CONTRIBUTING, and works everywhere."""
+"""Add a TODO 9 to a copy of the kit by the steps in CONTRIBUTING, and use it everywhere."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""uv sets up a student's folder with the packages that pip would take."""
+"""Test that uv sets up a student's folder with the packages that pip would take."""
 
 import re
 import tomllib

@@ -1,4 +1,4 @@
-"""The pygame of the page is pygame-ce, as far as the lab uses it: values, errors and positions."""
+"""Test that the page's pygame equals pygame-ce where the lab uses it: values, errors, positions."""
 
 import ast
 import json

@@ -1,4 +1,4 @@
-"""A release keeps its recordings until their sources change."""
+"""Test that a release keeps its recordings until their sources change."""
 
 from pathlib import Path
 
@@ -42,6 +42,6 @@ def test_the_same_release_is_proven_once(tmp_path: Path, monkeypatch: pytest.Mon
     assert proven == ["marks", "leaks"] * 4
     monkeypatch.setattr(build, "look_for_leaks", lambda *_: 1 / 0)
     (tmp_path / "tree" / "file").write_text("with an answer")
-    for _ in range(2):  # what is refused once is refused again
+    for _ in range(2):  # a refusal is repeated
         with pytest.raises(ZeroDivisionError):
             build.prove_built(*folders, record=record)

@@ -1,5 +1,5 @@
-"""The release: students can work with it at once, it marks as the instructor's grader does, and no
-line of the solution and no hidden check is in it."""
+"""Test the release: students can use it at once, it marks like the instructor's grader, and it has
+no line of the solution and no hidden check."""
 
 import io
 import json
@@ -80,7 +80,7 @@ class Released:
     archive: Path
     tree: Path  # the archive, unpacked
     installed: Path  # the wheel, unpacked
-    wrong: dict[str, Path]  # the submissions it was recorded with
+    wrong: dict[str, Path]  # the submissions used for recording
 
     @property
     def wheel(self) -> Path:
@@ -130,7 +130,7 @@ def wrong_in(work: Path, chosen: list[Member]) -> dict[str, Path]:
 def released(once, expected_runs: bytes, practice_file: bytes, secrets: list[Secret]) -> Released:
     """Make a release once for all test processes, with the recorded runs.
 
-    It has the answers of the TODOs in ASKED alone. `make release` and `make soak` grade both trees
+    It has the answers of the TODOs in ASKED only. `make release` and `make soak` grade both trees
     with the whole copy.
     """
 
@@ -153,7 +153,7 @@ def released(once, expected_runs: bytes, practice_file: bytes, secrets: list[Sec
 
 
 def recorded_for_some(wrong: Iterable[Tree], rubric: Rubric) -> recorded.RecordedAnswers:
-    """Record the answers of the TODOs in ASKED alone."""
+    """Record the answers of the TODOs in ASKED only."""
     return record_answers(wrong, Rubric([todo for todo in rubric.todos if todo.id in ASKED]))
 
 
@@ -220,7 +220,8 @@ def test_every_visible_check_ends_as_in_the_instructors_grader(released: Release
 
 
 STEP = "v = v + accel(x) * dt\n    return x + v * dt, v"
-# What may go otherwise here than there: imports, given files, folders. And the state it ends in.
+# Submissions that may differ between copy and kit, by imports, given files or folders, and their
+# states.
 ON_THIS_MACHINE = {
     "imports-what-is-installed": (f"import rich\n    {STEP}", "error"),
     "tries-an-import": (
@@ -414,7 +415,7 @@ def test_planted_leaks_stop_the_release(
 
 
 def test_one_verify_serves_every_course(tmp_path: Path, monkeypatch):
-    """The members of a course are those that `make verify` has graded."""
+    """A course's members are among those that `make verify` has graded."""
     few = Course(todos=("8c",), points={"8c": 7})
     asked: dict[str, list[Member]] = {"full": [], "few": []}
     for name, course in (("full", FULL), ("few", few)):
@@ -594,7 +595,7 @@ build(Path(sys.argv[2]), [], read_course(Path(sys.argv[3])))
 def test_the_release_is_the_same_wherever_and_whenever_it_is_built(tmp_path: Path):
     """Build with other file modes, paths, time zones, locales and orders of sets.
 
-    The course has TODOs of several files, which were once read in the order of a set.
+    The course has TODOs of several files, so that a set's order would show.
     """
     course = tmp_path / "course.toml"
     course.write_text('todos = ["3", "7c", "B2"]\n', encoding="utf-8")

@@ -1,4 +1,4 @@
-"""The page for a browser is used as a student would, and grades as the kit does."""
+"""Use the browser page as a student would; test that it grades as the kit does."""
 
 import gzip
 import http.server
@@ -403,7 +403,7 @@ def test_the_lab_is_done_in_firefox_and_kept_offline(site: Path, tmp_path: Path)
             assert list_passed(zipped) >= set(files)
             tab.wait()
         browser.send("browsingContext.reload", context=browser.tab, wait="none")
-        tab.wait()  # though nothing serves the page any more
+        tab.wait()  # although the server has stopped
         tab.choose("5")
         assert tab.do("check").startswith("TODO 5: passed")
 
@@ -421,7 +421,7 @@ def test_endless_loops_end_in_firefox(address: str, tmp_path: Path):
         assert tab.do("stop") == "The program has ended."
 
 
-# ---------------------------------------------------------------- what it holds
+# ---------------------------------------------------------------- content
 
 
 def write_members(members: Iterable[tuple[Member, list[str]]], folder: Path) -> list[str]:

@@ -21,8 +21,8 @@ from grader.release.pages import write_pages
 from grader.source.regions import regions_in, replace_regions
 
 PYTHONS = [sys.executable, *filter(None, map(shutil.which, ("python3.13", "python3.14")))]
-FRAMES = "40"  # of a program that a person would look at
-SWITCHES = ("ALL", "WATCH")  # with make ALL=1, and without it --all
+FRAMES = "40"  # of a program with a window
+SWITCHES = ("ALL", "WATCH")  # ALL=1 with make, --all without it
 LINES = 16  # of the first screen
 
 

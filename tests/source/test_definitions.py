@@ -41,7 +41,7 @@ def defined_in(module: str, path: str, files: dict[str, str]) -> str | None:
         ({"m/__init__.py": "from m.a import f", "m/a.py": "def f(): pass"}, "m.a:f"),
         ({"m/__init__.py": "from .a import *", "m/a.py": "from .b import f", "m/b.py": F}, "m.b:f"),
         ({"m/__init__.py": "from . import a", "m/a.py": "def f(): pass"}, "m.a:f"),
-        # What lies about and does not run, or runs and is not asked for.
+        # Files that do not run, or that run but do not matter.
         ({"m.py": "def f(): pass", "m_old.py": "def f(): pass"}, "m:f"),
         ({"m/__init__.py": "from .a import f", "m/a.py": F, "m/a_old.py": F}, "m.a:f"),
         ({"m/__init__.py": "def f(): pass", "m.py": "def f(): pass"}, "m:f"),
@@ -135,7 +135,7 @@ def test_no_name_is_followed_without_end(examples: int):
 
 
 def test_a_function_of_many_names_is_read_once(monkeypatch: pytest.MonkeyPatch):
-    """Else a few kilobytes of names cost as many readings of a long function."""
+    """Otherwise a few kilobytes of names would cost thousands of readings of a long function."""
     names = [f"a{number}" for number in range(MAX_CALLED - 10)]
     lines = ["def f(): pass", *(f"{name} = f" for name in names), f"def g(): {'; '.join(names)}"]
     program = Program({Path("m.py"): "\n".join(lines)})

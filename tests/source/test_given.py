@@ -1,4 +1,4 @@
-"""Find changed given code, name it in reasons, and put it back by its name."""
+"""Find changed given code, name it in reasons, and restore it by its name."""
 
 from pathlib import Path
 from types import SimpleNamespace
@@ -42,7 +42,7 @@ def restore(tree: Path, *names: str) -> str:
 
 
 def only(file: str, old: str, new: str) -> GivenChange:
-    """Return the one change that is found after a replacement in a file as it was handed out."""
+    """Return the one change that is found after a replacement in a handed-out file."""
     text = load_given()[file]
     assert text.count(old) == 1
     (found,) = compare_files({file: text.replace(old, new)}, load_given())
@@ -50,7 +50,7 @@ def only(file: str, old: str, new: str) -> GivenChange:
     return found
 
 
-# ---------------------------------------------------------------- what was changed
+# ---------------------------------------------------------------- changes
 
 
 @pytest.mark.parametrize(
@@ -117,7 +117,7 @@ def test_what_stands_elsewhere_or_is_not_needed_is_not_missed():
     start, stop = text.index("def friction_limit"), text.index("def solve_friction")
     moved = "from .limits import friction_limit\n" + text[:start] + text[stop:]
     assert not compare_files({SOLVER: moved.replace("import math\n", "")}, given)
-    name = "mini_engine/__init__.py"  # which passes all of them on
+    name = "mini_engine/__init__.py"  # which re-exports all of them
     lacking = given[name].replace("from .body import Body\n", "")
     (found,) = compare_files({name: lacking}, given)
     assert found.given == "from .body import Body"
@@ -128,14 +128,14 @@ def test_the_solution_changes_nothing_that_was_given():
 
 
 def test_another_change_in_a_file_says_nothing_of_its_todos():
-    """Also where the last marker of a region stands below the last statement of its function."""
+    """Also if the last marker of a region is below the last statement of its function."""
     given, added = load_given(), "\n\nclass Circle:\n    pass\n"
     mine = {name: (KIT / "solution" / name).read_text(encoding="utf-8") for name in given}
     found = compare_files({name: text + added for name, text in mine.items()}, given)
     assert found and {each.name for each in found} == {"Circle"}
 
 
-# ---------------------------------------------------------------- what it does to the checks
+# ---------------------------------------------------------------- effects on checks
 
 
 def told(tree: Path, *todos: str, reference: Path | None = None) -> dict[str, list[dict[str, str]]]:
@@ -149,7 +149,7 @@ def told(tree: Path, *todos: str, reference: Path | None = None) -> dict[str, li
 
 
 def passed(tree: Path, todo: str, reference: Path | None = None) -> list[CheckResult]:
-    """Return the checks of a TODO that has passed which have a sentence all the same."""
+    """Return the checks of a passed TODO that still have a remark."""
     options = Options(reference=reference, only=frozenset({todo}), trusted=True)
     (result,) = grade(tree, options, shared_worker()).todos
     assert result.state == "passed" and result.points == result.max_points
@@ -230,7 +230,7 @@ def test_an_instructor_reads_the_same(hand_in):
 
 
 def test_a_mistake_beside_changed_given_code_is_told_as_well(hand_in):
-    """What is to be put back comes first; the known mistake is the one that is left then."""
+    """The code to restore comes first, then the known mistake that remains."""
     tree = hand_in("solution")
     integrators(tree, CALLS, "return x + v, v + accel(x) * dt")
     failed = told(tree, "8a")["8a"]
@@ -249,7 +249,7 @@ def test_given_code_that_has_nothing_to_do_with_it_is_not_named(hand_in):
 
 
 def test_many_changes_and_many_failures_are_asked_again_so_often_and_no_more():
-    """Each time costs as much as the check; what cannot be told apart is told together."""
+    """Each run costs as much as the check; changes that cannot be separated are named together."""
 
     class Failing:
         failure, ended, observations = NotYet("ran", "1", "2"), False, ()
@@ -272,7 +272,7 @@ def test_many_changes_and_many_failures_are_asked_again_so_often_and_no_more():
     assert all(each.mended and each.changes == tuple(five) for each in blame.found.values())
 
 
-# ---------------------------------------------------------------- putting it back
+# ---------------------------------------------------------------- restoring it
 
 
 def test_a_name_is_put_back_and_a_copy_is_kept(hand_in):
@@ -325,7 +325,7 @@ def test_what_cannot_be_put_back_is_said_and_nothing_is_written(hand_in):
 
 
 def test_many_regions_and_pieces_take_no_more_than_their_sum():
-    """Each piece was once compared with each region, and all lines between the two were read."""
+    """A slow version compared each piece with each region and read all lines between them."""
 
     def read(count: int) -> int:
         constants = "".join(f"a{number} = 1\n" for number in range(count))

@@ -51,7 +51,7 @@ def test_a_marker_that_is_written_otherwise_is_an_error_with_its_line(marker: st
     with pytest.raises(RegionError, match=r"solver\.py:6: .* is no marker"):
         regions_in(f"{TEXT}    {marker}\n", "solver.py")
     ids = {region.id for region in read_regions(f"{TEXT}    {marker}\n")[0]}
-    assert ids == {"4"}  # of a student's file the others count
+    assert ids == {"4"}  # in a student's file the others count
 
 
 @pytest.mark.parametrize("id", ["8e", "12", "10b", "B10"])

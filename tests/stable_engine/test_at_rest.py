@@ -1,4 +1,4 @@
-"""Piles come to rest: what lies still stays still, and sleeps."""
+"""Test that piles come to rest, stay at rest and sleep."""
 
 import math
 
@@ -13,7 +13,7 @@ AT_REST = 0.1  # px/s
 
 
 def neat(rows, columns, packed=True):
-    """Equal balls in rows, each between two of the row below it or right above one."""
+    """Make equal balls in rows, each between two of the row below it or right above one."""
     radius, rise = 10.0, math.sqrt(3) * 10 if packed else 20.0
     width = 20.0 * columns + radius * packed
     left = -width / 2 + radius
@@ -26,7 +26,7 @@ def neat(rows, columns, packed=True):
 
 
 def fastest(world):
-    """The highest speed of any centre or rim, in px/s."""
+    """Return the highest speed of any centre or rim, in px/s."""
     return max(max(math.hypot(*ball.vel), abs(ball.omega) * ball.radius) for ball in balls(world))
 
 

@@ -1,4 +1,4 @@
-"""The broad phase finds what a look at every pair finds, however the bodies have moved since."""
+"""Test that the broad phase finds the same contacts as all pairs, after any motion."""
 
 import random
 from itertools import combinations
@@ -13,7 +13,7 @@ DT, STEPS = 1 / 120, 12
 
 
 def crowd(count, seed):
-    """Balls and boxes at random, some of them with the same left or top edge, in a world."""
+    """Make a world of random balls and boxes, some with the same left or top edge."""
     rng, world = random.Random(seed), World()
     for _ in range(count):
         at = rng.randrange(-200, 200, 20), rng.randrange(-200, 200, 20)
@@ -23,7 +23,7 @@ def crowd(count, seed):
 
 
 def near(a, b):
-    """Whether two boxes come within the margin, the low end of one having been moved out."""
+    """Return whether two boxes are within the margin, the low end of one being moved out."""
     sides = ((a.x, a.hx, b.x, b.hx), (a.y, a.hy, b.y, b.hy))
     return all(abs(p - q) < reach + other + MARGIN for p, reach, q, other in sides)
 

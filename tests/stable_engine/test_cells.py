@@ -1,7 +1,6 @@
-"""Balls in the cells of a grid of walls, thin or thick, with effects and numbers drawn at random.
+"""Test balls in the cells of a grid of thin or thick walls, with random effects and numbers.
 
-Nobody built these scenes: what is asked is that each ball stays in its cell, after any step, and
-that rods give no ball energy it did not have.
+In these random scenes each ball must stay in its cell, and rods must add no energy.
 """
 
 import math
@@ -26,7 +25,7 @@ def direction(rng, speed):
 
 
 class Cells:
-    """A world of one to six cells, and of each ball the middle of its cell."""
+    """A world of one to six cells, and the middle of each ball's cell."""
 
     def __init__(self, seed):
         rng = self.rng = random.Random(f"cells {seed}")
@@ -58,7 +57,7 @@ class Cells:
         self.world.add(Body(Box((half_x, half_y)), (x, y), **self.surface()))
 
     def fill(self, x, y):
-        """Balls in one cell that do not overlap, and what ties some of them."""
+        """Add balls to one cell without overlap, and rods or springs between some."""
         rng, balls = self.rng, []
         for _ in range(40):
             radius = rng.uniform(3, 18)
@@ -81,7 +80,7 @@ class Cells:
                 self.world.add(Spring(b, wall, stiffness, damping, rng.uniform(0, 30)))
 
     def lost(self):
-        """The balls whose centre is beyond the middle of a wall of their cell."""
+        """Return the balls whose centre is beyond the middle of a wall of their cell."""
         return [
             ball
             for ball, (x, y) in self.homes.items()
@@ -92,7 +91,7 @@ class Cells:
 def all_stay(seed, steps):
     cells = Cells(seed)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of effects that a scene drawn at random does not use
+        warnings.simplefilter("ignore")  # warnings of effects that a random scene does not use
         for dt, _ in zip(cells.steps(), range(steps), strict=False):
             cells.world.step(dt)
             assert not cells.lost(), f"seed {seed}, {cells.names}"
@@ -111,7 +110,7 @@ def test_balls_stay_in_a_thousand_grids_of_cells():
 
 @pytest.mark.parametrize("count", [2, 3, 4])
 def test_rods_give_no_energy_however_fast_their_ends_pass(count):
-    """In a step their ends may come past each other, and then seem to part. No force acts here."""
+    """In a step their ends may pass each other, and then seem to separate. No force acts here."""
     for seed in range(150):
         rng = random.Random(f"{count} on rods, {seed}")
         world = World((0, 0), rng.choice((1, 2, 4)), [Rods()])
@@ -130,7 +129,8 @@ def test_rods_give_no_energy_however_fast_their_ends_pass(count):
 
 
 def energy_in_the_middle_frame(balls):
-    """Kinetic energy (kg px²/s²) about the centre of mass, which nothing inside can raise."""
+    """Return the kinetic energy (kg px²/s²) about the centre of mass, which inner forces cannot
+    raise."""
     mass = sum(ball.m for ball in balls)
     vx = sum(ball.m * ball.vx for ball in balls) / mass
     vy = sum(ball.m * ball.vy for ball in balls) / mass

@@ -1,4 +1,4 @@
-"""A scene that calls for an effect it did not declare is told, once. After that it is free."""
+"""Test that a scene that needs an undeclared effect gets one warning, at no later cost."""
 
 import warnings
 
@@ -11,7 +11,7 @@ from stable_engine import Body, Box, Circle, Rod, Rods, Spring, Springs, World
 
 
 def world_with(*names, floor=True, **surface):
-    """A ball of this surface above a floor, in a world with the effects of these names."""
+    """Make a ball of this surface above a floor, in a world with these effects."""
     world = World(effects=make(names))
     if floor:
         world.add(Body(Box((100, 10)), (0, 10)))
@@ -20,7 +20,7 @@ def world_with(*names, floor=True, **surface):
 
 
 def named(sentences):
-    """The effects that sentences are about, and whether each is called for."""
+    """Return the effects named in the sentences, and whether each is needed."""
     return {s.partition("()")[0].rpartition(" ")[2]: "calls for" in s for s in sentences}
 
 
@@ -113,7 +113,7 @@ def test_after_the_first_step_the_check_costs_no_opcode_and_runs_no_line():
         assert "check.py" not in with_check
 
 
-# ---------------------------------------------------------------- what used to be silent
+# ---------------------------------------------------------------- new warnings
 
 
 def told_by_a_step(world):

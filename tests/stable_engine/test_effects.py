@@ -1,4 +1,4 @@
-"""A scene pays only for the effects it declares. Proofs by tracing, none by timing."""
+"""Test by tracing that a scene pays only for the effects it declares."""
 
 import os
 import subprocess
@@ -51,7 +51,7 @@ def test_an_undeclared_effect_may_be_missing_and_costs_no_opcode(effect):
 
 
 def opcodes_without(*arguments):
-    """What without_effect_for_tests.py prints, in a Python of its own."""
+    """Return the output of without_effect_for_tests.py in its own process."""
     path = os.pathsep.join([str(HERE), str(Path(stable_engine.__file__).parents[1])])
     program = [sys.executable, str(HERE / "without_effect_for_tests.py"), *arguments]
     env = os.environ | {"PYTHONPATH": path}
@@ -68,7 +68,7 @@ def test_a_declared_effect_without_users_costs_a_constant(effect):
 
 
 def price_of(effect, scene):
-    """How many opcodes more a step costs when the effect is declared."""
+    """Return the additional opcodes of a step when the effect is declared."""
     base = ["Contacts"]
     with_it = build(scene, *base, effect)
     without = build(scene, *base)
@@ -76,7 +76,7 @@ def price_of(effect, scene):
 
 
 def opcodes_of_a_step(world, files=None):
-    """What the second of two steps costs in these files, or in all."""
+    """Return the cost of the second of two steps in these files, or in all."""
     world.step(DT)
     counts = count_opcodes(lambda: world.step(DT))
     return sum(counts[name] for name in files or counts)
@@ -147,7 +147,7 @@ def test_contacts_cost_little_where_nobody_is_near(speed, gravity):
 
 def test_a_tall_silo_costs_no_more_than_a_wide_bin():
     def price(across, down):
-        """The broad phase's opcodes for 60 balls in a row, one diameter apart."""
+        """Return the broad phase's opcodes for 60 balls in a row, one diameter apart."""
         balls = [Ball((40 * i * across, 40 * i * down)) for i in range(60)]
         return opcodes_of_a_step(build(Scene(balls), "Contacts"), {"broad_phase.py"})
 
@@ -155,7 +155,7 @@ def test_a_tall_silo_costs_no_more_than_a_wide_bin():
     assert price(0.02, 1) < 2 * price(1, 0)
 
 
-# ---------------------------------------------------------------- what needs what
+# ---------------------------------------------------------------- dependencies
 
 
 def test_a_rod_or_spring_without_its_effect_is_an_error():

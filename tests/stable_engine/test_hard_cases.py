@@ -1,4 +1,4 @@
-"""The hard cases: what must hold for the stable engine.
+"""Test the hard cases of the stable engine.
 
 The quick rows of experiments.leaderboard come first: they hold the thresholds. The tests below go
 further than a row does. h = 1/480 s unless a test says else.
@@ -111,7 +111,7 @@ QUIETLY = {
 
 
 def leaks(scene, steps):
-    """Whether a ball is ever all inside a wall, or its centre in the end. At NaN the step raises.
+    """Return whether a ball is ever wholly inside a wall, or its centre at the end. NaN raises.
 
     Walls are the first four bodies of a closed box.
     """
@@ -160,7 +160,7 @@ def test_a_ball_pressed_beyond_the_middle_of_a_box_leaves_the_way_it_came():
 @pytest.mark.parametrize("substeps", sample([1, 2, 4], 2))
 @pytest.mark.parametrize("thick", sample([1, 4, 20, 100], 3))
 def test_a_ball_that_is_pressed_into_a_static_body_never_goes_through_it(thick, substeps):
-    """No flight of its core begins outside of the body, so no sweep finds that it got in."""
+    """Its core never starts outside the body, so no sweep detects the entry."""
     ledge, disc = Block((0, thick / 2), (1000, thick / 2)), Ball((0, thick / 2), thick / 2, mass=0)
     depths, speeds, steps = (0.25, 0.5, 0.9), (0, 3000, 100_000), (1 / 1000, 1 / 60, 1 / 20)
     for wall, depth, fast, dt in product((ledge, disc), depths, speeds, steps):

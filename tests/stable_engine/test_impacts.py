@@ -1,6 +1,6 @@
-"""Impacts: what symmetry, closed forms and conservation laws ask of them.
+"""Test impacts by symmetry, closed forms and conservation laws.
 
-No threshold comes from what the engine gives. Angles are in degrees, speeds in px/s.
+No threshold comes from the engine itself. Angles are in degrees, speeds in px/s.
 """
 
 import math
@@ -21,12 +21,12 @@ ROUNDING = 1e-9  # share of a speed by which two mirrored speeds may differ
 
 
 def mirrored(places, mass, **surface):
-    """Static or moving balls at these places and at their mirror images."""
+    """Make static or moving balls at these positions and at their mirror images."""
     return [Ball((side * x, y), 10, mass, **surface) for x, y in places for side in (-1, 1)]
 
 
 def kinetic(world):
-    """The energy of motion of all balls, in kg px²/s²."""
+    """Return the kinetic energy of all balls, in kg px²/s²."""
     return sum(
         (b.vx**2 + b.vy**2) * b.mass / 2 + b.omega**2 * b.mass * b.radius**2 / 4
         for b in balls(world)
@@ -34,7 +34,7 @@ def kinetic(world):
 
 
 def angular_momentum(world):
-    """The angular momentum about the origin, in kg px²/s."""
+    """Return the angular momentum about the origin, in kg px²/s."""
     return sum(
         b.mass * (b.x * b.vy - b.y * b.vx) + b.omega * b.mass * b.radius**2 / 2
         for b in balls(world)
@@ -115,7 +115,7 @@ def test_a_mirrored_drop_stays_mirrored():
 
 
 def oblique(degrees, fast, start, friction=0.0, mass=1.0, restitution=1.0):
-    """A ball that flies along x at another one at rest; the normal is that far off its way."""
+    """Make a ball that flies along x at another one at rest, with the normal at this angle."""
     off = 20 * math.sin(math.radians(degrees))
     surface = {"restitution": restitution, "friction": friction}
     bodies = [Ball((0, 0), 10, mass, **surface), Ball((-start, -off), vel=(fast, 0), **surface)]
@@ -228,7 +228,7 @@ def test_a_rough_hit_of_two_dumbbells_keeps_momentum_and_creates_no_energy(masse
 @pytest.mark.parametrize("mu", [0.1, 0.6])
 @pytest.mark.parametrize("restitution", [0.3, 0.9])
 def test_friction_takes_mu_times_the_impulse_of_an_impact_and_no_more(mu, restitution):
-    """However far below the surface the impact is found. The last substep's gravity is open."""
+    """This holds at any depth of the impact, up to the last substep's gravity."""
     surface = {"restitution": restitution, "friction": mu}
     for height in range(290, 298):
         ball = Ball((0, -10 - height), 10, vel=(3000.0, 0.0), **surface)
@@ -243,7 +243,7 @@ def test_friction_takes_mu_times_the_impulse_of_an_impact_and_no_more(mu, restit
 
 
 def test_a_gas_of_unequal_masses_keeps_its_energy():
-    """Even where balls meet slowly: without gravity, nothing rests."""
+    """Also for slow impacts: without gravity, nothing rests."""
     run_gas = build(gas(20, (1.0, 100.0)))
     before = kinetic(run_gas)
     run(run_gas, 10)

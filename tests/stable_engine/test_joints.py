@@ -1,4 +1,4 @@
-"""Rods and springs: what energy and equilibrium ask of them."""
+"""Test rods and springs by energy and equilibrium."""
 
 import math
 from itertools import pairwise, product
@@ -15,14 +15,15 @@ from experiments.scenes import DT, Ball, G, Scene, Spring, chain
 
 
 def swinging(links, length, masses=1.0):
-    """A chain of rods, let go from the horizontal."""
+    """Make a chain of rods, released from the horizontal."""
     peg = Ball((0, 0), 4, mass=0)
     row = [Ball((length * (i + 1), 0), 4, masses) for i in range(links)]
     return Scene([peg, *row], ("Rods",), [(i, i + 1) for i in range(links)])
 
 
 def energy_error(scene, seconds):
-    """The worst error of the energy, as a share of what it falls by from the horizontal to rest."""
+    """Return the largest energy error, as a share of the energy lost from the horizontal to
+    rest."""
     engine = Stable(scene)
     depth = 0.0
     for a, b in scene.rods:
@@ -119,7 +120,7 @@ def test_a_closed_frame_of_rods_turns_with_its_energy():
 
 
 def spring_chain(count, stiffness, damping, exact=True):
-    """Balls of 1 kg on springs of 20 px, hanging at the stretch of equilibrium, or not stretched.
+    """Make balls of 1 kg on springs of 20 px, at equilibrium or not stretched.
 
     The spring above the last i balls carries i G, so it is stretched by i G / stiffness.
     """
@@ -131,7 +132,7 @@ def spring_chain(count, stiffness, damping, exact=True):
 
 
 def hang_errors(scene, world):
-    """How far each spring is from its exact stretch, as a share of that."""
+    """Return each spring's error of stretch, as a share of the exact stretch."""
     count, spring = len(scene.springs), scene.springs[0]
     ends = world.bodies
     found = [math.dist((a.x, a.y), (b.x, b.y)) - 20 for a, b in pairwise(ends)]
@@ -166,7 +167,7 @@ STARS = [
 
 @pytest.mark.parametrize(("stiffness", "damping", "substeps"), STARS)
 def test_a_star_of_springs_never_gains_energy(stiffness, damping, substeps):
-    """Thirty springs on one ball: what holds for one must hold for their sum."""
+    """Thirty springs on one ball must behave like one spring of their sum."""
     ring = [
         Ball((100 * math.cos(i * math.tau / 30), 100 * math.sin(i * math.tau / 30)), mass=0)
         for i in range(30)

@@ -1,4 +1,4 @@
-"""Kinematic bodies: they go their way, and carry and push what is there."""
+"""Test kinematic bodies: they move as set, and carry and push other bodies."""
 
 import math
 
@@ -13,7 +13,7 @@ R = 10.0
 
 
 def lift_world(*more, vel=(0.0, -60.0)):
-    """A lift with a ball on it."""
+    """Make a lift with a ball on it."""
     world = World(effects=make(["Contacts", "Friction", "Kinematics", *more]))
     lift = world.add(Body(Box((50, 5)), (0, 5), kinematic=True))
     ball = world.add(Body(Circle(R), (0, -R), mass=1))

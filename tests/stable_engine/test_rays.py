@@ -1,4 +1,4 @@
-"""Rays: which body comes first, and where."""
+"""Test rays: the first body hit, and the point."""
 
 import math
 

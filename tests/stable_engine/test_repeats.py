@@ -1,4 +1,4 @@
-"""The same run twice gives identical bits, and the order of adding bodies changes none."""
+"""Test that repeated runs give identical bits, in any order of adding bodies."""
 
 import pytest
 from samples import sample

@@ -1,4 +1,4 @@
-"""Tilted walls: balls roll and slide down them as closed forms say, and do not get through."""
+"""Test tilted walls: balls roll and slide down them by closed forms, and never pass through."""
 
 import math
 
@@ -13,7 +13,7 @@ R = 10.0
 
 
 def on_slope(degrees, friction, effects=("Contacts", "Friction"), radius=0.0):
-    """A ball that just touches a slope that falls to the right; returns its world and itself."""
+    """Make a ball that just touches a slope falling to the right; return its world and itself."""
     angle = math.radians(degrees)
     along, up = (math.cos(angle), math.sin(angle)), (math.sin(angle), -math.cos(angle))
     world = World(effects=make(effects))
@@ -66,7 +66,7 @@ def test_a_ball_bounces_off_by_the_law_of_reflection(degrees):
 
 @pytest.mark.parametrize("radius", [0, 6])
 def test_an_end_is_round(radius):
-    """A ball that comes along beside the end is turned away by the line of centres."""
+    """A ball that passes the end is deflected along the line of centres."""
     world = World(gravity=(0, 0), effects=make(["Contacts", "Bounce"]))
     world.add(Body(Segment((-100, 0), (0, 0), radius), restitution=1))
     reach = R + radius

@@ -1,4 +1,4 @@
-"""When islands fall asleep, and what wakes them."""
+"""Test when islands fall asleep, and the events that wake them."""
 
 import pytest
 from worlds_for_tests import balls, build
@@ -12,7 +12,7 @@ SLEEPY = (*BOUNCE, "Sleep")
 
 
 def asleep(world, most=10):
-    """Step until all are asleep, for so many seconds at most."""
+    """Step until all are asleep, for at most `seconds`."""
     for _ in range(round(most / DT)):
         if not world.awake:
             break

@@ -1,4 +1,4 @@
-"""Bad input raises ValueError naming the value and the field."""
+"""Test that bad input raises ValueError with the value and the field."""
 
 import math
 
@@ -28,7 +28,7 @@ def world_with_ball():
 
 
 def refused(field, value, call):
-    """The message of the error, which must name field and value."""
+    """Return the error's message, which must name field and value."""
     with pytest.raises(ValueError) as raised:
         call()
     message = str(raised.value)

@@ -1,4 +1,4 @@
-"""What nobody foresaw: loads that vanish, things that move and wake, numbers set at any time."""
+"""Test unusual events: loads vanish, bodies move and wake, numbers change at any time."""
 
 import random
 from itertools import product
@@ -30,7 +30,7 @@ LAUNCHED = 0.5  # px, as in steps that vary
 
 
 def rises(world, bodies, places, seconds, dt=DT):
-    """How far any body ever gets above its place."""
+    """Return the largest rise of any body above its start."""
     pairs = list(zip(bodies, places, strict=True))
     return max(watch(world, seconds, lambda: max(y - body.y for body, y in pairs), dt))
 
@@ -63,7 +63,7 @@ def test_who_loses_its_floor_falls_as_one():
     run(world, 1)
     world.remove(world.bodies[0])
     run(world, 0.5)
-    # semi-implicit Euler falls at g t; what was let in before is pushed out on the way
+    # semi-implicit Euler falls at g t; the earlier overlap is pushed out on the way
     assert [ball.vy for ball in tall] == pytest.approx([G * 0.5] * 3, rel=0.01)
 
 
@@ -107,7 +107,7 @@ def test_a_pile_comes_to_rest_in_steps_that_vary_twentyfold():
 
 
 def resting_on(thing):
-    """A ball asleep on a static box or below a static peg."""
+    """Make a ball asleep on a static box or below a static peg."""
     if thing == "floor":
         world = build(Scene([Block((0, 10), (50, 10)), Ball((0, -10))]), *SLEEPY)
     else:
@@ -215,7 +215,7 @@ def test_on_a_conveyor_belt_a_ball_ends_up_rolling_at_a_third_of_its_speed():
 
 
 def gas(gravity):
-    """Twenty balls in a closed box, all with restitution 1."""
+    """Make twenty balls in a closed box, all with restitution 1."""
     rng = random.Random(5)
     sides = ((0, -220, 240, 20), (0, 220, 240, 20), (-220, 0, 20, 240), (220, 0, 20, 240))
     walls = [Block((x, y), (hx, hy), 1.0) for x, y, hx, hy in sides]

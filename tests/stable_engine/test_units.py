@@ -1,4 +1,4 @@
-"""The same scene in other lengths, and when what moves slowly may sleep."""
+"""Test the same scene in other units of length, and the speeds at which bodies sleep."""
 
 import math
 
@@ -24,7 +24,8 @@ from stable_engine import (
 
 
 def scene(length, names):
-    """Falling balls, a pendulum and a spring above a floor, with lengths in `length` per px."""
+    """Make falling balls, a pendulum and a spring above a floor, with lengths in `length` per
+    px."""
     effects = [Contacts(), Friction(), Bounce(), Rods(), Springs(), Bullets()]
     world = World((0, G * length), 4, [*effects, *names], unit=length)
 
@@ -83,7 +84,7 @@ def sleepy_world(gravity, *effects, unit=1.0):
 
 
 def test_a_toss_comes_down_whatever_the_unit():
-    """It is slow in its scene's lengths all the time, but nothing holds it."""
+    """It is always slow in its scene's units, but nothing supports it."""
     world = sleepy_world((0, 9.8))
     ball = world.add(Body(Circle(0.1), (0, 0), 1.0))
     ball.vel = (0, -2.9)

@@ -1,4 +1,4 @@
-"""What a program does with a world while it runs: set, push, take out, ask, be told."""
+"""Test the use of a running world: set, push, remove, query, callbacks."""
 
 import math
 
@@ -28,7 +28,7 @@ from stable_engine import (
 SLEEPY = (*BOUNCE, "Sleep")
 
 
-# ---------------------------------------------------------------- setting what a body is like
+# ---------------------------------------------------------------- setting a body's properties
 
 
 def test_friction_set_while_bodies_touch_counts_from_the_next_step():
@@ -69,7 +69,7 @@ def test_setting_what_a_body_is_like_wakes_it_and_what_touches_it(field, value):
 
 # ---------------------------------------------------------------- all that can be set
 
-# What it is, and whether another value of it takes effect. What is not here cannot be set.
+# Each attribute, and whether setting it has an effect. Other attributes cannot be set.
 SETTABLE = {
     "Body.angle": (1.0, lambda body: body.angle > 0.9),
     "Body.bullet": (True, lambda body: body.world.effects["Bullets"].bullets == [body]),
@@ -100,7 +100,7 @@ def contact_of(body):
 
 
 def things():
-    """One of each kind of thing, in a world of balls on a floor, a rod and a spring."""
+    """Return one object of each kind, in a world of balls on a floor, a rod and a spring."""
     world = World(effects=[Contacts(), Friction(), Bounce(), Rods(), Springs(), Bullets(), Sleep()])
     ground = world.add(Body(Box((500, 50)), (0, 50), restitution=1, friction=0.6))
     ball = world.add(Body(Circle(10), (0, -10), mass=1, restitution=1))
@@ -320,7 +320,7 @@ def test_the_bodies_at_a_point_are_found():
     assert world.bodies_at((21, 10)) == []
 
 
-# ---------------------------------------------------------------- taking out
+# ---------------------------------------------------------------- removing
 
 
 def test_a_body_taken_out_is_gone_and_what_lay_on_it_falls():
@@ -375,7 +375,7 @@ def test_a_world_goes_on_as_if_what_was_taken_out_had_never_been():
     assert [(b.x, b.y, b.w) for b in full.bodies] == [(b.x, b.y, b.w) for b in less.bodies]
 
 
-# ---------------------------------------------------------------- being told
+# ---------------------------------------------------------------- callbacks
 
 
 def test_a_hit_is_told_once_with_its_speed():

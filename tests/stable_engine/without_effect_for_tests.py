@@ -1,7 +1,7 @@
-"""How many opcodes 6 steps of the playground cost without an effect, for test_effects alone.
+"""Count the opcodes of 6 steps of the playground without an effect, for test_effects only.
 
-Run as a program with the name of the effect, it prints the number; with "unavailable" behind it,
-the effect's module cannot be had at all.
+Run it with the name of the effect to print the number; add "unavailable" to make the effect's
+module impossible to import.
 """
 
 import sys

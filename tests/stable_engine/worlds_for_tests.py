@@ -1,4 +1,4 @@
-"""What the tests of the stable engine need beyond the experiments' scenes and measures."""
+"""Make worlds for tests of the stable engine, beside the experiments' scenes."""
 
 from dataclasses import replace
 
@@ -8,7 +8,7 @@ from experiments.scenes import Ball, Scene, Spring, floor
 
 
 def build(scene, *effects, substeps=4):
-    """The scene in a world, with the effects of these names or, without any, its own.
+    """Build the scene in a world, with these effects or, by default, its own.
 
     world.bodies has the scene's order.
     """
@@ -16,7 +16,7 @@ def build(scene, *effects, substeps=4):
 
 
 def dumbbell(length=50.0, speed=1000.0):
-    """Two balls of radius 5 on a rod that turns at that speed, with no gravity."""
+    """Make two balls of radius 5 on a rod that turns at this speed, without gravity."""
     ends = [Ball((0, 0), 5, vel=(0, -speed)), Ball((length, 0), 5, vel=(0, speed))]
     return Scene(ends, ("Rods",), [(0, 1)], gravity=(0, 0))
 
@@ -26,12 +26,12 @@ def make(names):
 
 
 def balls(world):
-    """The bodies that can move."""
+    """Return the bodies that can move."""
     return [body for body in world.bodies if not body.is_static]
 
 
 def state(world):
-    """Every number of every body, as raw bits."""
+    """Return every number of every body, as raw bits."""
     return [
         number.hex()
         for body in world.bodies
@@ -40,7 +40,7 @@ def state(world):
 
 
 def playground(names):
-    """A little of all that the effects of these names are for."""
+    """Make a small scene that uses all these effects."""
     row = [Ball((30 * i, -10 - 5 * i), restitution=0.5) for i in range(6)]
     row[0].bullet, row[0].vel = "Bullets" in names, (2000.0, 0.0)
     springs = [Spring(4, 5, 50.0, length=30.0)]
@@ -50,16 +50,16 @@ def playground(names):
 
 
 def build_playground(names):
-    """That scene in a world with these effects."""
+    """Build that scene in a world with these effects."""
     return build(playground(names))
 
 
 def flying(count, bullets=0):
-    """Balls in free fall, far from each other; the first ones are bullets."""
+    """Make balls in free fall, far from each other; the first ones are bullets."""
     return Scene([Ball((100 * i, 0), bullet=i < bullets) for i in range(count)])
 
 
 def lying(count, still):
-    """Balls on a floor, each by itself; still more fly far above them."""
+    """Make separate balls on a floor, and more that fly far above them."""
     row = [Ball((100 * i, -10)) for i in range(count)]
     return Scene([floor(), *row, *(Ball((100 * i, -9000)) for i in range(still))])

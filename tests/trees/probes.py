@@ -71,9 +71,9 @@ def pymunk_lab_scene(seconds):
 
 
 def play(module, frames, events=()):
-    """Run a program's main() with frames of so many ms, and events as [frame, type, fields].
+    """Run a program's main() with frames of these ms, and events as [frame, type, fields].
 
-    Returns the lines it printed, and for each frame the lines of text and (x, y) of what moves.
+    Returns the printed lines, and for each frame the lines of text and (x, y) of moving bodies.
     """
     program = importlib.import_module(module)
     owner = getattr(program, "Window", program)  # of draw

@@ -1,4 +1,4 @@
-"""The two trees, and how to run what is in them: in their folder, in a process of its own."""
+"""Run programs of the two trees, in their folder and in their own process."""
 
 import json
 import os
@@ -59,7 +59,7 @@ def copy_of(tree: Path, folder: Path) -> Path:
 
 
 def edit(path: Path, old: str, new: str) -> None:
-    """Replace the one place where `old` stands in a file."""
+    """Replace the only occurrence of `old` in a file."""
     text = path.read_text(encoding="utf-8")
     assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in {path.name}"
     path.write_text(text.replace(old, new), encoding="utf-8", newline="\n")

@@ -1,4 +1,4 @@
-"""Values that make no sense are refused, by a sentence that names the field and the value."""
+"""Test that invalid values are refused, with the field and the value in the message."""
 
 import math
 

@@ -1,4 +1,5 @@
-"""The bonus tasks' physics: springs beside pymunk's and at their limit, sleepers, the grid."""
+"""Test the bonus tasks' physics: springs against pymunk's and at their limit, sleepers, the
+grid."""
 
 import cmath
 import math
@@ -15,9 +16,9 @@ LONG = 1e5  # px
 
 
 def swing(stiffness: float, damping: float, mass: float, steps: int) -> list[float]:
-    """Return the distance of a mass on a spring from its rest (px) by step, 30 px at first.
+    """Return the distance of a mass on a spring from rest (px) by step, 30 px at first.
 
-    The spring is so long that it always points the same way.
+    The spring is long enough to keep its direction.
     """
     world = BonusWorld(gravity=(0, 0), linear_damping=0, angular_damping=0)
     hook = world.add(Body(Circle(5), (0, 0)))
@@ -31,7 +32,7 @@ def swing(stiffness: float, damping: float, mass: float, steps: int) -> list[flo
 
 
 def test_a_spring_swings_beside_pymunks_damped_spring():
-    """Each may be off the closed form by a share of about rate · STEP, in place or in time."""
+    """Each may differ from the closed form by about rate · STEP, in position or time."""
     space = pymunk.Space()
     bob = pymunk.Body(2, 100)
     bob.position = LONG + 30, 0
@@ -75,7 +76,7 @@ def test_a_sleeper_keeps_its_place_to_the_last_bit_and_wakes_for_a_ball_that_rol
     places = [Vector2(body.pos) for body in others]
     rolling = world.add(Body(Circle(10), (-60, -9.75), 1, 0))
     rolling.vel, rolling.omega = Vector2(100, 0), 10
-    for _ in range(55):  # 40 px to the first, and not 20 px more to the next
+    for _ in range(55):  # 40 px to the first, but not 20 px more to the next
         world.step(STEP)
     assert not first.asleep and [body.pos for body in others] == places
 

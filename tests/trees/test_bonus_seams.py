@@ -1,4 +1,4 @@
-"""The engine stands alone: it knows nothing of the bonus tasks, and they change nothing unasked."""
+"""Test that the engine does not depend on bonus tasks, which change nothing by default."""
 
 import ast
 import random
@@ -26,10 +26,10 @@ from mini_engine.bonus.sleeping import fall_asleep
 from mini_engine.bonus.world import with_bonus
 
 CORE = sorted((SOLUTION / "mini_engine").glob("*.py"))
-PASSES_ON = {"__init__.py", "__main__.py"}  # the package's doors: they know both
+PASSES_ON = {"__init__.py", "__main__.py"}  # the package's entry points import both
 
 
-# ---------------------------------------------------------------- what knows what
+# ---------------------------------------------------------------- imports
 
 
 @pytest.mark.parametrize("path", CORE, ids=[path.name for path in CORE])
@@ -49,7 +49,7 @@ def test_the_engine_can_be_read_in_an_hour():
     assert len(list((STARTER / "mini_engine").rglob("*.py"))) <= 20
 
 
-# ---------------------------------------------------------------- nothing unasked
+# ---------------------------------------------------------------- defaults
 
 
 def bits(world):
@@ -102,7 +102,7 @@ def test_a_sleeper_keeps_its_mass_and_does_not_move():
 
 
 def test_a_sleeper_is_met_as_a_static_body_is_and_named_in_the_contact():
-    """A slow ball, which wakes nobody."""
+    """The slow ball wakes no body."""
     sleeper, comer = ball(0), ball(-19.5, 2.0, (40, 0))
     static, twin = ball(0, mass=0.0), ball(-19.5, 2.0, (40, 0))
     worlds = room(sleeper, comer), room(static, twin)

@@ -1,4 +1,4 @@
-"""The integrator shoot-out: the lesson's table to the digit, and the order of each method."""
+"""Test the integrators: the lesson's table to the digit, and the order of each method."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Test the solution's engine against the lesson, beside what its own checks ask."""
+"""Test the solution's engine against the lesson, beyond its own checks."""
 
 import math
 import random

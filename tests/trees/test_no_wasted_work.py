@@ -1,4 +1,4 @@
-"""A step does nothing for what a scene lacks: shown by the functions that run, not by the clock."""
+"""Test by counting calls that a step does no work for features that a scene lacks."""
 
 import random
 import sys
@@ -108,4 +108,6 @@ def test_rods_cost_by_their_own_number_and_not_by_that_of_the_bodies(rods, balls
     calls = calls_in_step(with_rods(falling_balls(balls), rods))
     assert calls["joints.DistanceJoint.prepare"] == rods
     assert calls["joints.DistanceJoint.solve"] == rods * ITERATIONS
-    assert calls["validate.require"] == 1  # of dt; a sound body needs no look at each number
+    assert (
+        calls["validate.require"] == 1
+    )  # checks of dt; a valid body needs no check of each number

@@ -1,4 +1,4 @@
-"""Starter and solution are one tree but for the insides of the TODO regions, and stay so."""
+"""Test that starter and solution differ only inside the TODO regions."""
 
 import ast
 import shutil

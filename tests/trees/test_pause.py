@@ -1,4 +1,4 @@
-"""Space holds a lab program still, and N runs one step then: in both windows of the lab."""
+"""Test that Space pauses both lab programs, and that N then runs one step."""
 
 import random
 

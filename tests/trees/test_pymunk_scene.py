@@ -1,4 +1,4 @@
-"""Test the solution's pymunk scene against the lesson, beside what its own checks ask."""
+"""Test the solution's pymunk scene against the lesson, beyond its own checks."""
 
 import math
 import random

@@ -1,7 +1,7 @@
-"""The starter runs from the first minute, and each unfinished TODO looks wrong in its own way.
+"""Test that the starter runs unchanged, and that each unfinished TODO looks wrong in its own way.
 
-Where other unfinished TODOs hide that way, it is seen in the solution with that one TODO undone.
-The same experiment on the finished solution shows the difference.
+If other unfinished TODOs hide the effect, the solution without that TODO is used. The same
+experiment on the finished solution shows the difference.
 """
 
 import re
@@ -84,7 +84,7 @@ def test_before_todo_3_the_bob_falls_and_the_rod_does_nothing():
 
 
 def test_before_todo_4_friction_is_unlimited(without):
-    """On a floor as slippery as ice a ball rolls at once instead of sliding on."""
+    """On a slippery floor a ball rolls at once instead of sliding on."""
     speed, _ = probe(without("4"), "slide", 16, 0.05, 0.1)[-1]
     assert speed == pytest.approx(200, rel=0.005)
     assert probes.slide(16, 0.05, 0.1)[-1][0] > 290

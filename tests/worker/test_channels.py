@@ -1,7 +1,7 @@
-"""Test that no child finds anything that another child left: try each possible channel.
+"""Test that no child finds data left by another child: try each possible channel.
 
-The first child leaves a word in a way, and lives on; the second one looks for it. A world is what
-their worker has of the layers: all of them, all but the filter, the filter alone.
+The first child leaves a word in one way and stays alive; the second one looks for it. A world is a
+set of layers: all of them, all but the filter, or the filter alone.
 """
 
 import sys
@@ -172,8 +172,8 @@ ALL_BUT_FILTER = (
     "user-namespace",
 )
 WORLDS = {"all": (), "no filter": ("system-calls",), "filter alone": ALL_BUT_FILTER}
-# What is open there: files where others write too, and the numbers of processes that all share;
-# without the filter, what children that live at the same time can do to each other.
+# Open channels: shared writable files and process numbers; without the filter, also effects between
+# children that live at the same time.
 OPEN = {
     ("file", "filter alone"),
     ("number", "filter alone"),
@@ -223,7 +223,7 @@ def test_nothing_is_carried_to_the_next_child(name: str, sandbox: Sandbox, world
     work = str(sandbox.work)
     first = sandbox.open_child(10)
     holding = {"no filter": "own-root"}.get(world, "system-calls")
-    if holding not in sandbox.layers:  # nothing else would keep the word from the machine itself
+    if holding not in sandbox.layers:  # only this keeps the word from the machine itself
         first.end()
         pytest.skip(f"this machine has no {holding}")
     if name == "descriptor":
@@ -269,7 +269,7 @@ def find():
 
 
 def test_the_files_of_one_submission_are_in_no_memory_of_the_next(tmp_path: Path):
-    """The process that forks all children of a class must not have read any submission."""
+    """The process that forks all children of a class must not read any submission."""
     worker = start_worker()
     counts = []
     for name in ("the-first", "the-second"):

@@ -95,7 +95,7 @@ def signal_all():
 """
 
 
-# What can be switched off, and what a layer cannot be there without.
+# Layers that can be switched off, and the layers that each one needs.
 SWITCHES = {
     "landlock-files",
     "network-namespace",
@@ -159,7 +159,7 @@ def workers() -> Iterator[dict[frozenset[str], Worker]]:
 
 @pytest.fixture
 def layer(request: pytest.FixtureRequest) -> str:
-    """Return the layer of a test, or none; skip the test where the machine lacks that layer."""
+    """Return the layer of a test, or none; skip the test if the machine lacks that layer."""
     name: str = getattr(request, "param", "")
     if name and name not in expected_layers():
         pytest.skip(f"this kernel or account has no {name}, so none can fail")
@@ -186,7 +186,7 @@ def refused(reply: object, *errors: str) -> bool:
 
 
 def can(flags: int) -> bool:
-    """Return whether a process of this user may enter such namespaces; a new process tries."""
+    """Return whether a process of this user may enter these namespaces; a new process tries."""
     program = f"import ctypes; exit(ctypes.CDLL(None).unshare({flags}) != 0)"
     return subprocess.run([sys.executable, "-c", program]).returncode == 0
 
@@ -445,7 +445,7 @@ def test_what_is_open_is_named():
 
 
 def test_the_page_is_short_and_names_what_is_there():
-    """A page that names a missing test makes a claim that nobody tries."""
+    """If the page names a missing test, its claim is untested."""
     page = (KIT / "handouts" / "instructor" / "security.md").read_text(encoding="utf-8")
     assert len(page.partition("## Layers")[0].split()) <= 300
     assert len(page.split()) <= 1250

@@ -95,7 +95,7 @@ def test_a_sample_of_the_bank_gets_the_same(tab: InlineWorker, tmp_path: Path):
         assert_same(folder, tab, *(member.todos if member.kind == "wrong" else ()))
 
 
-# ---------------------------------------------------------------- what ends
+# ---------------------------------------------------------------- ends
 
 
 def test_an_endless_loop_ends(tab: InlineWorker, hand_in: HandIn):
@@ -122,7 +122,7 @@ def test_odd_code_gets_the_same(code: str, words: str, tab: InlineWorker, hand_i
     assert dict(os.environ) == before
 
 
-# ---------------------------------------------------------------- what stays apart
+# ---------------------------------------------------------------- separation
 
 
 CHANGES = """
@@ -151,7 +151,7 @@ def test_nothing_that_a_submission_changes_stays(tab: InlineWorker, hand_in: Han
     assert state() == before
 
 
-# ---------------------------------------------------------------- for one's own work alone
+# ---------------------------------------------------------------- a student's own work only
 
 
 def test_it_refuses_other_peoples_work(tab: InlineWorker):

@@ -1,7 +1,7 @@
-"""Try which layer stops which attack: each layer alone, and none. walls.toml has the answers.
+"""Test which layer stops which attack: each layer alone, and none. walls.toml has the answers.
 
-The members are those of the bank that answer rightly where their attack went through, and wrongly
-where it was refused. `make verify` grades them with all layers.
+The members are those of the bank that answer right if their attack succeeds, and wrong if it is
+refused. `make verify` grades them with all layers.
 """
 
 import os

@@ -137,7 +137,7 @@ linux = pytest.mark.skipif(
 @linux
 @forked
 def test_what_sdl_looks_for_in_each_frame_is_there_before_the_fork(ask: Asker):
-    """Otherwise children load this library 2,000 times in a grade."""
+    """Otherwise children would load this library 2,000 times in a grade."""
     try:
         ctypes.CDLL("libudev.so.1")
     except OSError:

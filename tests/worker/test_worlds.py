@@ -1,7 +1,7 @@
-"""Try what goes through where a machine lacks layers. walls.toml has the answers.
+"""Test which attacks succeed if a machine lacks layers. walls.toml has the answers.
 
-The hostile bank is graded where namespaces are refused, where there is no Landlock and where there
-is neither, by whoever runs this, root or an ordinary user.
+The hostile bank is graded without namespaces, without Landlock and without both, by the current
+user, root or not.
 """
 
 import json
@@ -31,7 +31,7 @@ pytestmark = [
 GOES_THROUGH = tomllib.loads(Path(__file__).with_name("walls.toml").read_text("utf-8"))[
     "goes_through"
 ]
-WORLDS = {  # by their names in walls.toml, and what is refused there
+WORLDS = {  # names in walls.toml, with the features refused
     "no namespaces": "namespaces",
     "no Landlock": "landlock",
     "neither": "namespaces,landlock",
