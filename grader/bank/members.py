@@ -15,6 +15,14 @@ member makes the same mistake, add `+` and more. TODO must lose points, and no o
 - Most members are graded as a package and, for TODO 1 to 6, as a single file too.
   `single_file = false` leaves that out.
 
+To read the report of a wrong member, put its code into a copy of the solution and grade that:
+
+    cp -r solution build/member
+    .venv/bin/python -i -m grader.bank.members
+    >>> make_mistake("3-only-pulls", Path("build/member"))
+    >>> exit()
+    .venv/bin/python -m grader grade build/member --todo 3
+
 A member of `wrong/whole.toml` breaks a promise of the lesson in given code, by `files`. The program
 as a whole must lose points; only the TODOs in `also` may lose some.
 
@@ -30,7 +38,7 @@ A right member must get every point. Where it differs from the solution in one T
 - `right/NAME/` and `hostile/NAME/` hold files to add or replace, beside or without a NAME.toml. A
   mini_engine.py there replaces the package.
 - `hostile/8a.toml` holds attacks in TODO 8a: `code`, or `tries` where the answer is right unless
-  the attack raises OSError. They get 98 points, all but those of one check, or their `points`.
+  the attack raises OSError. They get 98 points, all but those of TODO 8a, or their `points`.
   With the `numbers` of a system call on x86_64 and aarch64, `tries` can `call(number, ...)` it.
 - `bank.toml` has the marks of members without a TOML.
 - `ladders/TODO.toml` holds the rungs of a ladder, lowest first (see ladders.py).
