@@ -248,7 +248,10 @@ def read_book(path: Path) -> Iterator[Outcome]:
 
 
 def make_table(outcomes: Iterable[Outcome], course: Course) -> str:
-    """Return the class for a spreadsheet, without times of grading."""
+    """Return the class for a spreadsheet, without times of grading.
+
+    `points` count; `found` are those of the checks, before adjustments and of a maximum, `of`.
+    """
     todos = [todo.id for todo in course.rubric.todos]
     titles = ["name", "student", "points", "before", "found", "of", "bonus", "handed in", "due"]
     titles += ["late", "adjusted", "trouble", "notes", "group"]

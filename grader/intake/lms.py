@@ -41,7 +41,7 @@ class Page:
 
 
 class Lms:
-    """A learning system; this class is any unknown one, whose gradebook asks for each column.
+    """A learning system; this class serves any unknown one, by a table with plain columns.
 
     A new system overrides what differs, and is entered in `systems.py`.
     """
