@@ -26,7 +26,7 @@ try:
 except ImportError:  # Windows: the time that the parent waits is the only limit
     resource = None  # type: ignore[assignment]
 
-MAX_CONTENT = 20 * 1024**2  # bytes of one file: no submission may have more in all
+MAX_CONTENT = 20 * 1024**2  # bytes of one file: MAX_BYTES, which a submission may have in all
 MAX_UNPACKED = 200 * 1024**2  # of one archive, unpacked
 MAX_MEMBERS = 200_000
 MEMORY = 768 * 1024**2  # bytes

@@ -35,7 +35,7 @@ from grader.source.regions import (
 from grader.source.repair import OUTSIDE, HandedOut, Repairer
 
 MAX_FILES = 500
-MAX_BYTES = 20 * 1024 * 1024
+MAX_BYTES = 20 * 1024 * 1024  # MAX_CONTENT of intake/repack.py must be equal
 MAX_SEEN = 20_000  # files and folders that are listed
 MAX_COPIES = 20  # files beside the programs that are read
 MAX_DEPTH = 40  # folders in each other

@@ -115,9 +115,8 @@ def test_links_in_a_tar_are_left_out(tmp_path):
 
 @pytest.mark.parametrize("kind", sample(["7z", "tar.xz"], 2))
 def test_a_bomb_of_one_file_gives_the_program_alone(tmp_path, kind):
-    assert (
-        repack.MAX_CONTENT == MAX_BYTES
-    )  # a separate script, from which repack can import nothing
+    # As a script, repack imports nothing of the judge, so it has a constant of its own.
+    assert repack.MAX_CONTENT == MAX_BYTES
     bomb = bytes(repack.MAX_CONTENT + 1)
     found = one(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {"big.bin": bomb}))
     package = read_package(found)
