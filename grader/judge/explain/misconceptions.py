@@ -72,7 +72,8 @@ def mistake(
     """Register a mistake by models of its answers, of which one must explain those of a submission.
 
     Several TODOs are separated by spaces. If two mistakes explain the same answers, the first one
-    is named. One that is not `apart` is in all of an answer, whatever `truth` says of its parts.
+    is named. With `apart` False, it is never in one part of an answer alone, even where `truth`
+    allows that.
     """
     for model in models:
         for todo in todos.split():
