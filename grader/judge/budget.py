@@ -1,4 +1,4 @@
-"""Limit the time that a submission may use in all of its checks, so that it delays nobody.
+"""Limit the total time of a submission's checks, so that it delays no other.
 
 Each question and each child is bounded, but there are thousands of questions: a program may sleep
 before each answer, or loop in every check. So seconds are added up, by TODO and in all. The budget
@@ -19,7 +19,7 @@ TODO_CPU, SUBMISSION_CPU = 10.0, 40.0  # s; then each check has little
 TODO_REST, SUBMISSION_REST = 8.0, 16.0  # s
 LITTLE_CPU, LITTLE_REST = 1, 0.25  # s; most checks need a tenth of this
 END_CPU, END_REST = 90.0, 32.0  # s; then no more checks run
-WORDS_CPU, WORDS_REST = 20.0, 4.0  # s, for runs that decide about words alone
+WORDS_CPU, WORDS_REST = 20.0, 4.0  # s, for runs that only affect messages
 ONE_REST = 2.0  # s, of sleep of one process in these runs
 END_HEARD = 64 * 1024 * 1024  # bytes of answers; real ones send 3 to 5 MB
 
@@ -31,7 +31,7 @@ class Budget:
     cpu: dict[str, float] = field(default_factory=lambda: defaultdict(float))
     rest: dict[str, float] = field(default_factory=lambda: defaultdict(float))
     heard: int = 0  # bytes of answers
-    words_cpu: float = 0.0  # s, of runs that decide about words alone
+    words_cpu: float = 0.0  # s, of runs that only affect messages
     words_rest: float = 0.0
 
     def copy(self) -> "Budget":
@@ -71,13 +71,13 @@ class Budget:
 
     @property
     def has_more(self) -> bool:
-        """Return whether time is left for runs that decide about words and pictures alone."""
+        """Return whether time is left for runs that only affect messages and pictures."""
         left = END_CPU - sum(self.cpu.values())
         return self.words_cpu < min(WORDS_CPU, left) and self.words_rest < WORDS_REST
 
     @property
     def cut(self) -> str:
-        """Return why no more checks run; empty while they do."""
+        """Return the reason why no more checks run, or an empty text."""
         if sum(self.cpu.values()) >= END_CPU:
             return f"not run: the checks before it used up {END_CPU:g} s of processor time"
         if sum(self.rest.values()) >= END_REST:
@@ -87,7 +87,7 @@ class Budget:
         return ""
 
     def why_little(self, todo: str) -> str:
-        """Return why a check had less time than usual; empty if it had not."""
+        """Return the reason why a check had less time than usual, or an empty text."""
         if self.cpu[todo] >= TODO_CPU or self.rest[todo] >= TODO_REST:
             return "; it had less time than usual, because earlier checks of this TODO used much"
         if sum(self.cpu.values()) >= SUBMISSION_CPU or sum(self.rest.values()) >= SUBMISSION_REST:

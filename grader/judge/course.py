@@ -21,7 +21,7 @@ from grader.judge.rubric import CHECKS, Check, Rubric, Todo, load_rubric
 
 PLACE = CHECKS.parents[1] / "course.toml"  # in a checkout of the kit
 COURSE_FILE = "COURSE_FILE"  # the variable by which make passes a course to every command
-HANDED_OUT = CHECKS / "course.toml"  # in a student's copy, whose rubric has its TODOs alone
+HANDED_OUT = CHECKS / "course.toml"  # in a student's copy, whose rubric has only its TODOs
 EXAMPLE = "2027-05-04T23:59:00+02:00"
 END_OF_DAY = time(23, 59, 59)  # the due time of a date without a time
 ANYWHERE = timezone(timedelta(hours=-12), "anywhere on Earth")  # where a day ends last
@@ -107,11 +107,10 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
     `todos`: the ids of its TODOs; None for all of them.
     `points`: the points of TODOs, if they differ from the rubric's.
     `out_of`: the points of full marks in gradebooks; None for the gradebook's own settings.
-    `bonus`: whether the points of bonus tasks are shown apart, left out, added until full marks are
-    reached, or added up to this many.
-    `due`, `late`: the due date, and the cost of lateness.
-    `visible`: the date from which students see why a hidden check failed; None for at once.
-    `questions`: the sheets about students' own programs, whose points stand apart.
+    `bonus`: points of bonus tasks are shown separately, omitted, added up to full marks, or added
+    up to this number. `due`, `late`: the due date, and the cost of lateness. `visible`: the date
+    from which students see why a hidden check failed; None for at once. `questions`: the sheets
+    about students' own programs, whose points stand apart.
     """
 
     title: Annotated[str, Meta(pattern=r"\S")] = "Physics engine"
@@ -135,7 +134,7 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def given(self) -> list[Todo]:
-        """Return the TODOs that the course leaves out: students get their code done."""
+        """Return the TODOs that the course gives students with their code."""
         asked = {todo.id for todo in self.rubric.todos}
         return [todo for todo in load_rubric().todos if todo.function and todo.id not in asked]
 
@@ -146,7 +145,7 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def as_rated(self) -> "Course":
-        """Return this course with the rubric's points, of which each check has at least one."""
+        """Return this course with the rubric's points, at least one per check."""
         return structs.replace(self, points={})
 
     def added(self, bonus: int, points: int) -> int:
@@ -172,8 +171,8 @@ FULL = Course()
 def choose_todos(todos: tuple[str, ...] | None, points: tuple[tuple[str, int], ...]) -> Rubric:
     """Return the rubric with these TODOs alone, in its own order, and with these points.
 
-    Of the whole program, the checks remain that run a program with a TODO. One that needs none of
-    the TODOs counts only once another check passes.
+    Keep those checks of the whole that run a program with a TODO. A check that needs none of the
+    TODOs counts only if another one passes.
     """
     every = load_rubric().todos
     asked = [todo for todo in every if todos is None or todo.id in todos]
@@ -255,7 +254,7 @@ def read_course(path: Path | None = None) -> Course:
 def instant(when: date, at: time) -> datetime:
     """Return a date of a course with the time `at`, and in the last time zone, unless it has them.
 
-    So it does not depend on the machine's zone, and nobody is late by their own clock.
+    So it does not depend on the zone of any machine.
     """
     exact = when if isinstance(when, datetime) else datetime.combine(when, at)
     return exact if exact.tzinfo else exact.replace(tzinfo=ANYWHERE)
@@ -265,7 +264,7 @@ def refuse(complaint: str) -> Never:
     raise WrongCourse(complaint)
 
 
-MUST = {  # the rule for each value, by its place in the file; * is any key of a table
+MUST = {  # the rule for each value, by its position in the file; * is any key of a table
     "title": "is no title: write some words in quotes",
     "points": "must be a table: write [points] on a line and 4 = 12 below it",
     "points.*": "must be a whole number from 1 to 1000",
@@ -288,7 +287,7 @@ MUST = {  # the rule for each value, by its place in the file; * is any key of a
 def convert(document: Any, kind: type[Read]) -> Read:
     """Return a table of the file as a struct; raises WrongCourse with a sentence.
 
-    msgspec names the place of what is wrong, but not the key in a table of numbers.
+    msgspec names the position of an error, but not the key in a table of numbers.
     """
     try:
         return msgspec.convert(document, kind)

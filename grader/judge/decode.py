@@ -28,7 +28,7 @@ class Decoder:
         self.running = ""  # the experiment, for the line *We ran*
         self.failure: NotYet | Broke | None = None  # the first, or the one that ended the check
         self.names: dict[int, str] = {}  # of things, for the student
-        self.surveys = False  # the check continues after a failure, to ask all it can
+        self.surveys = False  # the check continues after a failure, to ask everything
 
     def ran(self, text: str) -> None:
         """Name the experiment, for the line *We ran*."""

@@ -20,7 +20,7 @@ KEPT = (
 
 
 class NotYet(Exception):
-    """The submission gave an answer, and it is not the right one."""
+    """The submission gave a wrong answer."""
 
     def __init__(self, ran: str, expected: str, got: str, meaning: str = "") -> None:
         super().__init__(got)
@@ -50,5 +50,5 @@ class Failing:
 
 
 def secret_of(seed: int | None, todo: Todo, check: Check) -> str | None:
-    """Return the text that decides about a check's numbers; None for the usual ones."""
+    """Return the text that a check's numbers depend on; None for the usual ones."""
     return None if seed is None else f"{seed} {todo.id} {check.id}"

@@ -1,6 +1,6 @@
 """Hash the grader: results stay valid as long as the hash does.
 
-A file counts if it can decide about points: the checks, the judge, the worker and what they share.
+A file counts if points may depend on it: the checks, the judge, the worker and shared files.
 Reports and commands do not count.
 """
 
@@ -21,7 +21,7 @@ LIBRARIES = ("hypothesis", "msgspec", "pygame-ce", "pymunk", "pytest")
 
 @cache
 def fingerprint() -> str:
-    """Return the hash of the grader and its libraries, as far as they decide about points."""
+    """Return the hash of the grader and its libraries, as far as points depend on them."""
     top = Path(__file__).parents[1]
     digest = hashlib.sha256()
     for path in deciding_files(top):

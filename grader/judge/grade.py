@@ -50,15 +50,14 @@ class Options:
     `isolation`: "auto" confines as well as this machine can, and refuses to grade if files would be
     open to writing; "strict" also if some can be read or the network is open; "none" confines
     nothing.
-    `trusted`: it is one's own work, and graded with as much isolation as there is.
-    `mends`: name the line in which one change makes a failed check pass, which takes seconds; for
-    `trusted` work alone.
-    `only`: the ids of the TODOs to grade, such as "4" or "7a"; empty for all.
-    `seed`: an instructor's secret, which changes the examples and numbers of the checks.
-    `spawn`: start a new process for each child, as on platforms without fork. It changes no mark.
-    `progress`: called with each check as it ends. An exception in it ends the grade.
-    `jobs`: how many checks run at a time. It changes no mark.
-    `passed`: programs that have passed and need not run again; for `trusted` work alone.
+    `trusted`: it is the user's own work, graded with the isolation available.
+    `mends`: name the line in which one change makes a failed check pass, which takes seconds; only
+    for `trusted` work. `only`: the ids of the TODOs to grade, such as "4" or "7a"; empty for all.
+    `seed`: an instructor's secret, which changes the examples and numbers of the checks. `spawn`:
+    start a new process for each child, as on platforms without fork. It changes no mark.
+    `progress`: called with each check as it ends. An exception in it ends the grade. `jobs`: how
+    many checks run at a time. It changes no mark. `passed`: programs that have passed and need not
+    run again; only for `trusted` work.
     """
 
     reference: Path | None = None
@@ -151,7 +150,7 @@ def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) 
 def as_in_reference(tree: Path, reference: Path | None) -> list[str]:
     """Return the handed-out folders of a tree that hold no program, such as engines to import.
 
-    Children need no copy of them. Their files are those of the reference, and no others.
+    Children need no copy of them, since their files are exactly those of the reference.
     """
     if reference is None or os.name != "posix":  # Windows may not allow a link
         return []
@@ -265,10 +264,10 @@ class Grading:
         return search.found
 
     def pass_spoilt_scenes(self, todo: Todo) -> list[CheckResult]:
-        """Return the results of a TODO; a scene that another TODO spoils counts as the rest does.
+        """Return the results of a TODO; a scene spoilt by another TODO counts like the rest.
 
         Another TODO spoils a scene if it is wrong and no right version could replace it, as in a
-        program without its function. Of the whole, the rest are checks without such TODOs.
+        program without its function. For the whole, the rest are the checks without such TODOs.
         """
         results = [self.loop.outcomes[todo.id, each.id].result for each in todo.checks]
         wrong = {id for (id, _) in self.loop.failed if not self.was_replaced(id)}
@@ -291,7 +290,7 @@ class Grading:
         return Names(self.submission)
 
     def new_lab(self, todo: Todo, check: Check) -> Lab:
-        """Return a lab for one check, with the reference in the other TODOs' places."""
+        """Return a lab for one check, with the reference's code in the other TODOs."""
         module = check.module or todo.module
         pieces = self.reference.for_the_others(todo, module, self.rubric, self.submission)
         return Lab(module, lambda: self.sandbox.open_child(check.cpu_seconds), pieces)
@@ -310,14 +309,14 @@ class Grading:
     def right_submission(self) -> Submission:
         """Return the reference, taken in like a submission."""
         assert self.options.reference is not None
-        work = Path(tempfile.mkdtemp(dir=self.sandbox.work))  # a name that nobody can guess
+        work = Path(tempfile.mkdtemp(dir=self.sandbox.work))  # an unguessable name
         return take_in(self.options.reference, work / "tree", self.rubric, {})
 
 
 def make_todo_result(
     todo: Todo, checks: list[CheckResult], reasons: "Reasons", unfinished: set[str]
 ) -> TodoResult:
-    """Return the result of a TODO; its points are fixed, whatever words are found."""
+    """Return the result of a TODO; messages do not change its points."""
     points = sum(check.points for check in checks)
     nothing: tuple[list[CheckResult], Mistake | None] = (checks, None)
     worded, mistake = attempt(lambda: reasons.word(todo, checks, unfinished), nothing)
@@ -327,12 +326,13 @@ def make_todo_result(
 
 
 def keeps_points(todo: Todo, names: Names) -> bool:
-    """Return whether a TODO is its function's code alone, called as it was handed out."""
+    """Return whether a TODO's function has the handed-out signature and only its own code."""
     return bool(todo.path) and todo.path not in names.changed(todo.module)
 
 
 def charge_whole(loop: "CheckLoop", cause: GivenCause) -> None:
-    """Take a point of the whole for given code that a TODO needs, unless it lost one."""
+    """Subtract a point of the whole for changed given code that a TODO needs, unless it lost
+    one."""
     whole = loop.list_outcomes("whole")
     passed = [each for each in whole if each.result.state == "passed"]
     if not passed or len(passed) < len(whole):
@@ -376,7 +376,7 @@ def pass_for_others(wrong: list[str], check: CheckResult) -> CheckResult:
 
 
 def as_passed(check: CheckResult, meaning: str) -> CheckResult:
-    """Return a failed check as passed, with a sentence that says why."""
+    """Return a failed check as passed, with a sentence on the reason."""
     return structs.replace(
         check, state="passed", points=check.max_points, expected="", got="", meaning=meaning
     )

@@ -1,4 +1,4 @@
-"""Ask a submission: build bodies, call functions, step worlds, play programs.
+"""Send requests to a submission: build bodies, call functions, step worlds, play programs.
 
 A check reaches the submission only through a `Lab`. Every answer is made of plain numbers, strictly
 typed and finite, or the check fails with a sentence that says what was wrong.
@@ -80,7 +80,7 @@ class Lab(Decoder):
         # The first forbidden change. It fails a check that would pass otherwise: a wrong answer
         # comes first.
         self.overstepped: NotYet | None = None
-        self.trespass = ""  # the words about it, if an answer is wrong as well
+        self.trespass = ""  # the message about it, if an answer is wrong as well
         self.unforeseen = False  # the check itself raised an error
         self.numbers = count(OURS)  # for objects that the judge makes
         self.remembers: list[str] = []  # names that kept a value; see Remembered
@@ -114,7 +114,7 @@ class Lab(Decoder):
     def about(self, number: float, within: float | None = None) -> float:
         """Return the number or, under an instructor's secret seed, another one near it.
 
-        So nobody can learn the answers by heart. The number changes by eighths of `within`, by
+        So students cannot hard-code the answers. The number changes by eighths of `within`, by
         default a quarter of it: sums and products of round numbers stay exact. Properties do not
         need this, since they draw their numbers.
         """
@@ -220,7 +220,7 @@ class Lab(Decoder):
     def advance(self, world: Thing, accumulator: float, seconds: float) -> "Advance":
         """Call the program's `advance` for a frame of some seconds, in which no step runs.
 
-        So it may change nothing.
+        So it must not change anything.
         """
         target, args = f"{self.module}:advance", [plain(world), accumulator, seconds]
         request = Call(target, args, framed=True, stepping=True)
@@ -232,7 +232,7 @@ class Lab(Decoder):
         return Advance(rest, returned.steps, returned.dts, said)
 
     def work(self, thing: Thing, method: str, *args: Any) -> int:
-        """Return how many lines of the submission run in a call of a method."""
+        """Return the number of the submission's lines that run in a call of a method."""
         arguments = [plain(each) for each in args]
         return self._returned(Call(f"#{thing.ref}.{method}", arguments, work=True)).lines
 
@@ -539,7 +539,7 @@ class Moment:
 
     @property
     def speed(self) -> float:
-        """px/s, whatever the direction."""
+        """Return the speed, px/s."""
         return math.hypot(self.vx, self.vy)
 
 

@@ -47,7 +47,7 @@ class CheckLoop:
         self.helpers: list[Opener] = [each.open_child for each in beside]
         self.outcomes: dict[Key, Outcome] = {}
         self.unusable: dict[str, Broke | NotYet] = {}  # by module: why it cannot be imported
-        self.wrong_check = ""  # which check the reference fails as well, and how
+        self.wrong_check = ""  # checks that the reference fails as well, and how
         self.passed: PassedPrograms | None = None
         if options.trusted and not grading.surveys_all:
             self.passed = options.passed
@@ -55,7 +55,7 @@ class CheckLoop:
     def run(self) -> None:
         """Run every check, and judge them in the order of the rubric.
 
-        The whole needs the results of the TODOs, so it begins when they have ended.
+        The whole starts last, since it needs the results of the TODOs.
         """
         self._try_imports()
         todos = filter(self.grading.options.wants, self.rubric.todos)
@@ -126,7 +126,7 @@ class CheckLoop:
         return None
 
     def _flaw_of(self, job: Job) -> Flaw | None:
-        """Return why Python does not accept the code that a check is about."""
+        """Return the reason why Python refuses the code that a check is about."""
         if job.todo.function:
             return self.submission.flaws.get(job.todo.id)
         return self.submission.outside.get(job.module)
@@ -135,7 +135,7 @@ class CheckLoop:
 
     @contextmanager
     def _run_ahead(self, jobs: list[Job]) -> "Iterator[dict[Key, Future[EarlyOutcome]]]":
-        """Let helpers run checks, the last one first, while the loop begins with the first.
+        """Let helpers run checks from the last, while the loop starts from the first.
 
         Each has a copy of the budget. If the loop's budget turns out to differ, the check runs
         again: marks do not depend on how many run at a time.
@@ -181,7 +181,7 @@ class CheckLoop:
         return [each for each in self.outcomes.values() if each.job.todo.id == todo]
 
     def list_observations(self, todo: str) -> list[Observation]:
-        """Return the answers to all checks of a TODO, which tell known mistakes apart."""
+        """Return the answers to all checks of a TODO, which distinguish known mistakes."""
         found: list[Observation] = []
         for outcome in self.list_outcomes(todo):
             found += outcome.observations
@@ -190,7 +190,7 @@ class CheckLoop:
         return found
 
     def replace_answers(self, answers: Mapping[Key, list[Observation]]) -> None:
-        """Take other answers for some checks; of their TODOs, no other observations count."""
+        """Use other answers for some checks; other observations of their TODOs do not count."""
         for key, some in answers.items():
             self.outcomes[key].answers = some
         for todo in {todo for todo, _ in answers}:
@@ -206,7 +206,7 @@ class CheckLoop:
     def replaceable(self) -> frozenset[str]:
         """Return the TODOs that have failed: the whole runs with right versions of them.
 
-        Return none if all that was begun has failed: such a program shows nothing of its own.
+        Return none if all started TODOs have failed: such a program shows nothing of its own.
         """
         failed = {id for (id, _), each in self.outcomes.items() if each.result.state != "passed"}
         begun = [todo.id for todo in self.rubric.counted if self.submission.begun.get(todo.id)]

@@ -4,7 +4,7 @@ import re
 
 NOISE = 1e-12  # of rounding; no check asks for smaller numbers
 MAX_WHOLE = 12  # digits before the point
-MAX_DIGITS = 9  # in all, if they are enough to tell *Expected* from *Got*
+MAX_DIGITS = 9  # digits, if they distinguish *Expected* from *Got*
 NUMBER = re.compile(r"(?<![\w.])-?\d+(?P<rest>\.\d+)?(?P<power>e[-+]?\d+)?(?![\w]|\.\d)")
 
 

@@ -1,8 +1,8 @@
 """Remember the programs that have passed all checks of a TODO, so that none runs twice.
 
-With the reference in the other TODOs' places, many submissions become the same program: one that
-has only TODO 4 wrong runs the solution everywhere else. This is for one's own work and for the bank
-alone: another program could read its own files, and behave differently.
+With the reference's code in the other TODOs, many submissions become the same program: one with
+only TODO 4 wrong runs the solution everywhere else. This is only for the user's own work and for
+the bank: another program could read its own files and behave differently.
 """
 
 import ast
@@ -46,7 +46,7 @@ def program_key(
 ) -> str:
     """Hash the program that the checks of a TODO run, with the checks, the grader and Python.
 
-    Of the submission's files, those that the imports load count, and all that are not Python.
+    Imported files of the submission count, and all files that are not Python.
     `right`: the reference's versions of other TODOs, which count instead of the submission's own
     if they have the same parameters.
     """
@@ -84,5 +84,5 @@ def without_body(text: str, function: Function) -> str:
 
 @cache
 def surroundings() -> str:
-    """Name the grader, the Python and the machine, which decide about an answer as well."""
+    """Name the grader, the Python and the machine, which answers also depend on."""
     return f"{fingerprint()} {sys.version} {platform.platform()}"

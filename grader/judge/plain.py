@@ -1,6 +1,6 @@
-"""Open the files of a submission safely, though somebody may put a link in their place.
+"""Open the files of a submission safely, even if they are replaced by links.
 
-A name may lead to something else between a look and the opening. So each folder on the way is
+A name may change its target between the check and the opening. So each folder on the way is
 opened inside the one before, links are refused, and the type is read from the open file. Windows
 has no such calls: there a name is checked right before it is opened.
 """
@@ -67,7 +67,7 @@ def read_plain(folder: Path, inside: PurePath | str, most: int = -1) -> bytes:
 
 
 def copy_plain(file: io.BufferedReader, target: Path, length: int) -> None:
-    """Copy so many bytes of an open file, and no more if it grows meanwhile."""
+    """Copy this many bytes of an open file, even if it grows meanwhile."""
     with open(target, "wb") as out:
         while part := file.read(min(length, PART)):
             out.write(part)

@@ -1,7 +1,7 @@
 """Look up recorded answers, which a student's copy of the checks has instead of closed forms.
 
 The code of some right answers would give away a TODO, and so would the code of known mistakes. A
-release calls both with all that the checks can ask, and writes the answers to `recorded.json`
+release calls both with all possible inputs of the checks, and writes the answers to `recorded.json`
 beside the copy of the checks. The kit itself has no such file.
 """
 
@@ -37,15 +37,15 @@ class RecordedAnswers(Struct, frozen=True):
     right: dict[str, Answers] = {}  # the right answers, by kind of question
     traits: dict[str, Answers] = {}  # of the questions
     parts: dict[str, dict[str, list[int]]] = {}  # of the answers
-    separate: list[str] = []  # kinds of questions in which a mistake may be in one part alone
+    separate: list[str] = []  # kinds of questions in which a mistake may affect only one part
     mistakes: list[RecordedMistake] = []
 
 
 def oracle(*values: Sequence[float]) -> Callable[[Function], Function]:
-    """Mark a function of which students get the answers and not the code.
+    """Mark a function whose answers students get, but not its code.
 
-    Without `values`, the recorded answers are those that checks of the solution ask for. A check
-    that asks at random is hidden from students, unless `values` lists those of each argument.
+    Without `values`, a run of the checks on the solution decides which answers are recorded. A
+    check with random inputs is hidden from students, unless `values` lists each argument's.
     """
 
     def mark(function: Function) -> Function:

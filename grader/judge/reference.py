@@ -60,9 +60,8 @@ class Reference:
         """Return the right versions of other TODOs in `module` that the checks of a TODO get.
 
         A TODO gets those of all others. The whole gets those of TODOs that have `failed`, of bonus
-        tasks, and of TODOs that `rubric` leaves out: students got these done. A bonus task that was
-        not begun does nothing, and stays.
-        `differing`: only those that the submission does not have in the same words.
+        tasks, and of given TODOs, which `rubric` omits. An unstarted bonus task does nothing, and
+        stays. `differing`: only those that the submission does not have in the same words.
         """
         asked = {each.id for each in rubric.todos}
 
@@ -86,9 +85,9 @@ class Reference:
 
 
 def drop_function(function: str, piece: Piece) -> Piece:
-    """Return a piece without this function, which the check is about.
+    """Return a piece without this function, which the check tests.
 
-    A piece brings along the functions that it calls, and a child can read all that is sent to it.
+    A piece includes the functions that it calls, and a child can read everything sent to it.
     """
     others = {name: source for name, source in piece.given.items() if name != function}
     return msgspec.structs.replace(piece, given=others)

@@ -80,7 +80,7 @@ class TodoResult(Struct, frozen=True):
 
     @property
     def remark(self) -> str:
-        """Return why it counts as not started although there is code for it, or nothing."""
+        """Return the reason why it counts as not started although it has code, or an empty text."""
         return self.checks[0].meaning if self.checks and self.state == "not started" else ""
 
     @property
@@ -131,7 +131,7 @@ class Result(Struct, frozen=True):
 
     @property
     def shown(self) -> list[TodoResult]:
-        """Return the TODOs for reports: bonus tasks once begun, or if there is nothing else."""
+        """Return the TODOs for reports: bonus tasks once started, or if there is nothing else."""
         begun = [todo for todo in self.todos if todo.bonus and todo.state != "not started"]
         return [*self.counted, *begun] if self.counted else self.todos
 
@@ -144,7 +144,7 @@ class Result(Struct, frozen=True):
 
 
 def state_of(checks: list[CheckResult]) -> State:
-    """Return "passed" when all checks are; otherwise the most telling of their states."""
+    """Return "passed" if all checks are, else the most important of their states."""
     states = {check.state for check in checks}
     order: list[State] = ["error", "not yet", "waiting", "not started"]
     for state in order:

@@ -18,7 +18,7 @@ class Check(Struct, frozen=True, forbid_unknown_fields=True):
     module: str = ""  # that it imports, if not the TODO's module
     guard: bool = False  # a stub may pass it too: it counts once another check of the TODO passes
     needs: list[str] = []  # TODOs that must pass first
-    runs: list[str] = []  # TODOs that its scene runs too, whose mistakes it is not about
+    runs: list[str] = []  # other TODOs that its scene runs, which it does not test
     cpu_seconds: int = 5  # budget of one child; the reference needs about a twentieth
     hidden: bool = False  # not in the students' copy: it needs the right code
 

@@ -1,4 +1,4 @@
-"""Run one check, in a child of its own each time, and keep the evidence of what happened."""
+"""Run one check, in a new child each time, and keep the evidence."""
 
 import re
 from collections.abc import Callable, Collection, Iterable
@@ -23,7 +23,7 @@ from grader.protocol import Piece
 if TYPE_CHECKING:
     from grader.judge.grade import Grading
 
-DIGITS = re.compile(r"[-\d.e]+")  # what differs between two examples of one question
+DIGITS = re.compile(r"[-\d.e]+")  # differences between two examples of one question
 COST = {"unit": 0, "scene": 1, "property": 2}  # kinds of checks, the longest last
 SURVEY_CPU = 2  # s of processor time, for a survey
 BRIEF = 1.0  # s of processor time: only a check that took less is surveyed
@@ -37,10 +37,10 @@ class Conditions:
 
     isolated: bool = False  # the reference replaces the other TODOs
     on_reference: bool = False  # the reference runs instead of the submission
-    surveys: bool = False  # the check continues after a failure, and asks all it can
+    surveys: bool = False  # the check continues after a failure, to ask everything
     watched: bool = False  # the child notes which names keep a value from call to call
     opener: Opener | None = None  # opens children of another tree
-    cpu_for_words: int = 0  # s; the run decides about words alone, and has a budget of its own
+    cpu_for_words: int = 0  # s; the run only affects messages, and has its own budget
 
 
 @dataclass
@@ -49,7 +49,7 @@ class Outcome:
 
     job: Job
     result: CheckResult
-    failed: bool = False  # it can run again, and it failed when it ran in its turn
+    failed: bool = False  # it can run again, and it failed in its turn
     observations: list[Observation] = field(default_factory=list)  # of the run that counts
     answers: list[Observation] = field(default_factory=list)  # of the program as it is
     fails_in: str | None = None  # the TODO it fails in first; empty for an unknown one
@@ -64,10 +64,10 @@ class Runner:
     grading: "Grading"
     open_child: Opener
     budget: Budget
-    replaceable: frozenset[str] = frozenset()  # TODOs of which the whole has right versions
+    replaceable: frozenset[str] = frozenset()  # TODOs that have right versions in the whole
 
     def run(self, job: Job) -> Outcome:
-        """Run a check with the reference in the other TODOs' places, then the program as it is.
+        """Run a check with the reference's code in the other TODOs, then the unchanged program.
 
         The words about a failure come from the program as it is. Where the reference was sent, a
         submission could have read it, and its answers could spell it out. A check that ran out of
@@ -99,9 +99,9 @@ class Runner:
         return outcome
 
     def _survey(self, job: Job, lab: Lab) -> list[Observation]:
-        """Return the answers to all that a failed check can ask, to tell right from wrong ones.
+        """Return the answers to all questions of a failed check, to separate right from wrong ones.
 
-        A property asks much, and a program takes long to play: these are not surveyed.
+        Properties ask too much, and programs take too long, so these are not surveyed.
         """
         wanted = isinstance(lab.failure, NotYet) or self.grading.surveys_all
         brief = lab.connection.cpu < BRIEF and not lab.played and self.budget.has_more
@@ -114,10 +114,10 @@ class Runner:
         return survey.observations
 
     def find_wrong_check(self, job: Job, lab: Lab) -> str:
-        """Return how the reference fails a check as well, in words; empty if it passes.
+        """Return how the reference fails a check too, or an empty text if it passes.
 
-        It runs only where the check may be wrong: after an error that the check did not foresee,
-        and where the submission has the reference's code.
+        It runs only if the check may be wrong: after an unexpected error, or if the submission has
+        the reference's code.
         """
         grading = self.grading
         likely = lab.unforeseen or grading.reference.is_that_of(grading.submission, job.todo)
@@ -141,7 +141,7 @@ class Runner:
         """Return a lab in which the check ran, and the example that ran last.
 
         A property draws the same examples for every submission. So those that another submission
-        passed run first. Only where one fails, hypothesis looks for the simplest.
+        passed run first. Only if one fails, hypothesis searches for the simplest.
         """
         seed = self.grading.options.seed
         known = passed_before.get((job.function, seed))
@@ -174,7 +174,7 @@ class Runner:
     def do_pass(self, outcomes: Iterable[Outcome], failed: Collection[str], opener: Opener) -> bool:
         """Return whether checks of a TODO pass in other children, which have little time.
 
-        Those that must are the checks in `failed`, by id, and those that have passed before.
+        The checks in `failed`, by id, must pass, and those that passed before.
         """
         chosen = [
             each
@@ -185,7 +185,7 @@ class Runner:
         return all(self._passes(each, opener) for each in chosen)
 
     def _passes(self, outcome: Outcome, opener: Opener) -> bool:
-        """Run the example that failed first, and alone: most changes mend nothing."""
+        """Run the failed example first, and alone, since most changes do not help."""
         how = Conditions(isolated=True, opener=opener, cpu_for_words=LITTLE_CPU)
         job, failing = outcome.job, outcome.failing
         with kept_examples(job.function, self.grading.options.seed):
@@ -212,7 +212,7 @@ class Runner:
                     failure.got += f"; {lab.trespass}" if lab.trespass else ""
             except Flaky:  # the lab kept the first failure, if it saw one
                 lab.failure = lab.failure or Broke(lab.running, "a different answer each time")
-            except Exception as error:  # an answer that our own arithmetic cannot stand
+            except Exception as error:  # an answer that our own arithmetic cannot process
                 name = type(error).__name__
                 lab.failure = Broke(lab.running, f"an answer that makes no sense ({name}: {error})")
                 lab.unforeseen = True
@@ -253,7 +253,7 @@ class Runner:
 def choose_lab(first: Lab, alone: Lab) -> Lab:
     """Return the lab to report, after its last example ran alone in another child.
 
-    Where the two differ, the answer depends on earlier questions, and no number means anything.
+    If the two differ, the answer depends on earlier questions, and its numbers mean nothing.
     """
     before, after = first.failure, alone.failure
     assert isinstance(before, NotYet)
@@ -269,9 +269,9 @@ def choose_lab(first: Lab, alone: Lab) -> Lab:
 
 
 def fails_elsewhere(isolated: NotYet | Broke, alone: NotYet | Broke) -> bool:
-    """Return whether a check fails before the question that it fails in when isolated.
+    """Return whether a check fails before the question in which it fails when isolated.
 
-    In the same question, an error of another place may come first.
+    In the same question, an error from another function may come first.
     """
     if DIGITS.sub("", isolated.ran) != DIGITS.sub("", alone.ran):
         return True
@@ -286,7 +286,7 @@ def name_trespass(lab: Lab) -> str:
     return words if " changed " in words else ""
 
 
-# By the property and its seed, all the examples that a submission passed.
+# All the examples that a submission passed, by property and seed.
 passed_before: dict[tuple[Any, int | None], list[Example]] = {}
 
 

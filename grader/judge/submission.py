@@ -58,9 +58,9 @@ class CannotGrade(Stop):
 
 
 def attempt(make: Callable[[], T], otherwise: T) -> T:
-    """Return what `make` finds in a submission's code, or `otherwise` if it fails.
+    """Return the result of `make` on a submission's code, or `otherwise` if it fails.
 
-    Only for words and what leads to them: no points depend on it.
+    Use it only for messages: no points depend on it.
     """
     try:
         return make()
@@ -73,7 +73,7 @@ def attempt(make: Callable[[], T], otherwise: T) -> T:
 
 @dataclass
 class Submission:
-    """The copy of a submission and the places of its TODOs."""
+    """The copy of a submission and the positions of its TODOs."""
 
     name: str
     folder: Path
@@ -83,12 +83,14 @@ class Submission:
     left_out: list[str] = field(default_factory=list)
     unread: list[str] = field(default_factory=list)  # files too long to read, in words
     uses_numpy: bool = False
-    flaws: dict[str, Flaw] = field(default_factory=dict)  # by TODO: its code is no Python
-    outside: dict[str, Flaw] = field(default_factory=dict)  # by program: other code is no Python
-    starts: dict[str, Where] = field(default_factory=dict)  # where each program's main is
+    flaws: dict[str, Flaw] = field(default_factory=dict)  # by TODO: its code is not Python
+    outside: dict[str, Flaw] = field(default_factory=dict)  # by program: other code is not Python
+    starts: dict[str, Where] = field(default_factory=dict)  # file of each program's main
     program: Program = field(default_factory=lambda: Program({}))  # all of its Python files
     supplied: list[str] = field(default_factory=list)  # given files that it lacks
-    remarks: dict[str, str] = field(default_factory=dict)  # by TODO: why no code counts for it
+    remarks: dict[str, str] = field(
+        default_factory=dict
+    )  # by TODO: reason why no code counts for it
 
     def holds(self, file: str) -> bool:
         """Return whether it has a file of this name, which may come from a child."""
@@ -167,7 +169,7 @@ def supply_given(folder: Path) -> Iterator[str]:
         hidden = (folder / f"{package}.py").exists() and not own_package
         target = folder / name
         found = next(each for each in (target, *target.parents) if each.exists())
-        if not found.is_dir() or found == target:  # the file, or something else in its place
+        if not found.is_dir() or found == target:  # the file, or something else of its name
             continue
         if "/" in name and (hidden or not (folder / package).is_dir()):
             continue
@@ -209,7 +211,8 @@ def plain_files(path: Path) -> Iterator[Path]:
 
 
 def explain_unreadable(error: OSError, within: Path) -> str:
-    """Return why a file or folder cannot be read, with its name inside the submission."""
+    """Return the reason why a file or folder cannot be read, with its name inside the
+    submission."""
     why = error.strerror or type(error).__name__
     name = os.fspath(error.filename) if isinstance(error.filename, (str, os.PathLike)) else ""
     if not name or name == os.fspath(within):
@@ -224,13 +227,13 @@ def may_be_read(name: str) -> bool:
 
 
 def may_be_entered(folder: os.DirEntry[str]) -> bool:
-    """Return whether a folder may hold a student's files: it is no virtual environment."""
+    """Return whether a folder may hold a student's files, and is no virtual environment."""
     is_own = may_be_read(folder.name) and folder.name not in IGNORED
     return is_own and not os.path.lexists(os.path.join(folder.path, "pyvenv.cfg"))
 
 
 def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) -> None:
-    """Find the place of each TODO, and whether it has other code than the stub."""
+    """Find the position of each TODO, and whether its code differs from the stub."""
     texts = {
         path.relative_to(submission.folder): read_source(path)
         for path in python_files(submission.folder)
@@ -255,7 +258,7 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
             submission.starts[module] = Where(program.paths[module].as_posix(), 1)
     for module, flaw in submission.outside.items():
         own = [todo.id for todo in rubric.todos if todo.function and todo.module == module]
-        if not any(id in submission.functions for id in own):  # nothing but what is no Python
+        if not any(id in submission.functions for id in own):  # only code that is not Python
             submission.flaws |= dict.fromkeys(own, flaw)
     for id, flaw in submission.flaws.items():
         submission.begun[id], submission.where[id] = True, Where(flaw.file, flaw.line)
@@ -308,7 +311,7 @@ def repair_file(
 
 
 def flaw_of(path: Path, refused: bool) -> Flaw | None:
-    """Return the first thing that Python refuses in a file; its bytes may be no text."""
+    """Return the first flaw that Python refuses in a file, which may be undecodable."""
     return find_bad_bytes(path.read_bytes()) or (find_flaw(read_source(path)) if refused else None)
 
 
@@ -335,9 +338,9 @@ def note_place(
     text: str,
     function: Function | None,
 ) -> None:
-    """Note the place of a TODO: its region or, without markers, its function.
+    """Note the position of a TODO: its region or, without markers, its function.
 
-    A region counts inside the function alone: a copy of it elsewhere does not run.
+    A region counts only inside the function: a copy elsewhere does not run.
     """
     region = next((each for each in read_regions(text)[0] if each.id == todo.id), None)
     if function is not None:

@@ -73,7 +73,7 @@ def is_given(todo: Todo, frame: CodeLine) -> bool:
 
 
 def last_lines(output: str) -> str:
-    """Return the last lines that were printed, on one line; what failed came last."""
+    """Return the last printed lines, on one line; the failure came last."""
     lines = [line.strip() for line in output.splitlines() if line.strip()]
     lines = [cut(each, MAX_PRINTED) for each in lines if not each.startswith(GIVEN_PRINTS)]
     shown = " | ".join(lines[-MOST_PRINTED:])

@@ -24,7 +24,8 @@ NAMES = 10  # columns up to the words of *Got* and the like
 
 
 def list_reasons(check: CheckResult, task: str = "") -> list[tuple[str, str]]:
-    """Return why a check failed, in named lines; `task` follows a place in the TODO's code."""
+    """Return the reasons of a failed check, in named lines; `task` follows a position in the TODO's
+    code."""
     place = place_of(check) + task * (not check.where.given) if check.where else ""
     words = (
         ("We ran", check.ran),
@@ -38,7 +39,7 @@ def list_reasons(check: CheckResult, task: str = "") -> list[tuple[str, str]]:
 
 
 def format_reasons(check: CheckResult, task: str = "") -> list[str]:
-    """Return why a check failed, as lines of text."""
+    """Return the reasons of a failed check, as lines of text."""
     return [f"{name:<{NAMES}}{clean(words)}" for name, words in list_reasons(check, task)]
 
 
@@ -81,7 +82,7 @@ def hidden_points_note(result: Result) -> str:
     return words if points else ""
 
 
-# ---------------------------------------------------------------- what to type
+# ---------------------------------------------------------------- commands
 
 
 def command(
@@ -104,7 +105,7 @@ def python_command() -> str:
     return "python" if os.path.isabs(python) else python
 
 
-# ---------------------------------------------------------------- what students are told
+# ---------------------------------------------------------------- hidden reasons
 
 
 def withhold_reasons(result: Result, course: Course, now: datetime | None = None) -> Result:

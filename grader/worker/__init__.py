@@ -1,10 +1,10 @@
-"""Run a submission. Of the rest of the grader, this room imports `protocol` alone.
+"""Run a submission. This package imports only `protocol` from the rest of the grader.
 
 A child goes through these steps:
 
 1. Start. warm.py loads Python, pygame and pymunk once and forks a child per check, in milliseconds.
-   Where there is no fork, spawned.py starts each child as a new process. Where there are no
-   processes, tab.py keeps it in the judge's own, for one's own work alone.
+   Where there is no fork, spawned.py starts each child as a new process. Without processes, tab.py
+   keeps it in the judge's own, only for the user's own work.
 2. Confine (confinement.py, root.py, filter.py): the child gives up its rights before it sees a line
    of the submission.
 3. Copy (copies.py): it gets its own copy of the submission.

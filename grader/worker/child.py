@@ -112,7 +112,7 @@ def attempt(session: Session, requests: list[Request]) -> Reply:
 
 
 def send(channel: Channel, answered: Answered) -> None:
-    """Send an answer, or say why it cannot be sent: too long, or a number too large."""
+    """Send an answer, or the reason why it cannot be sent: too long, or a number too large."""
     try:
         channel.send(answered)
     except (ProtocolError, OverflowError, ValueError) as error:
@@ -158,7 +158,7 @@ def perform(session: Session, request: Request) -> Reply:
 
 
 def call(subject: Subject, request: Call) -> Returned:
-    """Call a function or method of the submission, and observe what the request asks for."""
+    """Call a function or method of the submission, and observe the requested values."""
     function = subject.find(request.target)
     args = trim_arguments(function, [subject.decode(each) for each in request.args])
     kwargs = {name: subject.decode(each) for name, each in request.kwargs.items()}

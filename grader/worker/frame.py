@@ -1,6 +1,6 @@
 """Compare the bodies, contacts, joints, worlds and constants before and after a call.
 
-A function may change what its docstring names and nothing else. The child lists the changes; the
+A function may change only what its docstring names. The child lists the changes; the
 judge decides which are allowed.
 """
 
@@ -121,7 +121,7 @@ def numbers_in(value: Any) -> Numbers:
 
 
 def is_close(before: Numbers, after: Numbers) -> bool:
-    """Return whether both are equal but for rounding: a function may normalise a normal again."""
+    """Return whether both are equal up to rounding: a function may normalise a normal again."""
     return before == after or (
         len(before) == len(after)
         and all(

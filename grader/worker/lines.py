@@ -1,4 +1,4 @@
-"""Count the lines of a submission that run: a measure of work that is equal on every machine.
+"""Count the lines of a submission that run: the same measure of work on every machine.
 
 The submission runs in this process, so it can reach the count. We notice if it ends the count,
 works in another thread or hides a function. We do not notice if it overwrites the number.

@@ -1,6 +1,6 @@
 """Run a program for a number of frames, or step a world without a program.
 
-A run is the same on every machine: it counts frames and steps, and its clock is scripted.
+A run is the same on every machine: it counts frames and steps on a scripted clock.
 """
 
 import inspect

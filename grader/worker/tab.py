@@ -1,8 +1,8 @@
 """Run children without processes: all in this interpreter, each while it answers a request.
 
-For the page in a browser tab, which has no processes. For one's own work alone: nothing here
-confines a submission. Each child has its own modules, import rule, clock, random numbers, folder
-and output, which replace the judge's while it answers.
+It is for the page in a browser tab, which has no processes, and only for the user's own work: it
+does not confine a submission. Each child has its own modules, import rule, clock, random numbers,
+folder and output, which replace the judge's while it answers.
 """
 
 import builtins

@@ -1,7 +1,7 @@
 """Read the objects of a submission as plain numbers.
 
-Nothing is trusted: a submission may return a subclass of float that lies when compared, or a body
-with a field missing. So every value is rebuilt from the built-in types.
+No value is trusted: a submission may return a subclass of float with false comparisons, or a body
+without a field. So every value is rebuilt from the built-in types.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""Find out whether changed given code makes a check fail: run it with that code put back.
+"""Find out whether changed given code makes a check fail: run it with that code restored.
 
 A check that passes then keeps its points, since the student's own code is right: changed given code
-costs the program as a whole. Code that Python loads from elsewhere is not put back.
+costs the program as a whole. Code that Python loads from elsewhere is not restored.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -17,9 +17,9 @@ from grader.judge.wall.children import Child
 from grader.source.given import GivenChange, compare_files, compare_whole_file, undo_changes
 from grader.source.regions import read_source
 
-MOST_ALONE = 8  # changes that are each put back alone, to find the one that matters
+MOST_ALONE = 8  # changes to undo one by one, to find the one that matters
 EXPERIMENTS = {"ITERATIONS"}
-MOST_ASKED = 60  # runs of checks with one change put back
+MOST_ASKED = 60  # runs of checks with one change undone
 
 OpenChild = Callable[[int], Child]
 
@@ -33,7 +33,7 @@ class GivenCause:
 
     @property
     def is_all(self) -> bool:
-        """Return whether nothing else needs to be said; a name that is gone may have a new one."""
+        """Return whether this is the full explanation; a missing name may have a new one."""
         return self.mended and all(each.theirs for each in self.changes)
 
     @property

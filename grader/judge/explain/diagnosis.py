@@ -32,7 +32,7 @@ class Finding:
 
     mistake: Mistake
     where: str  # a clause about the questions; empty for all of them
-    part: str  # of the answer; empty if all that the mistake changes is there
+    part: str  # parts of the answer; empty if all changes of the mistake appear
     changed: frozenset[str]  # parts of the answer
     explains: frozenset[int]  # indices of questions
 

@@ -35,8 +35,11 @@ CALLED_BACK = {  # what to do about an error of such a function, by a part of th
     "NoneType": "Its data is None: hand data to on_collision as well, data=data.",
     "UnboundLocalError": "What it assigns is its own alone: count in data.",
 }
-UNFIT = ("ZeroDivisionError", "ValueError: Can't normalize")  # a case came where it must not
-LONGEST = 110  # letters of what is said beside a line
+UNFIT = (
+    "ZeroDivisionError",
+    "ValueError: Can't normalize",
+)  # a case was reached that must not occur
+LONGEST = 110  # letters of the text beside a line
 NEARLY, NOTHING = 5e-5, 1e-9  # relative error of a rounded number; error of one that is 0
 NUMBER = re.compile(r"(?<![\w.^])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 FINISH = "TODO {ids} must be right before this can be checked: finish {it} first."
@@ -80,7 +83,7 @@ class Failure:
     evidence: Evidence
     answers: Sequence[Observation] = ()
     kept: Sequence[str] = ()  # names that held a value from call to call
-    trespass: str = ""  # what it changed that must stay, in words
+    trespass: str = ""  # forbidden changes, in words
     given_cause: GivenCause | None = None
     earlier: Sequence[str] = ()  # TODOs in which the program fails first
     start: Where | None = None  # where the program begins
@@ -133,7 +136,7 @@ def find_line(failure: Failure, meaning: str) -> int:
 
 
 def blame_given_code(failure: Failure) -> str:
-    """Name the changed given code, and the next reason where it is not the only one."""
+    """Name the changed given code, and the next reason if it is not the only one."""
     cause = failure.given_cause
     if cause is None:
         return ""
@@ -198,7 +201,7 @@ def name_suspect(kind: str, is_all: bool = False) -> "Explainer":
 
 
 def name_kind(failure: Failure) -> str:
-    """Name an answer of the wrong kind: a known mistake of other answers does not explain it."""
+    """Name an answer of the wrong kind, which known mistakes of other answers do not explain."""
     check = failure.check
     return check.meaning if check.meaning.endswith(f"; it is {check.got}.") else ""
 
@@ -223,10 +226,10 @@ def name_trespass(failure: Failure) -> str:
 
 
 def name_rounding(failure: Failure) -> str:
-    """Name rounding, where each number is right to some digits and not to all."""
+    """Name rounding if each number is right to some digits, but not to all."""
     check = failure.check
     right, ours = (list(map(float, NUMBER.findall(each))) for each in (check.expected, check.got))
-    right = right[: len(ours)]  # what follows may be the question's
+    right = right[: len(ours)]  # the rest may belong to the question
     if right == ours or len(right) < len(ours) or check.state != "not yet":
         return ""
     if failure.evidence.diagnosis.findings:  # a known mistake comes near as well
@@ -254,7 +257,7 @@ def point_to_line(failure: Failure) -> str:
 def describe_answers(failure: Failure) -> str:
     """Return the check's own words, or how its answers differ from the right ones.
 
-    A value that is kept from call to call is named as well: alone, it is no mistake.
+    It also names values kept from call to call, which alone are no mistake.
     """
     words = failure.check.meaning or failure.evidence.diagnosis.describe(failure.answers)
     names = [name.rpartition(".")[2] for name in failure.kept[:MOST_NAMES]]
@@ -262,7 +265,7 @@ def describe_answers(failure: Failure) -> str:
 
 
 def name_rebound(failure: Failure) -> str:
-    """Name an argument that gets another value, where nothing else is known."""
+    """Name an argument that gets another value, if no other reason is known."""
     return failure.evidence.suspect("rebound")
 
 
@@ -276,7 +279,7 @@ def repeat_remark(failure: Failure) -> str:
 
 
 def point_outside(failure: Failure) -> str:
-    """Say of the program as a whole that the reason is in no TODO."""
+    """Say for the whole program that the reason is in no TODO."""
     return "" if failure.evidence.todo.function else OUTSIDE
 
 

@@ -21,7 +21,7 @@ Parts = dict[str, list[int]]
 
 
 class Undecided(Exception):
-    """Raised by a model that has no one answer to these inputs, such as a tie of two faces."""
+    """Raised by a model without a unique answer to these inputs, such as a tie of two faces."""
 
 
 @dataclass(frozen=True)
@@ -31,15 +31,15 @@ class Mistake:
     meaning: str  # the sentence a student reads
     about: str  # the kind of question
     model: Model
-    apart: bool = True  # it may be in one part of an answer alone
+    apart: bool = True  # it may affect only one part of an answer
 
 
 known_mistakes: list[Mistake] = []
 # By kind of question:
 right_models: dict[str, Model] = {}
-trait_models: dict[str, Model] = {}  # traits that may tell one question from another, in words
+trait_models: dict[str, Model] = {}  # traits that distinguish questions, in words
 part_names: dict[str, Parts] = {}
-separate_questions: set[str] = set()  # a mistake may be in one part of an answer alone
+separate_questions: set[str] = set()  # a mistake may affect only one part of an answer
 
 
 def truth(
@@ -52,10 +52,10 @@ def truth(
     """Register the right model of a kind of question.
 
     `traits` describes a question by a dict of clauses, such as {"place": "the centre is inside the
-    box"}. A mistake is looked for in questions with the same trait, in this order. A trait that
-    begins with _ only helps to say where answers are wrong. `parts` names the parts of an answer by
-    the positions of their numbers; no positions are all of them. Where each part has code of its
-    own, they are `apart`, and a mistake may be in one of them alone.
+    box"}. Mistakes are searched in questions with the same trait, in this order. A trait that
+    begins with _ only helps to locate wrong answers. `parts` names the parts of an answer by the
+    positions of their numbers, or all numbers without positions. Parts computed by separate code
+    are `apart`: a mistake may affect only one of them.
     """
     right_models[about] = model
     if traits is not None:
@@ -69,7 +69,7 @@ def truth(
 def mistake(
     todos: str, about: str, name: str, meaning: str, *models: Model, apart: bool = True
 ) -> None:
-    """Register a mistake by models of its answers, of which one must explain those of a submission.
+    """Register a mistake by models of its answers; one of them must explain a submission's.
 
     Several TODOs are separated by spaces. If two mistakes explain the same answers, the first one
     is named. With `apart` False, it is never in one part of an answer alone, even where `truth`
@@ -135,7 +135,7 @@ def name_mistake(todo: str, observations: Sequence[Observation]) -> Mistake | No
     fits = {(each.id, each.about) for each in found}
     kinds = {each.about for each in observations}
     expected = {(each.id, each.about) for each in of_todo if each.about in kinds}
-    denied = {id for id, _ in expected - fits}  # other answers would show it, and do not
+    denied = {id for id, _ in expected - fits}  # it would show in other answers, but does not
     found = [each for each in found if each.id not in denied]
     if load_recorded() is not None and len(keep_simplest({each.id for each in found})) > 1:
         return None
@@ -143,7 +143,7 @@ def name_mistake(todo: str, observations: Sequence[Observation]) -> Mistake | No
 
 
 def says_nothing(observations: Sequence[Observation]) -> bool:
-    """Return whether all answers with several parts are missing, as many mistakes leave them."""
+    """Return whether all answers with several parts are missing, which fits many mistakes."""
     answers = [each.answer for each in observations if each.about in part_names]
     return bool(answers) and all(each is None for each in answers)
 

@@ -1,4 +1,4 @@
-"""Narrow down wrong answers by their numbers: in which questions, which part, and how much.
+"""Narrow down wrong answers by their numbers: the questions, the part and the amount.
 
 This states facts and no guesses. They are found first, as a `Narrowing`, and then worded.
 """
@@ -24,7 +24,7 @@ from grader.judge.recorded import key
 
 WHOLE = "the answer"  # the part of an answer without parts, or of the wrong kind
 CASE = "_case"  # the trait that describes a question
-FEWEST = 2  # answers that prove anything
+FEWEST = 2  # minimum of answers for a proof
 MOST = 3  # clauses of one kind in a sentence
 LONGEST = 150  # characters of these clauses
 IS_WRONG = "is wrong"
@@ -269,7 +269,7 @@ def count_traits(questions: list[Question], *kinds: str) -> Counter[Any]:
 
 
 def join(clauses: Iterable[Any]) -> str:
-    """Join clauses by `or`; a beginning that all share comes once."""
+    """Join clauses by `or`; a common beginning comes once."""
     words = [str(each) for each in clauses]
     first, both, _ = words[0].partition(" and ") if len(words) > 1 else ("", "", "")
     if both and all(each.startswith(first + both) for each in words):

@@ -1,7 +1,7 @@
 """Find the line in which one small change makes a failed check pass.
 
-The report names the line and the kind of change, never the change itself. This is only for one's
-own work, since it may take as long as all the checks together.
+The report names the line and the kind of change, never the change itself. This is only for a
+student's own work, since it may take as long as all checks together.
 """
 
 import ast
@@ -127,7 +127,7 @@ def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
 
 
 def is_value(name: str) -> bool:
-    """Return whether a name may be that of a number or a vector, and is not that of a class."""
+    """Return whether a name may refer to a number or a vector, not to a class."""
     return name.islower() or name.isupper()
 
 
@@ -210,13 +210,13 @@ def put_into(text: str, region: Region, code: str) -> str:
 
 
 def change_sign(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `-x` for `x`."""
+    """Replace `x` by `-x`."""
     if isinstance(node, ast.expr) and not isinstance(node, ATOMS | ast.UnaryOp):
         yield ast.UnaryOp(ast.USub(), node)
 
 
 def leave_out_term(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `x` or `y` for `x + y`, `x and y`, `x if z else y`, `max(x, y)` and the like."""
+    """Replace `x + y`, `x and y`, `x if z else y`, `max(x, y)` and similar by `x` or `y`."""
     match node:
         case ast.BinOp(left, op, right) if isinstance(op, SUMS):
             yield from (left, right)
@@ -227,7 +227,7 @@ def leave_out_term(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
 
 
 def move_bracket(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `(x + y) * z` for `x + y * z`, also in longer sums, and the reverse."""
+    """Replace `x + y * z` by `(x + y) * z`, also in longer sums, and the reverse."""
     match node:
         case ast.BinOp(
             ast.BinOp(left, ast.Add() | ast.Sub() as plus, right),
@@ -264,26 +264,26 @@ def add_up(terms: list[tuple[ast.operator, ast.expr]]) -> ast.expr:
 
 
 def swap_operands(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `y - x` for `x - y`."""
+    """Replace `x - y` by `y - x`."""
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub | ast.Div):
         yield ast.BinOp(node.right, node.op, node.left)
 
 
 def swap_targets(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `y, x = z` for `x, y = z`."""
+    """Replace `x, y = z` by `y, x = z`."""
     match node:
         case ast.Assign([ast.Tuple([first, second], ctx)], value):
             yield ast.Assign([ast.Tuple([second, first], ctx)], value)
 
 
 def change_and(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `or` for `and`."""
+    """Replace `and` by `or`."""
     if isinstance(node, ast.BoolOp):
         yield ast.BoolOp(ast.Or() if isinstance(node.op, ast.And) else ast.And(), node.values)
 
 
 def use_a_similar_name(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `v2` for `v1`, and `vel_a` for `vel_b`."""
+    """Replace `v1` by `v2`, and `vel_b` by `vel_a`."""
     if isinstance(node, ast.Name) and node.id in names:
         stem = ENDING.sub("", node.id)
         for each in sorted(names - {node.id}):
@@ -298,14 +298,14 @@ def use_another_name(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
 
 
 def use_another_attribute(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `b.pos.y` for `b.pos.x`."""
+    """Replace `b.pos.x` by `b.pos.y`."""
     if isinstance(node, ast.Attribute):
         for other in related_names(node.attr, CONFUSED):
             yield ast.Attribute(node.value, other, node.ctx)
 
 
 def double(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `2 * x` or half of it for `x`."""
+    """Replace `x` by twice or half of it."""
     if isinstance(node, ast.expr) and not isinstance(node, ATOMS):
         yield from (ast.BinOp(node, ast.Mult(), ast.Constant(each)) for each in (2, 0.5))
 
@@ -319,7 +319,7 @@ def add_factor(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
 
 
 def add_limit(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `max(0, x)`, `min(0, x)` or `abs(x)` for `x`."""
+    """Replace `x` by `max(0, x)`, `min(0, x)` or `abs(x)`."""
     if isinstance(node, ast.expr) and not isinstance(node, ATOMS):
         for name in ("max", "min"):
             yield ast.Call(ast.Name(name), [ast.Constant(0), node], [])
@@ -327,7 +327,7 @@ def add_limit(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
 
 
 def leave_out_statement(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Leave out a statement."""
+    """Remove a statement."""
     if isinstance(node, ast.stmt):
         yield []
 
@@ -339,7 +339,7 @@ def leave_out_condition(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]
 
 
 def add_to_it(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Put `+=` or `-=` for `=`."""
+    """Replace `=` by `+=` or `-=`."""
     match node:
         case ast.Assign([ast.Name() | ast.Attribute() as target], value):
             yield from (ast.AugAssign(target, sign, value) for sign in (ast.Add(), ast.Sub()))

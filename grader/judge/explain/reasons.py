@@ -1,7 +1,7 @@
 """Find the reasons of the checks that failed: collect the evidence, and word it.
 
-All points are decided by then. A submission's code may be anything, so where the search fails, the
-results go without reasons.
+All points are final by then. A submission's code may be anything, so if the search fails, the
+results have no reasons.
 """
 
 from collections.abc import Mapping, Sequence
@@ -70,7 +70,7 @@ class Reasons:
         return {id: line for id, line in found if line}
 
     def _look_at(self, outcome: Outcome) -> BadLine | None:
-        """Return the line that should be gone; a run without a leftover shows whether it helps."""
+        """Return the line to remove; a run without a leftover shows whether that helps."""
         todo = outcome.job.todo
         code = None if self.loop.budget.cut else self._read_region(todo)
         if code is None:
@@ -172,9 +172,10 @@ class Reasons:
     def _find_earlier(
         self, todo: Todo, outcomes: Mapping[str, Outcome], unfinished: set[str]
     ) -> dict[str, list[str]]:
-        """Return, by failed check, the other TODOs whose mistakes show before its own can.
+        """Return, by failed check, the other TODOs whose mistakes show before its own.
 
-        A check of the whole also waits for what it needs and no right version could replace.
+        A check of the whole also waits for TODOs that it needs and that no right version could
+        replace.
         """
         found = {}
         todos = self.grading.rubric.todos
@@ -206,7 +207,9 @@ class Reasons:
         """Add the line in which one change makes the unexplained checks pass, if it is found."""
         options = self.grading.options
         rule = TRESPASS.removeprefix("{name}")
-        oversteps = any(rule in check.meaning for check in checks)  # then no other line is why
+        oversteps = any(
+            rule in check.meaning for check in checks
+        )  # then no other line is the reason
         if not options.trusted or not options.mends or oversteps:
             return failures
         unexplained = [id for id, each in failures.items() if is_unexplained(each)]

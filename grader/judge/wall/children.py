@@ -57,7 +57,7 @@ REST_SECONDS = 8.0  # the longest that a child may sleep in all
 # Checks keep answers, which take up to thirty times their length in memory. Real children send at
 # most 1 MB in all.
 MAX_HEARD = 8 * 1024 * 1024  # bytes
-LOOK_SECONDS = 1.0  # of waiting for answers, between two looks at whether the child sleeps
+LOOK_SECONDS = 1.0  # s of waiting for answers, between two checks whether the child sleeps
 
 ready_decoder = msgspec.msgpack.Decoder(Ready)
 answer_decoder = msgspec.msgpack.Decoder(Answered)
@@ -101,7 +101,7 @@ class Child:
         self.heard = 0  # bytes of its answers
         self.first: list[Setup] = []  # to be done before the next request
         self.seen: dict[int, Value] = {}  # states that came with the last answer, by object
-        self.over = ""  # why it does not answer any more
+        self.over = ""  # reason why it does not answer any more
         self.late = False  # it was ended because its time was over
         try:
             self.ready = ready_decoder.decode(channel.receive(START_SECONDS))
@@ -160,7 +160,7 @@ class Child:
     def _exchange(self) -> bytes:
         """Send what was posted and receive the answer; neither waits for a child that sleeps.
 
-        A child may leave a question unread, so that it cannot be sent, or send half an answer.
+        A child may not read a question, which then cannot be sent, or send half an answer.
         """
         deadline = self.waited + self.wall_seconds
         self._wait_for(self.channel.flush, deadline)
@@ -211,7 +211,8 @@ IDLE = {psutil.STATUS_SLEEPING, *STOPPED}
 
 
 def busy_seconds(pid: int) -> float | None:
-    """Return how long a process has worked or waited for a processor, s; None if it is gone.
+    """Return the time for which a process has worked or waited for a processor, s; None if it is
+    gone.
 
     Where the system does not measure waiting, a process that is not asleep counts as always busy.
     """
@@ -230,16 +231,16 @@ MEASURES_QUEUES = Path("/proc/self/schedstat").exists()
 
 
 def seconds_in_queue(pid: int) -> float:
-    """Return how long a process has waited for a processor, s; 0 on systems other than Linux.
+    """Return the time for which a process has waited for a processor, s; 0 except on Linux.
 
-    Of its threads, the one that waited longest counts: a hundred that wait in the same second wait
-    for one. Raises OSError if the process is gone.
+    The longest wait of its threads counts: a hundred threads that wait in the same second count as
+    one second. Raises OSError if the process is gone.
     """
     return max(list_waits(pid), default=0.0)
 
 
 def list_waits(pid: int) -> Iterator[float]:
-    """Yield how long each thread has waited, s; see proc(5), schedstat."""
+    """Yield the waiting time of each thread, s; see proc(5), schedstat."""
     for thread in os.listdir(f"/proc/{pid}/task") if MEASURES_QUEUES else ():
         with suppress(FileNotFoundError, ProcessLookupError):  # it has just ended
             schedule = Path(f"/proc/{pid}/task/{thread}/schedstat").read_text("ascii")
@@ -259,7 +260,7 @@ class Worker(Protocol):
     def pid_of(self, child: Child) -> int: ...
 
     def end(self, child: Child, gone: bool) -> int | None:
-        """Return the exit status, a signal negative; None where it took the worker down with it."""
+        """Return the exit status, negative for a signal; None if the worker ended with it."""
 
     def close(self) -> None: ...
 
@@ -298,7 +299,7 @@ def start_clean(
 
 
 def explain(cpu_seconds: int, code: int | None) -> str:
-    """Return why a child is gone, by its exit status; None where its worker is gone as well."""
+    """Return the reason why a child ended, by its exit status; None if its worker has ended too."""
     if code is None:
         return "it took the worker down with it"
     if code in OUT_OF_TIME:
@@ -331,7 +332,7 @@ class WarmWorker:
         self.layers: list[str] = []  # around all children, once one was opened
 
     def helpers(self, count: int) -> Sequence["WarmWorker"]:
-        """Return as many others, which stay for the next grade and are closed with this one."""
+        """Return other workers, which are reused for the next grade and closed with this one."""
         while len(self.beside) < count:
             self.beside.append(WarmWorker(self.without))
         return self.beside[:count]
@@ -344,7 +345,7 @@ class WarmWorker:
     def open(self, setup: ChildSetup) -> Child:
         try:
             return self._open(Open(setup), setup)
-        except (ChannelClosed, ChildEnded):  # something killed the warm process: a new one serves
+        except (ChannelClosed, ChildEnded):  # the warm process was killed: start a new one
             self._kill()
             self._start()
             return self._open(Open(setup), setup)
@@ -407,7 +408,7 @@ class WarmWorker:
             return False
 
     def _kill(self) -> None:
-        """End the process with all its children, whatever state they are in."""
+        """End the process with all its children, in any state."""
         self.control.close()
         end_family(self.process.pid)
         self.process.wait()

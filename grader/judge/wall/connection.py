@@ -47,7 +47,7 @@ class Connection:
     cpu: float = 0.0  # s, of processor time that its children used
     rested: float = 0.0  # s, for which they slept
     heard: int = 0  # bytes of their answers
-    over: NotYet | Broke | None = None  # why no more requests are possible
+    over: NotYet | Broke | None = None  # reason why no more requests are possible
     watched: bool = False  # the child notes which names keep a value from call to call
     deal: int = 0  # added to the seeds that the submission gives its random generators
 

@@ -1,6 +1,6 @@
-"""Run children inside the judge's own process, in a browser tab, which has no others.
+"""Run children inside the judge's own process, in a browser tab, which has no other.
 
-This confines nothing, so it is for one's own work; `grade` refuses it for other people's.
+This confines nothing, so it is only for the user's own work; `grade` refuses it for others'.
 """
 
 import os

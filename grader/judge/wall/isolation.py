@@ -22,9 +22,9 @@ ONE_PROCESS = "one-process"  # no layer: submission and grader share a process
 
 
 def find_refusal(isolation: Isolation, layers: list[str], trusted: bool) -> str:
-    """Return why these layers are not enough to grade; empty if they are.
+    """Return the reason why these layers are not enough to grade, or an empty text.
 
-    `trusted`: the submission is one's own work, which one may run without a grader as well.
+    `trusted`: the submission is the user's own work, which may run without a grader as well.
     """
     if ONE_PROCESS in layers and not trusted:
         return (

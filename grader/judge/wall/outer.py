@@ -44,7 +44,7 @@ READING_CPU, GRADING_CPU = 15.0, 105.0  # s of processor time; both together mak
 MOST_MEMORY = 1024  # MB, of all processes of a submission; twice as much of addresses
 MOST_SECONDS = 1800.0  # s on the clock: the last resort, where nothing else ends it
 LOOK_SECONDS = 0.5
-TOGETHER = 50  # pieces of work in one process, where none of them is in trouble
+TOGETHER = 50  # pieces of work in one process, if none fails
 SECONDS_TO_END = 5.0  # s that a process has to clean up
 WATCHES_FORKS = sys.platform.startswith("linux")  # elsewhere files are read without limits
 TICKS = os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 100
@@ -79,7 +79,7 @@ class Exceeded(Stop):
 
 
 class Lost(Exception):
-    """The process ended without an answer, and nobody ended it."""
+    """The process ended by itself without an answer."""
 
 
 class Failed(Exception):
@@ -162,9 +162,9 @@ def read_family(pid: int) -> Iterator[tuple[int, tuple[float, int]]]:
 
 
 def add_shares(family: Family) -> int:
-    """Return the bytes of these processes, in which a page that some of them share counts once.
+    """Return the bytes of these processes; a shared page counts once.
 
-    This takes the kernel longer. Where it is not possible, each page counts as often as it is used.
+    This takes the kernel longer. If it is not possible, each page counts as often as it is used.
     """
     total = 0
     for pid, (_, memory) in family.items():
@@ -227,7 +227,7 @@ def call_within(
 def call_each_within(
     allowance: Allowance, kind: Any, works: Sequence[Callable[[], Reply]]
 ) -> "Iterator[Reply | Exceeded | Failed]":
-    """Run pieces of work that may run twice; yield each value, or why there is none.
+    """Run pieces of work that may run twice; yield each value or the reason why there is none.
 
     Several run in one process. If that fails, each gets a process of its own.
     """
@@ -246,7 +246,7 @@ def do_all(works: Sequence[Callable[[], Reply]]) -> list[Reply]:
 def call_alone(
     allowance: Allowance, kind: Any, work: Callable[[], Reply]
 ) -> "Reply | Exceeded | Failed":
-    """Run one piece of work; return its value, or why there is none."""
+    """Run one piece of work; return its value or the reason why there is none."""
     try:
         return call_within(allowance, kind, work)
     except (Exceeded, Failed) as error:

@@ -1,4 +1,4 @@
-"""Prepare processes that grade side by side, and end processes with all that they started."""
+"""Prepare processes that grade in parallel, and end processes with all that they started."""
 
 import multiprocessing
 import os

@@ -1,4 +1,4 @@
-"""Open children of one tree, and decide what they may reach."""
+"""Open children of one tree, and limit the files that they may reach."""
 
 import os
 import shutil
@@ -38,8 +38,8 @@ class Sandbox:
     def open_child(self, cpu_seconds: int) -> Child:
         """Return a child with this budget, in processor seconds.
 
-        Raises CannotGrade if none can start: no line of the submission has run then, so it is not
-        to blame.
+        Raises CannotGrade if none can start. No line of the submission has run then, so it is not
+        the cause.
         """
         self._clear()
         try:

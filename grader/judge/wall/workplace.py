@@ -15,7 +15,7 @@ from pathlib import Path
 
 try:
     import fcntl
-except ImportError:  # Windows: the files of a crash stay until somebody removes them
+except ImportError:  # Windows: the files of a crash stay until a user removes them
     fcntl = None  # type: ignore[assignment]
 
 PREFIX = "physics-grader-"
@@ -38,7 +38,7 @@ def work_folder() -> Iterator[Path]:
 
 @cache
 def remove_leftovers(place: str) -> None:
-    """Remove the folders of killed processes from a place; look once."""
+    """Remove the folders of killed processes from a folder, once."""
     if fcntl is None:
         return
     for folder in Path(place).glob(f"{PREFIX}*"):
