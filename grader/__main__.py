@@ -1,4 +1,5 @@
-"""`python -m grader`: the current folder is no place to import from, it may be a submission."""
+"""Run `python -m grader`. Nothing is imported from the current folder, which may be a
+submission."""
 
 import os
 import signal
@@ -16,4 +17,4 @@ except KeyboardInterrupt:  # while it starts, or between two commands' own words
     print("stopped before the end", file=sys.stderr)
     sys.exit(2)
 finally:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # all is said: nothing is left to be stopped
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the output is complete: there is nothing to stop

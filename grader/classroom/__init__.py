@@ -1,1 +1,1 @@
-"""Grade a whole class, and turn results into pages and marks; students get none of this room."""
+"""Grade a whole class, and turn results into pages and marks; students do not get this package."""

@@ -1,8 +1,8 @@
-"""Apply what a person decides about points: one file for a class, apart from the results.
+"""Apply a person's decisions about points, in one file for a class, separate from the results.
 
-handouts/instructor/class.md shows such a file. A rule that `[late]` leaves out is that of
-course.toml. Results never change: each grading computes points anew from them and from this file,
-and shows every change with its reason.
+handouts/instructor/class.md shows such a file. Rules missing in `[late]` come from course.toml.
+Results never change: each grading computes points anew from them and from this file, and shows
+every change with its reason.
 """
 
 import math
@@ -45,12 +45,12 @@ class Adjust(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True
     student: Words | Annotated[list[Words], Meta(min_length=1)]
     reason: Words
     add: int | None = None  # points, to those that the grader found
-    points: Points | None = None  # the mark, whatever was found and whether anything was
+    points: Points | None = None  # the mark, for any or no result
     late: bool | None = None  # false: lateness is excused
     due: datetime | None = None  # an extension
     cap: Points | None = None  # the maximum
-    bonus: Points | None = None  # points beside the grader's own bonus, counted as these are
-    take: Words | None = None  # the work that counts: of a name, or a path in what was handed in
+    bonus: Points | None = None  # points besides the grader's bonus, counted like it
+    take: Words | None = None  # the work that counts: a name, or a path in the submission
 
     def __post_init__(self) -> None:
         if len(msgspec.to_builtins(self)) != 3 or self.late:
@@ -93,7 +93,8 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
     zone: str = ""
 
     def decide(self, found: Work, points: int | None) -> "FinalPoints":
-        """Return what counts for a submission that earned `points`; None if it was not graded."""
+        """Return the final points for a submission that earned `points`; None if it was not
+        graded."""
         decisions = self.find_decisions(found)
         reasons: list[str] = []
         if points is not None and self.late is not None:
@@ -146,7 +147,7 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         return int(found.late)
 
     def find_due(self, found: Work) -> datetime | None:
-        """Return when this student's work is due: the last extension, or the date for all."""
+        """Return the due date of this student: the last extension, or the date for all."""
         extended = [each.due for each in self.find_decisions(found) if each.due]
         due = max(extended) if extended else self.late.due if self.late else None
         return self.add_zone(due) if due else None
@@ -173,7 +174,7 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def choices(self) -> list[tuple[str, str]]:
-        """Return students and the work that a person says is theirs."""
+        """Return students and the work that a person assigned to them."""
         return [(who, each.take) for each in self.adjust if each.take for who in each.students]
 
     def place_comments(self, found: Work, files: Mapping[str, bytes]) -> list[Remark]:
@@ -213,7 +214,7 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
 
 @dataclass(frozen=True)
 class FinalPoints:
-    """The points that count, and why they are not those of the checks."""
+    """The points that count, and the reasons why they differ from the checks'."""
 
     points: int | None  # None: there is no mark
     reasons: tuple[str, ...] = ()
@@ -261,7 +262,7 @@ RULES = {  # by a part of msgspec's words
 
 
 def name_value(words: str, document: dict[str, Any]) -> str:
-    """Return a complaint of msgspec's with the line of the file that it is about."""
+    """Return a complaint of msgspec with the key that it is about."""
     found = re.fullmatch(r"(.*) - at `\$\.(late|(adjust|comment)\[(\d+)\])(?:\.(\w+))?.*`", words)
     if found is None:
         return words
@@ -285,7 +286,7 @@ def convert_dates(document: dict[str, Any]) -> None:
 
 
 def add_rules(course: Course, document: dict[str, Any]) -> dict[str, Any]:
-    """Return the decisions, with the course's due date and late rules where they have none."""
+    """Return the decisions, with the course's due date and late rules as defaults."""
     late = document.get("late", {})
     if not isinstance(late, dict):
         return document
@@ -295,7 +296,7 @@ def add_rules(course: Course, document: dict[str, Any]) -> dict[str, Any]:
 
 
 def find_faults(adjustments: Adjustments, course: Course) -> Iterator[str]:
-    """Return all that this course cannot mean, a sentence each."""
+    """Return the values that are invalid in this course, a sentence each."""
     late = adjustments.late or Late()
     yield from late.find_faults(course.rubric.max_points)
     try:

@@ -56,7 +56,7 @@ class Run:
     remarks: dict[str, list[Remark]] = field(default_factory=dict)  # by name
 
     def list_tasks(self) -> Iterator[Task]:
-        """Yield each work to grade once; record the others."""
+        """Yield each submission to grade once; record the others."""
         works: dict[tuple[object, ...], list[Work]] = {}
         for found in self.intake.found:
             works.setdefault((found.sources, found.taken), []).append(found)
@@ -225,7 +225,7 @@ def collect_results(
 
 
 def read_future(future: Future[Answer]) -> Answer | str:
-    """Return a result, or why there is none."""
+    """Return a result, or the reason why there is none."""
     try:
         return future.result()
     except ExecutorFailed:
@@ -235,7 +235,7 @@ def read_future(future: Future[Answer]) -> Answer | str:
 
 
 def describe_error(error: Exception) -> str:
-    """Describe an exception; some need no more than their message."""
+    """Describe an exception; some only by their message."""
     if isinstance(error, CannotTake | Exceeded | Failed):
         return str(error)
     return f"{type(error).__name__}: {say_error(error)}"

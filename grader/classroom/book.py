@@ -29,7 +29,7 @@ NOTHING = "nothing was handed in"
 
 
 class Outcome(Struct, frozen=True):
-    """A submission of a class: its points, or why there are none."""
+    """A submission of a class: its points, or the reason why it has none."""
 
     name: str
     trouble: str = ""
@@ -46,15 +46,15 @@ class Outcome(Struct, frozen=True):
     key: str = ""  # the hash of all that the result depends on
     content: str = ""  # the hash of the result's file
     bonus_by_hand: int = 0  # beside what was graded
-    by_hand: bool = False  # the final points were set by a person, whatever was graded
+    by_hand: bool = False  # a person set the final points
     due: datetime | None = None  # for this student
     notes: list[str] = []  # on the files that were handed in
     broken: list[str] = []  # programs that cannot be imported, and why
-    group: list[str] = []  # the others whose work this is too
-    handed_in_by: str = ""  # one of them, where it was not this student
+    group: list[str] = []  # the other owners of this work
+    handed_in_by: str = ""  # the one who handed in, if not this student
     full_name: str = ""  # as the class list has it
-    before: str = ""  # the mark of an earlier run, where that was another one
-    changed: list[str] = []  # the checks that give other points than in that run
+    before: str = ""  # the mark of an earlier run, if it differs
+    changed: list[str] = []  # the checks whose points differ from that run
     remarks: list[Remark] = []  # a person's comments
 
     @property
@@ -74,7 +74,7 @@ class Outcome(Struct, frozen=True):
         return f"group with {' and '.join(self.group)}{by}" if self.group else ""
 
     def explain(self) -> str:
-        """Return the group, and why the points are not those of the checks."""
+        """Return the group, and the reasons why the points differ from the checks'."""
         return "; ".join(filter(None, [self.group_in_words, self.trouble, *self.reasons]))
 
     @property
@@ -82,7 +82,7 @@ class Outcome(Struct, frozen=True):
         return "none" if self.mark is None else f"{self.mark} / {self.max_points}"
 
     def has_mark_of(self, old: "Outcome") -> bool:
-        """Tell whether the mark and its maximum are those of another outcome."""
+        """Return whether the mark and its maximum are those of another outcome."""
         alone = self.by_hand or self.mark is None  # its maximum is set later
         return self.mark == old.mark and (alone or self.max_points == old.max_points)
 
@@ -211,7 +211,7 @@ def compare_results(old: Result, new: Result) -> Iterator[str]:
 
 
 def compare_todos(old: TodoResult, new: TodoResult) -> Iterator[str]:
-    """Yield the changes; where only maximums of checks changed, name the TODO alone."""
+    """Yield the changes; if only maximums of checks changed, name only the TODO."""
     if old.max_points != new.max_points:
         points = f"{old.points} of {old.max_points} → {new.points} of {new.max_points}"
         yield f"TODO {new.id} has other points in the course: {points}"

@@ -47,7 +47,7 @@ ADDRESS = re.compile(
 WAITS = (2, 5, 15, 60)  # s until a limited request is repeated
 COMMENTS = ["submission_comments"]  # which Canvas leaves out unless told
 PATIENCE = 60  # s to wait for an answer
-REASONS = {  # why a request fails, the narrowest kind first
+REASONS = {  # reasons of failed requests, the narrowest kind first
     refused.InvalidAccessToken: f"it does not accept the token in {TOKEN} (401): make a new one",
     refused.Unauthorized: "the owner of the token may not do that (401)",
     refused.Forbidden: "the owner of the token may not do that (403)",
@@ -77,7 +77,7 @@ class Delivery:
     user: str  # the student's id in Canvas
     mark: str
     comment: str
-    digest: str  # of all that the comment and the page say
+    digest: str  # hash of the comment's and page's content
     page: Path | None
 
     @property
@@ -86,7 +86,7 @@ class Delivery:
         return f"feedback-{self.digest}" if self.page else self.comment
 
     def is_in(self, there: Any) -> bool:
-        """Tell whether Canvas has the comment with its page."""
+        """Return whether Canvas has the comment with its page."""
         comments = getattr(there, "submission_comments", None) or []
         files = [file for each in comments for file in each.get("attachments") or []]
         said = [
@@ -142,9 +142,9 @@ def is_score(mark: str, score: float | None) -> bool:
 def upload_class(
     known: ClassFolder, to: str, send: bool, over: bool, others_known: bool, console: Console
 ) -> bool:
-    """Show what Canvas lacks of a class, or send it; return whether a student was left out.
+    """Show the marks that Canvas lacks, or send them; return whether a student was skipped.
 
-    Raises Stop where Canvas cannot be asked, or stops answering.
+    Raises Stop if Canvas cannot be reached or stops answering.
     """
     address, plan = to or known.settings.canvas, Plan()
     deliveries = list_deliveries(known, others_known, plan)
@@ -182,11 +182,11 @@ def tabulate(changes: list[Change]) -> Table:
     return table
 
 
-# ---------------------------------------------------------------- what students are to get
+# ---------------------------------------------------------------- deliveries
 
 
 def list_deliveries(known: ClassFolder, others_known: bool, plan: Plan) -> list[Delivery]:
-    """Return the delivery for each student, with the gradebook's marks; note who is left out."""
+    """Return the delivery for each student, with the gradebook's marks; note skipped students."""
     results, course = known.find_results(), known.course
     roster = read_roster(known.find_roster("an upload"))
     if "ID" not in roster.columns:
@@ -207,7 +207,7 @@ def list_deliveries(known: ClassFolder, others_known: bool, plan: Plan) -> list[
     for row, mark, summary in made.rows:
         user, full = row["ID"].strip(), list_name(row)
         name = f"{full} ({row[key]})" if full else row[key]
-        if not mark:  # a note of make_marks says why
+        if not mark:  # make_marks notes the reason
             plan.left_out += 1
         elif not user or ids[user] > 1:
             plan.leave_out(name, f"the class list has ID {user!r} {ids[user]} times")
@@ -223,7 +223,7 @@ def make_delivery(
     """Return a mark with its comment, and with the student's page if there is one."""
     if entry is None:
         return Delivery(*who, summary, hash_text(summary), None)
-    # What an earlier run found is no news to those who have it from Canvas.
+    # Students already have the findings of earlier runs from Canvas.
     outcome = msgspec.structs.replace(entry.outcome, before="", changed=[])
     comment = write_text(outcome, None, graded.course).strip()
     digest = hash_text(write_text(outcome, entry.show_result(graded.course), graded.course))
@@ -288,7 +288,7 @@ def ask(request: Callable[[], Any]) -> Any:
 
 
 def is_throttled(error: BaseException) -> bool:
-    """Tell whether Canvas limits requests, which it says with status 403 or 429."""
+    """Return whether Canvas limits requests, by status 403 or 429."""
     return "rate limit exceeded" in str(error).lower()
 
 
@@ -315,7 +315,7 @@ def send_changes(plan: Plan, record: Record, path: Path) -> list[str]:
 
 
 def send_change(change: Change) -> str:
-    """Send a mark, its comment and its page; return why Canvas refuses them, or nothing."""
+    """Send a mark, its comment and its page; return Canvas's reason to refuse, or an empty text."""
     delivery, there = change.delivery, change.there
     grade, comment = {"posted_grade": delivery.mark}, {"text_comment": delivery.comment}
     words = {"submission": grade, "comment": comment, "prefer_points_over_scheme": True}
@@ -343,7 +343,7 @@ def upload_page(delivery: Delivery, page: Path, there: Any) -> int:
 
 @contextmanager
 def explain(done: str) -> Iterator[None]:
-    """Raise Stop where Canvas cannot be asked: why, and what is done so far."""
+    """Raise Stop if Canvas fails, with the reason and the progress so far."""
     try:
         yield
     except (refused.CanvasException, OSError, ValueError, KeyError, KeyboardInterrupt) as error:
@@ -351,7 +351,7 @@ def explain(done: str) -> Iterator[None]:
 
 
 def find_reason(error: BaseException) -> str:
-    """Return why a request failed; its own words could hold the token."""
+    """Return the reason of a failed request; its own words could hold the token."""
     if is_throttled(error):
         return "it takes no more requests for now (rate limit): wait some minutes"
     known = (words for kind, words in REASONS.items() if isinstance(error, kind))

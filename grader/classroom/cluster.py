@@ -1,7 +1,8 @@
 """Grade a class on a Dask cluster, where one machine is not enough.
 
-A submission travels to a worker with all that grading it needs, so no disk is shared. All machines
-need the same version of the grader. If a worker is lost, Dask gives its work to another one.
+A submission is sent to a worker with everything needed to grade it, so no disk is shared. All
+machines need the same version of the grader. If a worker is lost, Dask gives its work to another
+one.
 """
 
 import asyncio
@@ -26,7 +27,7 @@ from grader.judge.fingerprint import fingerprint
 from grader.judge.grade import Options
 
 CONNECT_SECONDS = 20
-ONE_AT_A_TIME = threading.Lock()  # a process has one worker, however many threads it has
+ONE_AT_A_TIME = threading.Lock()  # a process has one worker for all its threads
 
 
 # ---------------------------------------------------------------- on a worker
@@ -115,7 +116,7 @@ def find_scheduler(address: str) -> None:
 
     try:
         asyncio.run(asyncio.wait_for(ask(), CONNECT_SECONDS))
-    except Exception as error:  # whatever answers there, and however
+    except Exception as error:  # any other server may answer there
         raise Stop(describe_silence(address, error)) from error
 
 

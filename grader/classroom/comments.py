@@ -14,7 +14,7 @@ from msgspec import Meta, Struct
 
 from grader.report.html import Remark
 
-AROUND = 2  # lines shown before and after the one that is meant
+AROUND = 2  # lines shown before and after the commented one
 LONGEST_LINE = 500  # letters of a line that are compared, kept and shown
 
 Words = Annotated[str, Meta(pattern=r"\S")]
@@ -54,7 +54,7 @@ def place_all(comments: Iterable[Comment], files: Mapping[str, bytes]) -> list[R
 
 
 def find_file(name: str, files: Mapping[str, bytes]) -> str:
-    """Return the path of the file of this name; empty where there is none or several."""
+    """Return the path of the only file of this name, or an empty text."""
     last = PurePosixPath(name).name
     found = [name] if name in files else [e for e in files if PurePosixPath(e).name == last]
     return found[0] if len(found) == 1 else ""
@@ -70,7 +70,7 @@ def read_lines(content: bytes) -> list[str]:
 
 
 def find_line(comment: Comment, lines: list[str]) -> int:
-    """Return the number of the line that is meant; 0 where none is certain.
+    """Return the number of the commented line; 0 if it is uncertain.
 
     A line of the same text counts if it is the only one or has one of the neighbours; a line of
     another text counts between both neighbours.

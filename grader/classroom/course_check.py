@@ -1,7 +1,7 @@
 """Find problems before grading: of a class list, decisions and submissions.
 
 It reads all files as grading does, and writes none. A person must solve each problem, in a file or
-with the students; what grading handles by itself is not mentioned.
+with the students. Problems that grading handles are not mentioned.
 """
 
 from collections import Counter

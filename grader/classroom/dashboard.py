@@ -58,7 +58,7 @@ class Entry:
         return msgspec.json.decode(self.path.read_bytes(), type=Result) if self.path else None
 
     def show_result(self, course: Course) -> Result | None:
-        """Read the result as students may see it; None where there is none."""
+        """Read the result as students may see it; None if there is none."""
         result = self.result
         return withhold_reasons(result, course) if result else None
 
@@ -77,13 +77,13 @@ class Entry:
 
     @property
     def mistakes(self) -> list[str]:
-        """Return its known mistakes, by the names that the page gives them."""
+        """Return its known mistakes, by their names on the page."""
         return [f"{id}:{t.misconception}" for id, t in self.todos.items() if t.misconception]
 
 
 @dataclass(frozen=True)
 class Rate:
-    """The numbers of students who passed a TODO, tried it, and did not begin it."""
+    """The numbers of students who passed a TODO, tried it, and did not start it."""
 
     id: str
     title: str
@@ -151,7 +151,7 @@ def read_entry(book: Book, outcome: Outcome) -> Entry:
 
 
 def shorten_result(result: Result) -> Result:
-    """Return a result with those checks alone that describe a known mistake."""
+    """Return a result with only the checks that describe a known mistake."""
     todos = []
     for todo in result.todos:
         checks = [each for each in todo.checks if todo.misconception and each.meaning]
@@ -234,7 +234,7 @@ def make_standing(outcome: Outcome, course: Course = FULL) -> Standing:
 
 
 def scale_mark(outcome: Outcome, course: Course) -> str:
-    """Return a mark as the gradebook has it; empty where that counts the same points."""
+    """Return a mark on the gradebook's scale; empty if the scale is the same."""
     total = course.out_of or USUAL_TOTAL
     if outcome.mark is None or not outcome.max_points or total == outcome.max_points:
         return ""

@@ -1,7 +1,7 @@
 """Change the file of decisions table by table; a person's notes between tables stay.
 
-A table is identified by its values. Before it writes, it reads the new text as a whole: this must
-say what the file said before, and the change.
+A table is identified by its values. Before writing, the whole new text is read back: it must have
+the old decisions and the change.
 """
 
 import re
@@ -76,7 +76,7 @@ class DecisionsFile:
             self.write(replace_lines(self.text, old, table), found)
 
     def remove(self, key: str) -> None:
-        """Take out a decision with its own lines; raises Stop where the file has changed."""
+        """Remove a decision with its own lines; raises Stop if the file has changed."""
         found = self.list_decisions()
         old = next((each for each in found if each.key == key), None)
         if old is None:
@@ -85,7 +85,7 @@ class DecisionsFile:
         self.write(replace_lines(self.text, old, ""), found)
 
     def write(self, text: str, wanted: list[Decision]) -> None:
-        """Write the file if it says what is wanted and is valid in this course."""
+        """Write the file if it has the intended decisions and is valid in this course."""
         found = find_decisions(text, self.path)
         rest = [without_tables(each) for each in (text, self.text)]
         if [e.key for e in found] != [e.key for e in wanted] or rest[0] != rest[1]:
@@ -108,7 +108,7 @@ def without_tables(text: str) -> Mapping[str, Any]:
 
 
 def find_decisions(text: str, path: Path) -> list[Decision]:
-    """Return the decisions in the order of the file; raises Stop where it cannot find their lines.
+    """Return the decisions in the order of the file; raises Stop if their lines are not found.
 
     A table ends with its last value; notes and empty lines after it belong to the next table.
     """
@@ -135,7 +135,7 @@ def find_decisions(text: str, path: Path) -> list[Decision]:
 
 
 def is_table(lines: str, kind: str, values: Table) -> bool:
-    """Tell whether these lines hold a table of these values alone."""
+    """Return whether these lines hold exactly a table of these values."""
     with suppress(ValueError):  # a line of a longer text may look like a table
         return tomllib.loads(lines) == {kind: [values]}
     return False

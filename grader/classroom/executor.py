@@ -1,6 +1,7 @@
 """Run the grading of a class in processes of this machine; `cluster` runs it on a cluster.
 
-Both run the same function on the same packages. A package that ends its process harms no other.
+Both run the same function on the same packages. A package that ends its process does not affect
+others.
 """
 
 import time
@@ -18,7 +19,7 @@ from grader.judge.wall.outer import GRADING, Failed, Lost, WatchedProcess
 from grader.judge.wall.workplace import work_folder
 from grader.report.files import as_json
 
-AHEAD = 2  # submissions that wait, packed, for each one being graded
+AHEAD = 2  # packed submissions that wait, for each one being graded
 LOST = "the cluster is gone; what is graded stays, and the same command goes on from there"
 
 Answer = tuple[bytes, float]  # a result as JSON, and the seconds it took

@@ -1,7 +1,7 @@
-"""Send pages of a whole class back: as each learning system takes them, or by mail.
+"""Return pages to a whole class: in each learning system's form, or by mail.
 
-Nobody gets another's page: a student whom neither the export nor the class list identifies is left
-out, with a note.
+No student gets another's page: those that neither the export nor the class list identifies are
+skipped, with a note.
 """
 
 import io
@@ -31,7 +31,7 @@ ADDRESSES = ("Email address", "Email", "SIS Login ID", "Username")
 
 @dataclass
 class Feedback:
-    """Files to hand back, by their names, and notes on who is left out."""
+    """Files to return, by name, and notes on skipped students."""
 
     files: dict[str, bytes] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
@@ -40,7 +40,7 @@ class Feedback:
 @dataclass(frozen=True)
 class GradedClass:
     entries: list[Entry]
-    pages: Path  # the folder of everybody's page
+    pages: Path  # the folder of all pages
     course: Course = FULL
 
     def find_page(self, name: str) -> Path | None:
@@ -60,7 +60,7 @@ def zip_files(files: dict[str, bytes]) -> bytes:
 def answer_export(
     lms: Lms, intake: Intake, graded: GradedClass, people: ClassList | None = None
 ) -> Feedback:
-    """Return the pages under the names that the LMS gave to what was handed in."""
+    """Return the pages under the LMS's names of the submissions."""
     made, people = Feedback(), people or ClassList()
     answer_absent(lms, intake, graded, people, made)
     entries = {each.outcome.name: each for each in graded.entries}
@@ -86,7 +86,7 @@ def answer_export(
 def answer_absent(
     lms: Lms, intake: Intake, graded: GradedClass, people: ClassList, made: Feedback
 ) -> None:
-    """Add the pages of those of whom no file is there, if the LMS takes such pages."""
+    """Add the pages of students without a file, if the LMS takes such pages."""
     names = {each.outcome.name for each in graded.entries} - {each.name for each in intake.found}
     for name in sorted(names.union(intake.troubles)):
         page = graded.find_page(name)
@@ -100,7 +100,7 @@ def answer_absent(
 
 
 def make_page(found: Work, content: bytes, text: str, people: ClassList) -> Page:
-    """Return what goes back to one student; a group's others get it beside the first one's."""
+    """Return the page for one student; other group members get it beside the first one's."""
     if not found.handed_in_by:
         return Page(found.name, PAGE, content, text)
     file = f"feedback-{make_portable(found.name)}.html"
@@ -109,7 +109,7 @@ def make_page(found: Work, content: bytes, text: str, people: ClassList) -> Page
 
 
 def write_text(outcome: Outcome, result: Result | None, course: Course) -> str:
-    """Return the page in plain words, for where no page can be."""
+    """Return the page as plain text, for recipients without pages."""
     standing = make_standing(outcome, course)
     mark = "no points yet" if standing.mark is None else f"{standing.mark} / {standing.max_points}"
     mark += f", which is {standing.scaled} in the gradebook" if standing.scaled else ""
@@ -126,7 +126,7 @@ def write_text(outcome: Outcome, result: Result | None, course: Course) -> str:
 
 
 def find_address_column(roster: Roster) -> str:
-    """Return the column of addresses; raises Stop where there is none."""
+    """Return the column of addresses; raises Stop if there is none."""
     columns = [*ADDRESSES, *roster.columns]
     listed = [name for name in columns if name in roster.columns]
     column = next((name for name in listed if any("@" in row[name] for row in roster.rows)), None)

@@ -25,7 +25,7 @@ MARKS = "marks.toml"
 HEAD = """\
 # What this class is. `grader class` reads it, and you may edit it. Paths count from this folder.
 """
-SIGNS = {  # what each line says, for people
+SIGNS = {  # a comment on each line, for people
     "course": "what is asked; the kit's own course.toml if left out",
     "roster": "the class list, as the learning system exports it",
     "key": "its column that identifies students; found if left out",
@@ -76,7 +76,7 @@ class ClassFolder:
         return unpacked if unpacked.is_dir() and not path.exists() else path
 
     def find_submissions(self) -> Path:
-        """Return the export; raises Stop where it is missing."""
+        """Return the export; raises Stop if it is missing."""
         if not self.submissions.exists():
             raise Stop(
                 f"there is nothing at {self.submissions}: put the export of the learning system "
@@ -89,7 +89,7 @@ class ClassFolder:
         return self.locate(self.settings.roster) if self.settings.roster else None
 
     def find_roster(self, purpose: str) -> Path:
-        """Return the class list; raises Stop where the class has none."""
+        """Return the class list; raises Stop if there is none."""
         if self.roster is None:
             raise Stop(
                 f"{purpose} needs the class list, and {self.folder / FILE} names none: "
@@ -99,7 +99,7 @@ class ClassFolder:
 
     @property
     def decisions(self) -> Path | None:
-        """Return the file of decisions; None where it does not exist."""
+        """Return the file of decisions; None if it does not exist."""
         path = self.locate(self.settings.decisions)
         return path if path.is_file() else None
 
@@ -132,7 +132,7 @@ class ClassFolder:
         return read_course(self.course_path)
 
     def list_people(self) -> ClassList:
-        """Return the students of the class list, with the work that a person says is theirs."""
+        """Return the students of the class list, with the work that a person assigned to them."""
         roster = read_roster(self.roster) if self.roster else None
         people = ClassList(roster, self.settings.key)
         people.chosen = load_adjustments(self.decisions, self.course).choices
@@ -148,14 +148,14 @@ class ClassFolder:
         return self.settings.course or "the kit's course.toml"
 
     def find_results(self) -> Path:
-        """Return the folder of results; raises Stop where they are not of this course."""
+        """Return the folder of results; raises Stop if they are of another course."""
         if not self.results.is_dir():
             raise Stop(f"there are no results in {self.results}: grader class grade {self.folder}")
         self.refuse_other_course("grade the class again with --other-course")
         return self.results
 
     def refuse_other_course(self, remedy: str) -> None:
-        """Stop where the results are of a course with other TODOs or points."""
+        """Stop if the results are of a course with other TODOs or points."""
         if difference := find_difference(self.results, self.course):
             raise Stop(
                 f"{self.results} holds results of another course than {self.course_name}: "
@@ -177,7 +177,7 @@ class AskedTodos(Struct, frozen=True):
 
 
 def find_difference(results: Path, course: Course) -> str:
-    """Return how the results and a course differ; empty where they do not."""
+    """Return how the results and a course differ, or an empty text."""
     asked = {todo.id: todo.max_points for todo in course.rubric.todos}
     for path in sorted(results.glob("[!.]*.json")):
         try:
@@ -193,7 +193,7 @@ def find_difference(results: Path, course: Course) -> str:
 
 
 def read_class_folder(folder: Path) -> ClassFolder:
-    """Read class.toml; raises Stop where it is missing or invalid."""
+    """Read class.toml; raises Stop if it is missing or invalid."""
     path = folder / FILE
     try:
         text = path.read_text(encoding="utf-8-sig")
@@ -219,7 +219,7 @@ def parse_settings(text: str, path: Path) -> Settings:
 def remember_class(folder: Path, named: dict[str, object], other_course: bool) -> ClassFolder:
     """Write the named values into class.toml, without a change to its other lines.
 
-    Raises Stop, and writes nothing, where results are of another course, unless `other_course`.
+    Raises Stop, and writes nothing, if results are of another course, unless `other_course`.
     """
     path = folder / FILE
     made = not path.exists()

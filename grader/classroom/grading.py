@@ -27,7 +27,7 @@ from grader.judge.wall.outer import Exceeded, Failed, Lost
 from grader.text import printable
 
 LONGEST = 300  # rows in a terminal; the file of the table has all
-LONGEST_PAGE = 2000  # rows of the page, which needs every result again
+LONGEST_PAGE = 2000  # rows of the page, which reads every result again
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class ClassOptions:
 
 
 def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
-    """Grade the class at `path`, show it, and say where the results are."""
+    """Grade the class at `path`, show it, and print the folder of results."""
     path = path.resolve()
     people = wanted.people or read_class_list(path, None)
     course = wanted.options.course
@@ -85,7 +85,7 @@ def write_similar(run: Run, earlier: Sequence[Path]) -> None:
 
 
 def write_page(run: Run) -> str:
-    """Write the page of the class unless it is too large, and return where it is."""
+    """Write the page of the class unless it is too large, and return its path."""
     folder = run.book.folder
     if len(run.outcomes) > LONGEST_PAGE:
         return f"page:    for more than {LONGEST_PAGE}, by `grader dashboard {folder}`"

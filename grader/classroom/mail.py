@@ -67,7 +67,7 @@ def write_body(name: str, reason: str, title: str) -> str:
 
 
 def find_decided(outcomes: list[Outcome], adjustments: Adjustments) -> Iterator[Outcome]:
-    """Yield students without a mark about whom a person decided since the class was graded."""
+    """Yield students without a mark who have a decision newer than the grades."""
     for each in outcomes:
         chosen = [one for one in adjustments.adjust if one.points is not None or one.take]
         reasons = [one.reason for one in chosen if one.concerns(each.name)]
@@ -109,7 +109,7 @@ def write_mail(roster: Roster, key: str, outcomes: list[Outcome], title: str) ->
         file = f"{DRAFTS}/{make_portable(each.address)}.eml"
         try:
             made.files[file] = make_draft(each, subject)
-        except ValueError as error:  # a line break or another sign that no address has
+        except ValueError as error:  # a line break or another sign that is invalid in addresses
             raise Stop(f"{roster.path} has {each.address!r}, which is no address") from error
         table.append([each.address, each.name, subject, each.body])
     made.files["mail.csv"] = format_csv(table).encode("utf-8-sig")

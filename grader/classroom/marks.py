@@ -24,7 +24,7 @@ from grader.intake.systems import find_system
 from grader.judge.course import FULL, Course
 from grader.text import clean, format_csv
 
-USUAL_TOTAL = 100  # of marks, where a course does not say what they are out of
+USUAL_TOTAL = 100  # maximum of marks, if a course has none
 ENGINE = "engine"  # the part that the checks grade; it is also the notebook of that name
 SHEET = "questions"  # about the student's own program
 WITH_ID = re.compile(r" \(\d+\)$")  # of a title in Canvas
@@ -46,7 +46,7 @@ class Part:
     max_points: float
     waiting: bool = False  # for a person to grade it
     note: str = ""  # why these points
-    handed_in: bool = True  # a person may set points for who handed in nothing
+    handed_in: bool = True  # a person may set points for students who handed in nothing
 
 
 Parts = dict[str, Part]
@@ -78,7 +78,7 @@ def mark_engine(path: Path | None, course: Course) -> Marking:
 
 
 def compare_totals(marking: Marking, course: Course) -> Iterator[str]:
-    """Yield a note where students' pages, which follow the course, show other marks."""
+    """Yield a note if students' pages, which follow the course, show other marks."""
     total = course.out_of or USUAL_TOTAL
     if marking.total != total:
         pages = f"the students' pages count to {total:g}"
@@ -101,7 +101,7 @@ def compute_mark(parts: Parts, marking: Marking) -> str:
 def make_parts(outcomes: Iterable[Outcome]) -> dict[str, Parts]:
     """Return the engine as the only part, with the decisions as its note.
 
-    Work that could not be graded waits for a person, unless one has set its points.
+    Ungraded work needs manual review, unless a person has set its points.
     """
     made = {}
     for each in outcomes:
@@ -112,7 +112,7 @@ def make_parts(outcomes: Iterable[Outcome]) -> dict[str, Parts]:
 
 
 def mark_by_course(course: Course) -> Marking:
-    """Return the settings without a marks.toml: the engine alone, out of what the course says."""
+    """Return the settings without a marks.toml: only the engine, with the course's maximum."""
     return Marking(course.title, {ENGINE: 1}, course.out_of or USUAL_TOTAL)
 
 
@@ -138,7 +138,7 @@ class Scores:
     parts: dict[str, Parts]
     marking: Marking
     so_far: bool = False  # parts that wait for a person count as 0
-    others_known: bool = False  # work without an owner belongs to nobody of the class list
+    others_known: bool = False  # work without an owner belongs to no student of the class list
     of_sheets: bool = False  # another assignment, for each student alone
 
     @property
@@ -175,9 +175,9 @@ def score_sheets(
 def make_marks(roster: Roster, key: str, scores: Scores) -> Marks:
     """Return the class list with a mark for each student.
 
-    A mark that waits for a person stays empty, unless `so_far`. So does a row that several results
-    fit: nobody gets another's mark, or a zero for having another's name. While some work has no
-    owner, missing work may be that one, so its row stays empty too, unless `others_known`.
+    A mark that needs manual review stays empty, unless `so_far`. A row that several results fit
+    also stays empty, so that no student gets another's mark or a wrong zero. While some work has no
+    owner, rows without work stay empty too, unless `others_known`.
     """
     made, marking = Marks(), scores.marking
     owners = find_owners(roster, key, scores.parts, scores.absent)
@@ -248,7 +248,7 @@ def summarize(parts: Parts, marking: Marking) -> str:
 
 
 def read_total(roster: Roster, title: str, lms: Lms | None = None) -> float | None:
-    """Return the maximum in the gradebook; None where it has none."""
+    """Return the maximum in the gradebook; None if it has none."""
     try:
         total = (lms or find_system(roster)).find_total(roster, title)
         return float(total.replace(",", ".")) if total else None  # as another country writes it
@@ -259,5 +259,5 @@ def read_total(roster: Roster, title: str, lms: Lms | None = None) -> float | No
 def is_above(mark: str, total: float) -> bool:
     try:
         return float(mark) > total
-    except ValueError:  # empty, or a word for who handed in nothing
+    except ValueError:  # empty, or a word for students who handed in nothing
         return False

@@ -1,4 +1,4 @@
-"""Find the student of each result: by identifiers before names, and never by a guess.
+"""Find the student of each result: by identifiers before names, without guessing.
 
 With a class list a result is named by the student's identifier; without one by the name and number
 that the learning system wrote.

@@ -74,7 +74,7 @@ class Response:
 
 @dataclass
 class Review:
-    """A class under review: its submissions as they came, and the decisions so far."""
+    """A class under review: its submissions, and the decisions so far."""
 
     known: ClassFolder
     intake: Intake
@@ -110,9 +110,9 @@ class Review:
         return self.outcomes.get(name, Outcome(name, full_name=full))
 
     def find_reason(self, name: str) -> str:
-        """Return why this work needs manual review; empty if it does not."""
+        """Return the reason why this work needs manual review, or an empty text."""
         outcome = self.outcomes.get(name)
-        if outcome is None:  # it came after grading, or a person chose whose it is
+        if outcome is None:  # it came after grading, or a person chose its owner
             return self.intake.troubles.get(name, "")
         if outcome.mark is None:
             return outcome.trouble
@@ -131,7 +131,7 @@ class Review:
         return [each for each in self.intake.works if each.name == name]
 
     def read_files(self, name: str) -> tuple[Contents, str]:
-        """Return a student's files, and whether they are as graded or as they came."""
+        """Return a student's files, and whether they are as graded or as submitted."""
         if name not in self.read:
             self.read[name] = self.unpack_files(name)
         return self.read[name]
@@ -153,7 +153,7 @@ class Review:
         return Contents(files, shown[0][1].choices if len(shown) == 1 else []), "as they came"
 
     def list_choices(self, name: str) -> list[list[str]]:
-        """Return the paths of which a person may choose one, a list for each question."""
+        """Return the paths to choose from, a list for each question."""
         choices = self.read_files(name)[0].choices
         if name in self.intake.refused:
             choices = [*choices, [work.sources[0].name for work in self.list_works(name)]]
@@ -206,7 +206,7 @@ def refuse(status: int, words: str) -> Response:
 
 
 def change(review: Review, request: Request) -> Response:
-    """Do what a form says and show the student again, or say why nothing was written."""
+    """Apply a form and show the student again, or show the reason why nothing was written."""
     form = request.form
     name = form.get("name", "")
     act = ACTS.get(request.path)
@@ -239,7 +239,7 @@ def decide_work(review: Review, name: str, form: Form) -> None:
 
 
 def decide_owner(review: Review, name: str, form: Form) -> None:
-    """Write who owns work whose name is not in the class list."""
+    """Write the owner of work whose name is not in the class list."""
     student = form.get("student", "")
     if student not in review.people.names or name not in review.unlisted:
         raise Stop("choose a student of the class list")
@@ -307,7 +307,7 @@ def read_reason(form: Form) -> str:
 
 @dataclass(frozen=True)
 class File:
-    """A file as the page shows it: its lines, or a note why there are none."""
+    """A file as the page shows it: its lines, or a note with the reason for none."""
 
     name: str
     lines: list[str]
@@ -375,7 +375,7 @@ def list_files(shown: Contents, remarks: list[Remark]) -> list[File]:
 
 
 def show_file(name: str, content: bytes, remarks: list[Remark], most: int) -> File:
-    """Return a file with at most so many lines."""
+    """Return a file with at most `most` lines."""
     words = name_type(content[:4096])
     if words not in READABLE or b"\0" in content[:4096]:
         return File(name, [], f"{words or 'no text'}, {len(content)} bytes")

@@ -12,7 +12,7 @@ from grader.classroom.review import Request, Response, Review, name_cookie, refu
 from grader.intake.listing import open_class
 
 LONGEST_FORM = 100_000  # bytes
-PATIENCE = 60  # s that a connection may say nothing
+PATIENCE = 60  # s that a connection may be silent
 
 
 class ReviewServer(ThreadingHTTPServer):

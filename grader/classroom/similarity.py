@@ -2,8 +2,8 @@
 
 Each submission is cut into runs of `RUN` tokens without names and numbers, so that new names,
 comments and layout change nothing. Runs of the starter, of given files and of the solution do not
-count, nor do runs that many of the class have. The similarity of two submissions is the share of
-the smaller one's runs that the other has.
+count. Runs that many students have do not count either. The similarity of two submissions is the
+share of the smaller one's runs that the other has.
 
 Right answers to short tasks are similar by nature. `EXPECTED` is above the shares of the bank's
 independent right answers, as a test shows.
@@ -80,7 +80,7 @@ class Pair(Struct, frozen=True):
 
 
 def read_tokens(source: str) -> list[Token]:
-    """Return the tokens of a file, without what costs nothing to change."""
+    """Return the tokens of a file, without those that are easily changed."""
     found, line = list[Token](), 1
     for each in TOKEN.finditer(source):
         kind = "" if keyword.iskeyword(each[0]) else each.lastgroup
@@ -151,7 +151,7 @@ def find_pairs(
     """Return the pairs that share more than `least`, the most similar first.
 
     Members of a group are no pair. If `of` is given, each pair has one of its names. Raises
-    Exceeded where a class has too much in common for the limits.
+    Exceeded if a class has too much in common for the limits.
     """
     return call_within(COMPARING, list[Pair], partial(compare_all, list(prints), least, of))
 
@@ -190,11 +190,11 @@ class Line:
     is_shared: bool
 
 
-Side = dict[str, list[Line]]  # one of two submissions: lines around what both share, by file
+Side = dict[str, list[Line]]  # one of two submissions: lines around shared ones, by file
 
 
 def show_pair(first: Work, second: Work) -> tuple[Side, Side]:
-    """Show what two submissions share; nothing where that takes too long."""
+    """Show the shared lines of two submissions; nothing if that takes too long."""
     with suppress(CannotTake, Exceeded, Failed, Lost):
         return compare(pack(first), pack(second))
     return {}, {}

@@ -1,4 +1,4 @@
-"""Unpack untrusted archives: within limits, nothing outside a folder, each error a sentence.
+"""Unpack untrusted archives: within limits, inside one folder, with a sentence for each error.
 
 `repack` first makes a zip of any other archive, in a process of its own.
 """
@@ -30,7 +30,7 @@ from grader.text import plural
 
 # Of one submission, over all of its archives: many small ones cost no more than a large one.
 MAX_ARCHIVES = 100
-MAX_ZIP = 200 * 1024**2  # bytes: somebody's virtual environment fits
+MAX_ZIP = 200 * 1024**2  # bytes: a virtual environment fits
 MAX_DIRECTORY = 16 * 1024**2  # bytes of the lists of files in zips: about 200,000 of them
 MAX_SECONDS = repack.SECONDS  # of processor time, for archives that are no zip
 MAX_CLASS = 20 * MAX_DIRECTORY  # the same, of the zip of a class
@@ -71,14 +71,14 @@ class Bounds:
         self.packed -= length
 
     def open_one(self) -> None:
-        """Count an archive; raises CannotTake for one too many."""
+        """Count an archive; raises CannotTake if there are too many."""
         if self.archives < 1:
             raise CannotTake(f"more than {MAX_ARCHIVES} archives in one submission: ask for one")
         self.archives -= 1
 
     @property
     def notes(self) -> list[str]:
-        """Return a note for each reason why something was skipped."""
+        """Return a note for each reason to skip files."""
         skipped = {
             "size limit reached": self.left_out,
             "a name not for every system": list(map(repr, self.misnamed)),
@@ -127,8 +127,8 @@ def unzip_class(path: Path, folder: Path) -> None:
 def find_place(folder: Path, parts: list[str], number: int) -> Path:
     """Return a free path for a file of a class.
 
-    Two names of a student may become the same: `a*`, a file, and `a_`, a folder. Of a path that is
-    too long for a system, all names but the student's are cut.
+    Two names of a student may become the same: `a*`, a file, and `a_`, a folder. If a path is too
+    long for a system, all names but the student's are cut.
     """
     path, names = folder, [*map(make_portable, parts)]
     if len("/".join(names).encode()) > LONGEST_PATH:
@@ -238,7 +238,7 @@ def name_members(
 ) -> list[tuple[PurePosixPath, zipfile.ZipInfo]]:
     """Return the files and their names; raises CannotTake where two files share a name and differ.
 
-    Files that are no work, with a name that some systems refuse, are added to `misnamed` instead.
+    Other files with a name that some systems refuse are added to `misnamed` instead.
     """
     found: dict[str, tuple[PurePosixPath, zipfile.ZipInfo]] = {}
     for member in list_members(archive):
@@ -266,7 +266,7 @@ def decode_name(member: zipfile.ZipInfo) -> str:
 
 
 class BadName(Exception):
-    """Raised for a name that some systems refuse, of a file that is no work."""
+    """Raised for a name that some systems refuse, of a file that cannot be work."""
 
 
 def check_name(name: str) -> str:
@@ -290,7 +290,7 @@ def check_name(name: str) -> str:
 def write_member(archive: zipfile.ZipFile, member: zipfile.ZipInfo, path: Path) -> None:
     """Unpack one file, up to the size that the zip gives.
 
-    Only with these two methods does `zipfile` need no more memory than the file.
+    `zipfile` uses no more memory than the file only with these two methods.
     """
     if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
         raise CannotTake(OWN_WAY)

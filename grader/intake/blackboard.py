@@ -78,7 +78,7 @@ def find_listed_user(match: re.Match[str], people: ClassList) -> str:
 
 
 def read_receipt(path: Path) -> tuple[str, str]:
-    """Return the user's and the full name on a receipt; empty where there is none."""
+    """Return the user's and the full name on a receipt, or empty texts."""
     with suppress(OSError), open_plain(path.parent, path.name) as file:
         match = WHO.search(file.read(HEAD).decode("utf-8-sig", "replace").partition("\n\n")[0])
         if match:

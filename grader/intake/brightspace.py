@@ -1,4 +1,4 @@
-"""Brightspace: a folder for each time that a student handed in, or a file for each file of it."""
+"""Brightspace: a folder for each attempt of a student, or a file for each of its files."""
 
 import re
 from collections.abc import Iterator
@@ -14,7 +14,7 @@ NAME = re.compile(
     r"(?P<ids>\d+-\d+) - (?P<name>.+?) - (?P<when>(?:(?! - ).)*\d{4}(?:(?! - ).)*?)"
     r"(?: - (?P<file>.+))?"
 )
-OWN = ("OrgDefinedId", "Username")  # the identifiers that it takes back
+OWN = ("OrgDefinedId", "Username")  # the identifiers that it accepts
 SIGN = "#"  # before an identifier, and in the last column
 END_OF_LINE = "End-of-Line Indicator"  # the last column, a # in each row
 
@@ -23,7 +23,7 @@ class Brightspace(Lms):
     name = "brightspace"
     only_commas = True
     takes_feedback = True
-    side_files = frozenset({"index.html"})  # a list of all that was handed in
+    side_files = frozenset({"index.html"})  # a list of all submissions
 
     def match(self, path: Path) -> re.Match[str] | None:
         return NAME.fullmatch(path.name)

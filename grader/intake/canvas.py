@@ -9,8 +9,8 @@ from grader.intake.lms import Lms, MarkColumn, Page, find_title, pick
 from grader.intake.names import make_portable
 from grader.intake.roster import ClassList, Roster, Row
 
-# Letters, and the marks on them that are none to Python. One class: a letter that two classes have
-# doubles the ways to read a name.
+# Letters, and accents that Python does not count as letters. One class only: a letter in two
+# classes doubles the ways to read a name.
 NAME = r"(?P<name>[0-9A-Za-z_\x80-\U0010ffff]+?)"
 FILE = re.compile(rf"{NAME}_(?P<late>LATE_)?(?P<user>\d+)_\d+_(?P<file>.+)")
 ANONYMOUS = re.compile(r"(?P<late>LATE_)?(?P<name>anon)_(?P<user>[^\W_]+)_\d+_(?P<file>.+)")
@@ -20,7 +20,7 @@ COLUMNS = (
     *("Integration ID", "Root Account", "Section"),
 )
 POINTS_POSSIBLE = "Points Possible"  # the first cell of the second row
-TEST_STUDENT = "Student, Test"  # Canvas's own, for the teacher to try
+TEST_STUDENT = "Student, Test"  # Canvas's own test student
 TRIAL = re.compile(r"studenttest_(LATE_)?\d+_.+")  # how names of its files begin
 
 

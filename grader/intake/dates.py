@@ -39,7 +39,7 @@ CLOCK = re.compile(
 
 
 def read_moment(words: str) -> datetime | None:
-    """Return the time in some words; None where there is none, or a day without a time."""
+    """Return the time in a text; None if there is none, or only a day."""
     for form in DATES:
         if date := form.search(words):
             clock = CLOCK.search(words, date.end())

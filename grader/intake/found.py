@@ -22,9 +22,9 @@ class Work:
     name: str  # of its result; a file name on every platform
     sources: tuple[Path, ...]  # a folder, or what was handed in
     late: bool = False  # marked late by the LMS
-    handed_in: datetime | None = None  # without a zone where the LMS tells the school's own time
-    group: tuple[str, ...] = ()  # the others whose work this is too
-    handed_in_by: str = ""  # one of them, where it was not this student
+    handed_in: datetime | None = None  # without a zone if the LMS writes the school's own time
+    group: tuple[str, ...] = ()  # the other owners of this work
+    handed_in_by: str = ""  # the one who handed in, if not this student
     taken: tuple[str, ...] = ()  # paths in it that a person chose among several
 
     @property
@@ -38,12 +38,12 @@ class Work:
 @dataclass
 class Intake:
     found: list[Work] = field(default_factory=list)
-    troubles: dict[str, str] = field(default_factory=dict)  # name -> why it cannot be graded
-    refused: dict[str, list[Work]] = field(default_factory=dict)  # the work behind a trouble
+    troubles: dict[str, str] = field(default_factory=dict)  # name -> reason why it cannot be graded
+    refused: dict[str, list[Work]] = field(default_factory=dict)  # work that needs review
     notes: list[str] = field(default_factory=list)
 
     def refuse(self, name: str, words: str, *works: Work) -> None:
-        """Leave work to manual review, where a person may choose among `works`."""
+        """Mark work for manual review, where a person may choose among `works`."""
         self.troubles[name] = words
         self.refused[name] = [*self.refused.get(name, []), *works]
 
@@ -55,7 +55,7 @@ class Intake:
 
     @property
     def works(self) -> list[Work]:
-        """Return all work, with that which needs review."""
+        """Return all work, including work that needs review."""
         return [*self.found, *(each for works in self.refused.values() for each in works)]
 
     @property

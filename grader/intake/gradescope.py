@@ -1,4 +1,4 @@
-"""Gradescope: a folder for each submission, and a list of who handed in what, and when."""
+"""Gradescope: a folder for each submission, and a list of students, files and times."""
 
 import re
 from collections.abc import Iterator
@@ -32,7 +32,7 @@ MetadataLoader.add_constructor(None, lambda loader, node: None)
 
 
 class Submitter(Struct):
-    """One person as Gradescope knows them; each field may be anything."""
+    """A person in Gradescope's data; each field may be anything."""
 
     name: Any = field(default=None, name=":name")
     sid: Any = field(default=None, name=":sid")
@@ -60,7 +60,8 @@ class Gradescope(Lms):
         return (folder / METADATA).is_file()
 
     def is_whole_export(self, folder: Path) -> bool:
-        """Tell an export from a submission with such a file, by the folder's name."""
+        """Return whether it is an export, not a submission with such a file, by the folder's
+        name."""
         return self.is_export(folder) and bool(re.fullmatch(r"assignment_\d+_export", folder.name))
 
     def read_export(self, folder: Path, people: ClassList, intake: Intake) -> Iterator[Work]:

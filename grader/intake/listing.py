@@ -1,4 +1,4 @@
-"""List a class: each submission once with its owner, and what cannot be graded."""
+"""List a class: each submission once with its owner, and work that cannot be graded."""
 
 import pickle
 import unicodedata
@@ -144,7 +144,7 @@ def choose_attempt(name: str, uploads: list[Upload], intake: Intake) -> Iterator
 def sort_systems(paths: list[Path]) -> list[Lms]:
     """Return the systems, first the one whose pattern fits most of these names.
 
-    So no student can claim another's work by a name that another system would write.
+    So a student cannot claim another's work with a name from another system.
     """
     return sorted(SYSTEMS, key=lambda each: -sum(each.match(path) is not None for path in paths))
 
@@ -161,7 +161,7 @@ def read_upload(path: Path, people: ClassList, systems: Iterable[Lms] = SYSTEMS)
 
 
 def mention_file(path: Path, intake: Intake, people: ClassList) -> None:
-    """Refuse a file that is no submission but may be somebody's work; note any other."""
+    """Refuse a file that is no submission but may be a student's work; note any other."""
     name = people.find_anywhere(path.stem)
     suffix = path.suffix.lower()
     if path.is_symlink():
@@ -221,7 +221,7 @@ def apply_choices(intake: Intake, people: ClassList) -> None:
 def choose_work(intake: Intake, people: ClassList, name: str, path: str) -> bool:
     """Give a student the work at `path`: a submission of the class, or a file or folder in one.
 
-    Work under a name that is not in the class list then belongs to nobody else.
+    Work under a name that is not in the class list then belongs to no other student.
     """
     first = path.partition("/")[0]
     works = intake.works
@@ -253,13 +253,13 @@ def enter_source(work: Work, path: str) -> str:
 
 
 def tell_apart(names: list[str]) -> list[str]:
-    """Return names as they are, or in ASCII where they look the same."""
+    """Return names unchanged, or in ASCII if they look the same."""
     same = len({unicodedata.normalize("NFC", name) for name in names}) < len(set(names))
     return [ascii(name) for name in names] if same else names
 
 
 def hash_files(each: Work) -> str:
-    """Return a hash of a submission's files, or why it cannot be read."""
+    """Return a hash of a submission's files, or the reason why it cannot be read."""
     try:
         return pack(each).digest
     except CannotTake as error:

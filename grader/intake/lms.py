@@ -1,4 +1,4 @@
-"""Define a learning system: how to read its exports, and what it takes back."""
+"""Define a learning system: how to read its exports and write its imports."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -34,10 +34,10 @@ class Page:
     """A student's page of feedback, to return."""
 
     name: str  # of the student
-    file: str  # its name, where the system leaves that free
+    file: str  # its name, if the system allows any
     content: bytes
     text: str  # the same in plain words
-    participant: str = ""  # Moodle's name of a group's member, where another handed in
+    participant: str = ""  # Moodle's name of a group member, if another one handed in
 
 
 class Lms:
@@ -48,12 +48,12 @@ class Lms:
 
     name = "plain"
     title_sign = ""  # the sign behind an assignment's title in the gradebook
-    only_commas = False  # it takes back only UTF-8 with commas
+    only_commas = False  # it accepts only UTF-8 with commas
     names_alone = True  # its export identifies students by their names alone
     takes_feedback = False  # feedback goes back in bulk, by name_pages
     side_files: frozenset[str] = frozenset()  # other files of its export
 
-    # -------------------------------------------------------- what it exports
+    # -------------------------------------------------------- its exports
 
     def read_upload(self, path: Path, people: ClassList) -> Upload | None:
         """Return an upload with its owner; None for a name that this system does not write."""
@@ -64,7 +64,7 @@ class Lms:
         return None
 
     def is_trial(self, path: Path) -> bool:
-        """Tell whether the teacher handed this in, as a test student."""
+        """Return whether the teacher handed this in, as a test student."""
         return False
 
     def read_own_name(self, path: Path) -> str | None:
@@ -73,11 +73,11 @@ class Lms:
         return match["file"] if match else None
 
     def is_export(self, folder: Path) -> bool:
-        """Tell whether a folder holds this system's list of submissions."""
+        """Return whether a folder holds this system's list of submissions."""
         return False
 
     def is_whole_export(self, folder: Path) -> bool:
-        """Tell whether a folder among others is an export, and no submission with such a list."""
+        """Return whether a folder among others is an export, not a submission with such a list."""
         return False
 
     def read_export(self, folder: Path, people: ClassList, intake: Intake) -> Iterator[Work]:
@@ -87,7 +87,7 @@ class Lms:
     # -------------------------------------------------------- its gradebook
 
     def writes_gradebook(self, columns: set[str]) -> bool:
-        """Tell whether a gradebook with these columns is this system's."""
+        """Return whether a gradebook with these columns is this system's."""
         return False
 
     def is_student(self, row: Row) -> bool:
@@ -112,7 +112,7 @@ class Lms:
         return self
 
     def find_total(self, roster: Roster, title: str) -> str:
-        """Return the maximum in the gradebook; empty where it has none."""
+        """Return the maximum in the gradebook; empty if it has none."""
         head = re.compile(rf"{re.escape(title)}(?: Points Grade)? [\[<]")
         columns = (name for name in roster.columns if head.match(name))
         return next((match[1] for name in columns if (match := TOTAL.search(name))), "")

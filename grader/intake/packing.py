@@ -1,4 +1,4 @@
-"""Read one submission: unpack archives, find the programs, and pack what counts."""
+"""Read one submission: unpack archives, find the programs, and pack the files that count."""
 
 import hashlib
 import re
@@ -51,7 +51,7 @@ def open_submission(
 ) -> Iterator[Path]:
     """Unpack the submission at `path` and lay its files out as the lab does.
 
-    It is read like one of a class. Raises CannotTake where it cannot be read.
+    It is read like one of a class. Raises CannotTake if it cannot be read.
     """
     if not path.exists():
         raise CannotTake(f"there is no submission at {path}: name a folder or a Python file")
@@ -70,10 +70,10 @@ def open_submission(
 
 
 def pack(found: Work, asked: Collection[str] = ()) -> Package:
-    """Read a submission, wherever in it the programs lie.
+    """Read a submission, with its programs in any folder.
 
-    Raises CannotTake where it has none of the programs asked for, or cannot be read within the
-    limits. Then it needs manual review; it is not worth 0 points.
+    Raises CannotTake if it has none of the required programs, or cannot be read within the limits.
+    Then it needs manual review; it is not worth 0 points.
     """
     try:
         work = partial(read_package, found, asked)
@@ -107,14 +107,14 @@ def read_package(found: Work, asked: Collection[str] = ()) -> Package:
 
 
 class Contents(Struct, frozen=True):
-    """A submission as it came: its files, and paths of which a person must choose one."""
+    """A submission as handed in: its files, and paths to choose from."""
 
     files: list[tuple[str, bytes]]
     choices: list[list[str]] = []
 
 
 def show(found: Work, asked: Collection[str] = ()) -> Contents:
-    """Read a submission as it came; return no files where it reaches a limit."""
+    """Read a submission as handed in; return no files if it reaches a limit."""
     try:
         return call_within(READING, Contents, partial(read_shown, found, asked), (CannotTake,))
     except (Exceeded, Failed, Lost, CannotTake, OSError):
@@ -184,7 +184,7 @@ def open_found(
 
 
 def is_complete(laid: Layout, asked: Collection[str]) -> bool:
-    """Tell whether all programs that the course asks for were found."""
+    """Return whether all required programs were found."""
     held = {name.partition("/")[0].removesuffix(".py") for name in laid.files}
     return held.issuperset(asked or list_modules())
 
@@ -202,7 +202,7 @@ def note_unopened(folder: Path, laid: Layout, asked: Collection[str]) -> list[st
 
 
 def unpack(found: Work, folder: Path, bounds: Bounds, asked: Collection[str] = ()) -> Layout:
-    """Unpack until all programs that are asked for were found, or no archive is left."""
+    """Unpack until all required programs are found, or no archive is left."""
     refused: dict[str, str] = {}
     for _ in range(DEEPEST):
         archives = list_archives(folder)
@@ -257,7 +257,7 @@ def hash_file(file: BufferedReader, most: int) -> str:
 def open_inside(source: Path, path: Path) -> BufferedReader:
     """Open a file of a submission; no part of its path may be a link.
 
-    Raises CannotTake where it cannot be read.
+    Raises CannotTake if it cannot be read.
     """
     try:
         return open_plain(source.parent, path.relative_to(source.parent))

@@ -1,8 +1,8 @@
 """Find the lab's files in a submission, at any depth and under changed names.
 
 Browsers and learning systems put `(1)`, `-2` or `copy` into a name, and people put `final` or their
-name. Python cannot import such a name, so it is no file of the student's own: it is taken as the
-lab's, with a note. Where two files could be the same program, a person must choose.
+name. Python cannot import such a name, so the file is taken as the lab's, with a note. If two files
+could be the same program, a person must choose.
 """
 
 import re
@@ -33,7 +33,7 @@ ADDED = re.compile(
 BEFORE = re.compile(rf"({WORD} (of|de|di|von) )+", re.I)
 MENTIONED = 5
 MOST_READ = MAX_BYTES + 1  # of a file, to compare it with another one
-SIGNS = {  # the beginnings of files that are no Python
+SIGNS = {  # the beginnings of files that are not Python
     b"pk\x03\x04": "a zip or an Office document",
     b"%pdf": "a PDF",
     b"{\\rtf": "a text of a word processor",
@@ -102,7 +102,7 @@ class Piece:
 
     module: str
     path: PurePosixPath  # of a file or a folder
-    files: tuple[tuple[str, PurePosixPath], ...]  # the name it goes by, and where it lies
+    files: tuple[tuple[str, PurePosixPath], ...]  # its name, and its path
     exact: bool
 
     def is_same(self, other: "Piece", folder: Path) -> bool:
@@ -115,8 +115,8 @@ class Piece:
 def arrange(folder: Path, asked: Collection[str] = (), taken: Collection[str] = ()) -> Layout:
     """Return the submission in `folder` as the lab lays it out.
 
-    Raises ManyPrograms where two files at the same depth could be the same program, unless a person
-    chose one of them or its folder, as in `taken`.
+    Raises ManyPrograms if two files at the same depth could be the same program, unless a person
+    chose one of them or its folder, in `taken`.
     """
     left_out: set[PurePosixPath] = set()
     while True:
@@ -132,7 +132,7 @@ def arrange(folder: Path, asked: Collection[str] = (), taken: Collection[str] = 
 
 
 def list_choices(folder: Path, asked: Collection[str] = ()) -> list[list[PurePosixPath]]:
-    """Return the paths of which a person must choose one, a list for each program."""
+    """Return the paths to choose from, a list for each program."""
     choices: dict[PurePosixPath, list[PurePosixPath]] = {}
     left_out: set[PurePosixPath] = set()
     while True:
@@ -153,7 +153,7 @@ def list_choices(folder: Path, asked: Collection[str] = ()) -> list[list[PurePos
 def arrange_rest(folder: Path, asked: Collection[str], left_out: set[PurePosixPath]) -> Layout:
     """Arrange all files except those `left_out`.
 
-    Of two programs that the course does not ask for, either will do: no mark depends on it.
+    If a program is not required, either of two will do: no mark depends on it.
     """
     found_paths = (PurePosixPath(p.relative_to(folder).as_posix()) for p in plain_files(folder))
     paths = sorted(path for path in found_paths if not is_covered(path, left_out))
@@ -225,7 +225,7 @@ def find_renamed(paths: list[PurePosixPath], found: list[Piece]) -> list[Piece]:
 
 
 def is_renamed(name: str, module: str) -> bool:
-    """Tell whether a name that Python cannot import contains the program's as a whole word.
+    """Return whether a name that Python cannot import contains the program's as a whole word.
 
     A text file counts too: some systems refuse names that end in `.py`.
     """
@@ -242,7 +242,7 @@ def is_covered(path: PurePosixPath, taken: set[PurePosixPath]) -> bool:
 
 
 def is_package(folder: PurePosixPath, inside: list[PurePosixPath]) -> bool:
-    """Tell a package from a folder of its name around all programs."""
+    """Return whether it is a package, not a folder of its name around all programs."""
     direct = {path.relative_to(folder).parts[0] for path in inside}
     around = any(match_name(name.removesuffix(".py"), list_modules()) for name in direct)
     return INIT in direct or (not around and any(name.endswith(".py") for name in direct))
@@ -278,7 +278,7 @@ def choose_piece(pieces: list[Piece], folder: Path, notes: list[str], matters: b
 
 
 def drop_backups(pieces: list[Piece], notes: list[str]) -> list[Piece]:
-    """Leave out copies that a desktop made, if the original lies beside them."""
+    """Skip copies that a desktop made, if the original lies beside them."""
     backups = [piece for piece in pieces if not piece.exact and is_backup(piece.path.name)]
     if len(backups) == len(pieces):
         return pieces
@@ -352,7 +352,7 @@ def find_top(pieces: list[Piece]) -> PurePosixPath:
 
 @lru_cache(maxsize=1024)  # most files of an archive lie in the same folders
 def is_program(name: str) -> bool:
-    """Tell whether a file or folder may be a program of the lab, by its name."""
+    """Return whether a file or folder may be a program of the lab, by its name."""
     return (
         match_name(name, [*list_modules(), *(f"{each}.py" for each in list_modules())]) is not None
     )
@@ -381,7 +381,7 @@ def refuse_empty(folder: Path, asked: Iterable[str], notes: Iterable[str]) -> No
 
 
 def name_type(content: bytes) -> str:
-    """Name the type of a file that is no Python; return nothing for a possible program."""
+    """Name the type of a file that is not Python; return an empty text for a possible program."""
     if not content.strip():
         return "empty"
     head = content.lstrip(b"\xef\xbb\xbf \t\r\n")[:64].lower()

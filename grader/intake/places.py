@@ -28,7 +28,7 @@ def is_system_file(name: str) -> bool:
 
 
 def is_archive(path: Path) -> bool:
-    """Tell an archive by its name, or without a suffix, by its first bytes."""
+    """Return whether it is an archive, by its name or, without a suffix, by its first bytes."""
     if path.suffix or not path.is_file():
         return is_packed(path, b"")
     real = path.resolve()
@@ -37,7 +37,7 @@ def is_archive(path: Path) -> bool:
 
 
 def is_packed(name: PurePath, head: bytes) -> bool:
-    """Tell a file that is an archive by its name, or without a suffix, by its first bytes."""
+    """Return whether a file is an archive, by its name or, without a suffix, by its first bytes."""
     if name.suffix:
         return name.suffix.lower() in ARCHIVES
     return head.startswith((b"PK\x03\x04", *SIGNS))
@@ -63,7 +63,7 @@ def enter_single_folders(folder: Path) -> Path:
 
 
 def has_program(folder: Path) -> bool:
-    """Tell whether a program of the lab lies in this folder itself."""
+    """Return whether a program of the lab lies in this folder itself."""
     return any(
         (folder / name).is_dir() or (folder / f"{name}.py").is_file() for name in list_modules()
     )

@@ -1,8 +1,8 @@
 """Make a plain zip of a .tar, .7z or .rar, so that the same rules apply to all archives.
 
 It runs in a process with limits on memory, time and disk, confined like a child: only here do the
-libraries for these formats read untrusted bytes. It prints the names of files that are too large,
-a line each, or why there is no zip.
+libraries for these formats read untrusted bytes. It prints the names of files that are too large, a
+line each, or the reason why there is no zip.
 """
 
 import bz2
@@ -39,7 +39,7 @@ Files = Iterator[tuple[str, bytes | None]]  # None: too large
 
 
 class CannotRepack(Exception):
-    """Raised for an archive that cannot be unpacked; says why."""
+    """Raised for an archive that cannot be unpacked, with the reason."""
 
 
 def main(source: str, target: str, seconds: int = SECONDS) -> int:
@@ -77,7 +77,7 @@ def say(words: str) -> None:
 def shut_in(source: str, folder: str) -> None:
     """Confine this process to the archive, the zip, its libraries, and the unpackers of a .rar.
 
-    A machine without some of the layers goes on without them.
+    A machine that lacks some layers continues without them.
     """
     from grader.worker.confinement import shut_in_reader  # here: the judge imports this file, too
 

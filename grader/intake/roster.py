@@ -39,10 +39,10 @@ class Roster:
     columns: list[str]
     rows: list[Row]  # of students
     delimiter: str
-    mark: str  # the byte order mark, where there is one
+    mark: str  # the byte order mark, if there is one
     encoding: str = "utf-8"
-    titles: dict[str, str] = field(default_factory=dict)  # of columns, where it has other words
-    doubt: str = ""  # what needs manual review
+    titles: dict[str, str] = field(default_factory=dict)  # titles of columns, if it has other ones
+    doubt: str = ""  # reason for manual review
     other_rows: list[Row] = field(default_factory=list)  # such as Canvas's points possible
 
     def choose_key(self, wanted: str = "") -> str:
@@ -65,7 +65,7 @@ class Roster:
 
     @property
     def group_column(self) -> str:
-        """Return the column of groups; empty where there is none."""
+        """Return the column of groups; empty if there is none."""
         return next((name for name in GROUPS if name in self.columns), "")
 
     def list_groups(self) -> dict[str, list[Row]]:
@@ -106,7 +106,7 @@ def list_full_names(row: Row) -> Iterator[str]:
 
 
 def list_name(row: Row) -> str:
-    """Return a student's name as lists have it, last name first; empty where none is known."""
+    """Return a student's name as lists have it, last name first; empty if unknown."""
     last, first = split_name(row)
     return f"{last}, {first}" if first and last else row.get("Full name", "")
 
@@ -127,10 +127,10 @@ class ClassList:
     def __init__(self, roster: Roster | None = None, key: str = "") -> None:
         self.names: list[str] = []
         self.groups: dict[str, list[str]] = {}  # students, by the group's name
-        self.times: dict[str, datetime] = {}  # of handing in, without a zone, where the list has it
+        self.times: dict[str, datetime] = {}  # of handing in, without a zone, if the list has it
         self.full_names: dict[str, str] = {}  # as lists have them, by the names of results
         self.chosen: list[tuple[str, str]] = []  # students, and the work chosen for them
-        self.participants: dict[str, str] = {}  # what Moodle calls students in names of files
+        self.participants: dict[str, str] = {}  # Moodle's names of students in file names
         self._students: dict[tuple[str, str], set[str]] = {}  # by column and spelling
         self._columns = set(roster.columns) if roster else set()
         if roster is None:
@@ -183,7 +183,7 @@ class ClassList:
         return next((names[0] for name, names in groups if names and fold(name) == fold(group)), "")
 
     def has_column(self, column: str) -> bool:
-        """Tell whether the list has such identifiers, so that names need not identify anybody."""
+        """Return whether the list has such identifiers, so that names are not needed."""
         return column in self._columns
 
     def list_absent(self, handed_in: Iterable[str]) -> list[str]:
@@ -214,5 +214,5 @@ def find_student(who: str, names: list[str], people: ClassList) -> str:
 
 
 def is_same_student(who: str, name: str) -> bool:
-    """Tell whether two names are the same, or one is the first half of the other's address."""
+    """Return whether two names are the same, or one is the first half of the other's address."""
     return fold(who) in split_login(name) or fold(name) in split_login(who)

@@ -20,7 +20,7 @@ def grade(
 
     A full grade takes seconds; the same submission and options always give the same marks. It also
     grades a program that cannot be imported or does not end, with the reason. Raises CannotGrade,
-    with a sentence that says what to do, where a person must look or an option cannot be met.
+    with a sentence that says what to do, if it needs manual review or an option cannot be met.
 
     `say` gets notes on the files, such as a changed name. A `worker` from `start_worker` serves
     several grades and stays open.

@@ -20,7 +20,7 @@ SYSTEMS = (Brightspace(), Blackboard(), Moodle(), Canvas(), Gradescope())
 BY_NAME: dict[str, Lms] = {each.name: each for each in SYSTEMS}
 ANY_OTHER = Lms()
 
-WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # .xlsx and .ods, .xls: how they begin
+WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # first bytes of .xlsx and .ods, .xls
 MANGLED = re.compile(r"\d([.,]\d+)?E\+\d+")  # a long number in a spreadsheet
 
 
@@ -48,7 +48,7 @@ def read_roster(path: Path) -> Roster:
 
 
 def read_table(path: Path) -> Roster:
-    """Read any CSV with a row of titles, however it is encoded and separated."""
+    """Read any CSV with a row of titles, in any encoding and with any separator."""
     try:
         content = path.read_bytes()
     except OSError as error:

@@ -1,7 +1,7 @@
 """Grade one submission in Gradescope's container, and write its results.
 
-The results are always valid. Where nothing could be graded they have no score, not even 0, and say
-why. Only the instructor sees the printed lines.
+The results are always valid. If nothing could be graded they have no score, not even 0, but the
+reason. Only the instructor sees the printed lines.
 """
 
 import sys
@@ -79,7 +79,7 @@ def grade_submission(submission: Path) -> bytes:
 
 
 def explain(why: str, next_step: str) -> bytes:
-    """Return results with the reason and no score, in a test that is worth nothing."""
+    """Return results with the reason and no score, in a test worth 0 points."""
     reason = f"{clean(why)} {NO_MARK} {next_step}"
     test = {"name": "Not graded", "status": "failed", "output": reason, **SHOWN}
     whole = {"output": reason, **SHOWN, "stdout_visibility": "hidden", "tests": [test]}

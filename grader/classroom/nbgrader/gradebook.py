@@ -44,8 +44,8 @@ def fill_gradebook(
 ) -> Iterator[EngineMark | str]:
     """Write results into the gradebook, a student at a time; troubles come as sentences.
 
-    Points are clamped to what the cell is worth and missing ones are 0, so nothing but a passed
-    check earns any. Doing it again changes nothing. A mark given by hand stays and counts.
+    Points are clamped to the cell's maximum and missing ones are 0, so only passed checks earn any.
+    Doing it again changes nothing. A mark given by hand stays and counts.
     """
     api = load_nbgrader()
     with open_gradebook(course, api) as book:
@@ -123,7 +123,7 @@ def write_mark(book: Any, cell: Any, student: str, todo: TodoResult | None) -> b
 
 
 def await_result(book: Any, cells: list[Any], student: str) -> bool:
-    """Make an ungraded engine wait for a person; return whether it was ungraded."""
+    """Mark an ungraded engine for manual grading; return whether it was ungraded."""
     grades = [book.find_grade(cell.name, ENGINE, ASSIGNMENT, student) for cell in cells]
     if all(grade.auto_score is not None for grade in grades):
         return False
@@ -135,7 +135,7 @@ def await_result(book: Any, cells: list[Any], student: str) -> bool:
 
 
 def write_comment(todo: TodoResult) -> str:
-    """Return the comment for feedback, indented so that nothing in it is markup."""
+    """Return the comment for feedback, indented so that it contains no markup."""
     lines = [f"{todo.state}: {todo.points} / {todo.max_points}"]
     for check in todo.checks:
         if check.state != "passed":
@@ -199,9 +199,9 @@ def find_engine_cells(book: Any, api: ModuleType) -> list[Any]:
 
 @contextmanager
 def open_gradebook(course: Path, api: ModuleType) -> Iterator[Any]:
-    """Open the course's gradebook; nbgrader would make an empty one where there is none.
+    """Open the course's gradebook; nbgrader would make a missing one.
 
-    Its libraries warn of what nbgrader does inside them, and nobody here can change that.
+    Hide warnings of its libraries about nbgrader's own code.
     """
     path = course.resolve() / "gradebook.db"
     if not path.exists():

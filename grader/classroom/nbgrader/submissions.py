@@ -30,7 +30,7 @@ NAME = re.compile(r"[^\s*?\[\]/\\.][^*?\[\]/\\]*")  # nbgrader looks students up
 
 @dataclass(frozen=True)
 class StudentFolder:
-    """A student's folder, and what was taken of it."""
+    """A student's folder, and the files taken from it."""
 
     student: str
     words: str
@@ -38,7 +38,7 @@ class StudentFolder:
 
 
 def collect_submissions(folder: Path, course: Path) -> Iterator[StudentFolder]:
-    """Copy each student's folder to where nbgrader looks for it.
+    """Copy each student's folder to nbgrader's folder for it.
 
     No links and nothing hidden is copied. A notebook may lie in the folder `notebooks`, as in the
     starter, beside the engine, or anywhere else. A submission that changed is autograded anew.
@@ -59,7 +59,7 @@ def collect_submissions(folder: Path, course: Path) -> Iterator[StudentFolder]:
 
 
 def take_found(found: Work, course: Path) -> StudentFolder:
-    """Take one submission, or say why it cannot be taken."""
+    """Take one submission, or return the reason why that fails."""
     try:
         with open_found(found) as (folder, laid, _), lay_out(folder, laid) as path:
             return take_submission(found.name, path, folder, course)
@@ -68,9 +68,9 @@ def take_found(found: Work, course: Path) -> StudentFolder:
 
 
 def take_submission(student: str, path: Path, folder: Path, course: Path) -> StudentFolder:
-    """Lay one student's files where nbgrader looks for them, if they are not there already.
+    """Put one student's files into nbgrader's folder, unless they are there already.
 
-    `path` has the programs as the lab lays them; `folder` has all that was handed in.
+    `path` has the programs as in the lab; `folder` has all submitted files.
     """
     if not NAME.fullmatch(student):
         return StudentFolder(student, "nbgrader cannot work with this name: rename it", False)
@@ -87,9 +87,9 @@ def take_submission(student: str, path: Path, folder: Path, course: Path) -> Stu
 
 
 def copy_files(path: Path, folder: Path, target: Path) -> int:
-    """Copy a submission as nbgrader wants it, notebooks on top; return how many there are.
+    """Copy a submission as nbgrader needs it, notebooks on top; return their number.
 
-    A notebook that does not lie with the programs is looked for in all that was handed in.
+    A notebook that is not beside the programs is searched in all submitted files.
     """
     target.mkdir()
     wanted = {path.name for path in (KIT / "solution" / NOTEBOOKS).glob("*.ipynb")}
@@ -115,7 +115,7 @@ def copy_one(top: Path, source: Path, target: Path) -> None:
 
 
 def find_notebook(folder: Path, name: str) -> Path | None:
-    """Return the notebook nearest to the top; raises Stop where two are as near, and differ."""
+    """Return the notebook nearest to the top; raises Stop if two differ at the same depth."""
     paths = [path for path in plain_files(folder) if path.name == name]
     depth = min((len(path.parts) for path in paths), default=0)
     nearest = [path for path in paths if len(path.parts) == depth]
