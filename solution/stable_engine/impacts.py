@@ -43,7 +43,7 @@ class Impacts:
 
     A contact is found after the touch. Impulses go along the normal at the touch, and free balls
     are put where they would be had they bounced then. This keeps angular momentum. A ball on a
-    rod or at a static body stays where it is, and so does a bullet that was stopped at one. Rods
+    joint or at a static body stays where it is, and so does a bullet that was stopped at one. Rods
     pass an impact on at once: a ball weighs as much as what hangs on it along the normal.
     """
 
@@ -95,8 +95,10 @@ class Impacts:
         return ago
 
     def swings(self, body: Body) -> bool:
-        """Return whether a ball is so fast on a rod that it may not have flown straight."""
-        return body in self.frame_of and hypot(body.vx, body.vy) * self.last_dt > body.r
+        """Return whether a ball may not have flown straight: on a spring, or fast on a rod."""
+        if not body.joint_count:
+            return False
+        return body not in self.frame_of or hypot(body.vx, body.vy) * self.last_dt > body.r
 
     def resolve_all(self, law: Law) -> None:
         """Resolve the impacts that are due, and those they lead to.
@@ -213,7 +215,7 @@ class Impacts:
         self.free = {
             body
             for body in self.beside
-            if not (body in held or body in self.frame_of or stopped(body))
+            if not (body in held or body.joint_count or stopped(body))
         }
 
     def take_first(self) -> tuple[list[Contact], float]:
