@@ -53,14 +53,14 @@ def chosen(every: list[Member]) -> list[Member]:
 
 def draw(member: Member) -> float:
     """Return a number from 0 to 1 that depends on its name."""
-    return int(sha256(named(member).encode()).hexdigest()[:12], 16) / 16**12
+    return int(sha256(name_member(member).encode()).hexdigest()[:12], 16) / 16**12
 
 
-def named(member: Member) -> str:
+def name_member(member: Member) -> str:
     return f"{member.kind}/{member.name} as {member.form}"
 
 
-@pytest.mark.parametrize("member", chosen(MEMBERS), ids=named)
+@pytest.mark.parametrize("member", chosen(MEMBERS), ids=name_member)
 def test_a_member_gets_the_marks_it_must(member: Member):
     assert not grade_briefly(member).complaint
 

@@ -21,7 +21,7 @@ OUTSIDE = [Disc(-10, -25, 10), Disc(-46, 5, 10), Disc(10, 28, 10), Disc(44, -5, 
 INSIDE = [Disc(5, -15, 8), Disc(-33, 4, 8), Disc(3, 12, 8), Disc(35, 1, 8)]
 
 
-def drawn() -> list[str]:
+def draw_states() -> list[str]:
     """Return one state of every fifth TODO, by the hash of its name; `make verify` asks for all."""
     found: dict[str, str] = {}
     for name in sorted((s.name for s in STATES), key=lambda n: sha256(n.encode()).hexdigest()):
@@ -29,7 +29,7 @@ def drawn() -> list[str]:
     return sorted(found.values())[2::5]
 
 
-@pytest.mark.parametrize("name", drawn())
+@pytest.mark.parametrize("name", draw_states())
 def test_the_first_failure_of_a_state_says_what_it_must(name: str):
     (state,) = [each for each in STATES if each.name == name]
     assert judge_halfway(state).complaint == ""
@@ -45,37 +45,37 @@ def test_there_are_states_of_every_todo_and_each_can_be_built(tmp_path: Path):
 # ---------------------------------------------------------------- messages
 
 
-def seen(disc: Disc, **changes: float) -> Observation:
+def make_answer(disc: Disc, **changes: float) -> Observation:
     """Return the right contact with some of its numbers changed."""
     (touch,) = circle_box(disc, BOX)
     assert isinstance(touch, Touch)
     return Observation("circle_box", (disc, BOX), touch._replace(**changes))
 
 
-def turned(disc: Disc) -> Observation:
-    answer = seen(disc).answer
-    return seen(disc, nx=-answer.nx, ny=-answer.ny)
+def turn_normal(disc: Disc) -> Observation:
+    answer = make_answer(disc).answer
+    return make_answer(disc, nx=-answer.nx, ny=-answer.ny)
 
 
-def told(todo: str, observations: list[Observation]) -> str:
+def describe_answers(todo: str, observations: list[Observation]) -> str:
     return Diagnosis(todo, observations).describe(observations)
 
 
 def test_a_mistake_is_told_by_the_branch_that_it_shows_in():
-    words = told("1", [*map(turned, OUTSIDE), *map(seen, INSIDE)])
+    words = describe_answers("1", [*map(turn_normal, OUTSIDE), *map(make_answer, INSIDE)])
     assert words.startswith("The normal points from the box")
     assert words.endswith(" It shows where the centre is outside the box.")
 
 
 def test_a_mistake_in_each_branch_is_told_with_the_other_one():
-    without_gap = [seen(disc, depth=disc.r) for disc in INSIDE]
-    words = told("1", [*map(turned, OUTSIDE), *without_gap])
+    without_gap = [make_answer(disc, depth=disc.r) for disc in INSIDE]
+    words = describe_answers("1", [*map(turn_normal, OUTSIDE), *without_gap])
     assert "from the box to the circle" in words and "the gap to the face" in words
 
 
 def test_what_no_mistake_explains_is_narrowed_down():
-    off = [seen(disc, depth=seen(disc).answer.depth * 3) for disc in INSIDE]
-    words = told("1", [*map(seen, OUTSIDE), *off])
+    off = [make_answer(disc, depth=make_answer(disc).answer.depth * 3) for disc in INSIDE]
+    words = describe_answers("1", [*map(make_answer, OUTSIDE), *off])
     assert words == (
         "The depth is 3 times what it must be where the centre is inside the box, and right where "
         "the centre is outside the box. The normal and the point are right."
@@ -86,26 +86,26 @@ def test_a_tie_names_nothing():
     """A's arm is along the axis and B is static: no spin term and only B's give the same result."""
     a, b, axis = Lever(2.0, 10.0, 10.0, 0.0), Lever(0.0, 100.0, 30.0, -100.0), (0.0, 1.0)
     asked = [(a._replace(rx=rx), b, axis) for rx in (5.0, 10.0, 15.0)]
-    words = told("2", [Observation("effective_mass", each, 0.5) for each in asked])
+    words = describe_answers("2", [Observation("effective_mass", each, 0.5) for each in asked])
     assert "forgotten" not in words and "Only" not in words
 
 
 def test_right_answers_and_too_few_of_them_tell_nothing():
     load_known("1")
-    assert told("1", [*map(seen, OUTSIDE), *map(seen, INSIDE)]) == ""
-    assert told("1", [turned(OUTSIDE[0])]).count("Where") == 0
+    assert describe_answers("1", [*map(make_answer, OUTSIDE), *map(make_answer, INSIDE)]) == ""
+    assert describe_answers("1", [turn_normal(OUTSIDE[0])]).count("Where") == 0
 
 
 def test_a_part_that_is_wrong_in_another_way_each_time_has_no_relation():
     load_known("1")
-    wrong = [seen(disc, depth=depth) for disc, depth in zip(INSIDE, (1, 90, 2, 80), strict=True)]
+    wrong = [make_answer(disc, depth=depth) for disc, depth in zip(INSIDE, (1, 90, 2, 80), strict=True)]
     assert find_relation("the depth", list(read_questions(wrong))) == ""
 
 
 def test_a_step_is_shown_where_its_samples_are_wrong():
     step = (3.0, -2.0, 0.25, (1.0, -2.0, 0.5, 0.0))
     places = (3.0, 2.0, 2.7421875, 2.4)
-    words = told("8c", [Observation("samples of accel", step, places)])
+    words = describe_answers("8c", [Observation("samples of accel", step, places)])
     assert "k2" in words and "(3, 2, 2.742, 2.4) instead of (3, 2.75, 2.742," in words
 
 

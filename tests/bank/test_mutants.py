@@ -198,7 +198,7 @@ def test_a_division_by_a_k_of_0_is_told_from_one_that_always_fails():
 # ---------------------------------------------------------------- grading
 
 
-def the_one(todo: str, now: str) -> Mutant:
+def find_mutant(todo: str, now: str) -> Mutant:
     """Return the mutant of a TODO with this line in it."""
     (found,) = [each for each in mutants_of(todo) if now in each.now.split("; ")]
     return found
@@ -223,13 +223,13 @@ def the_one(todo: str, now: str) -> Mutant:
     ],
 )
 def test_a_mutant_is_killed_and_its_mistake_named(todo: str, now: str, mistake: str | None):
-    outcome = mutants.grade_mutant(the_one(todo, now))
+    outcome = mutants.grade_mutant(find_mutant(todo, now))
     assert set(outcome.lost) == {todo} and outcome.complaint == ""
     assert outcome.mistake == mistake
 
 
 def test_alone_a_mutant_is_graded_up_to_the_first_check_that_fails():
-    mutant = the_one("8a", "return (v, x + v * dt)")
+    mutant = find_mutant("8a", "return (v, x + v * dt)")
     outcome = mutants.grade_mutant(mutant, alone=True)
     assert outcome.verdict == "killed" and outcome.lost["8a"] == first_of("8a").points
     assert outcome.mistake is None

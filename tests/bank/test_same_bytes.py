@@ -33,7 +33,7 @@ def choose_members() -> list[Member]:
 
 
 @pytest.fixture(scope="module")
-def passed(tmp_path_factory: pytest.TempPathFactory) -> PassedPrograms:
+def passed_programs(tmp_path_factory: pytest.TempPathFactory) -> PassedPrograms:
     """Passed programs, shared by the members of this file, which add to them."""
     return PassedPrograms(tmp_path_factory.mktemp("passed"))
 
@@ -49,9 +49,9 @@ def busy_machine() -> Iterator[None]:
             each.wait()
 
 
-def grade_as_json(member: Member, tree: Path, jobs: int, passed: PassedPrograms | None) -> bytes:
+def grade_as_json(member: Member, tree: Path, jobs: int, passed_programs: PassedPrograms | None) -> bytes:
     options = Options(
-        shipped_reference(), only=member.judged_by, trusted=True, jobs=jobs, passed=passed
+        shipped_reference(), only=member.judged_by, trusted=True, jobs=jobs, passed=passed_programs
     )
     return as_json(grade(tree, options, shared_worker()))
 
@@ -60,10 +60,10 @@ def grade_as_json(member: Member, tree: Path, jobs: int, passed: PassedPrograms 
 @pytest.mark.parametrize(
     "member", [pytest.param(each, id=f"{each.kind}-{each.name}") for each in choose_members()]
 )
-def test_a_result_is_the_same_bytes(member: Member, tmp_path: Path, passed: PassedPrograms):
+def test_a_result_is_the_same_bytes(member: Member, tmp_path: Path, passed_programs: PassedPrograms):
     tree = tmp_path / member.name
     member.build(KIT, tree)
-    memories = [None] if member.kind == "hostile" else [None, passed]  # as in verify
+    memories = [None] if member.kind == "hostile" else [None, passed_programs]  # as in verify
     results: dict[object, bytes] = {
         (jobs, memory is not None): grade_as_json(member, tree, jobs, memory)
         for memory in memories

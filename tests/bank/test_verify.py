@@ -41,7 +41,7 @@ BANK = [Member("right", name, "package", Entry(), None) for name in ("a", "b", "
 
 
 @pytest.fixture
-def graded(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+def graded_names(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """List the names of graded members; all but z get the right marks."""
     names = []
 
@@ -54,51 +54,51 @@ def graded(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return names
 
 
-def test_a_run_that_was_stopped_goes_on_where_it_was(tmp_path: Path, graded: list[str]):
+def test_a_run_that_was_stopped_goes_on_where_it_was(tmp_path: Path, graded_names: list[str]):
     stopped = judge_members(BANK, 1, Store(tmp_path), fresh=False)
     first = [next(stopped), next(stopped)]
     stopped.close()
     again = [*judge_members(BANK, 1, Store(tmp_path), fresh=False)]
-    assert graded == ["a", "b", "c", "d"]
+    assert graded_names == ["a", "b", "c", "d"]
     assert [each.member.name for each in again if each.earlier] == ["a", "b"]
     assert [(each.result, each.seconds) for each in again] == [(RIGHT, 1.0)] * 4
     assert again[:2] == [replace(each, earlier=True) for each in first]
 
 
-def test_what_changes_while_it_is_graded_is_graded_again(tmp_path: Path, graded, monkeypatch):
+def test_what_changes_while_it_is_graded_is_graded_again(tmp_path: Path, graded_names, monkeypatch):
     source = tmp_path / "5-x.py"
     source.write_text("# TODO 5: damp\npass\n# END TODO 5\n", encoding="utf-8")
     member = Member("right", "5-x", "package", Entry(), source)
 
-    def edited(chosen: list[Member], jobs: int, passed: object) -> Iterator[Verdict]:
+    def edit_source(chosen: list[Member], jobs: int, passed: object) -> Iterator[Verdict]:
         source.write_text("# TODO 5: damp\nreturn\n# END TODO 5\n", encoding="utf-8")
         yield from usual(chosen, jobs, passed)
 
     usual = verify.grade_all
     with monkeypatch.context() as patched:
-        patched.setattr(verify, "grade_all", edited)
+        patched.setattr(verify, "grade_all", edit_source)
         assert len([*judge_members([member], 1, Store(tmp_path / "kept"), fresh=True)]) == 1
     for _ in range(2):
         assert (
             len([*judge_members([member], 1, Store(tmp_path / "kept"), fresh=False)]) == 1
         )
-    assert graded == ["5-x", "5-x"]
+    assert graded_names == ["5-x", "5-x"]
 
 
-def test_a_complaint_is_looked_into_again(tmp_path: Path, graded: list[str]):
+def test_a_complaint_is_looked_into_again(tmp_path: Path, graded_names: list[str]):
     bad = [replace(BANK[0], name="z")]
     for _ in range(2):
         (verdict,) = judge_members(bad, 1, Store(tmp_path), fresh=False)
         assert verdict.complaint and not verdict.earlier
-    assert graded == ["z", "z"]
+    assert graded_names == ["z", "z"]
 
 
-def test_marks_that_are_no_longer_the_right_ones_are_not_taken_over(tmp_path: Path, graded):
+def test_marks_that_are_no_longer_the_right_ones_are_not_taken_over(tmp_path: Path, graded_names):
     Store(tmp_path).write(BANK[0], 1.0, Result(1, "ann", 99, 100, 0, [], []))
     (verdict,) = judge_members(BANK[:1], 1, Store(tmp_path), fresh=False)
-    assert graded == ["a"] and verdict.result == RIGHT
+    assert graded_names == ["a"] and verdict.result == RIGHT
     list(judge_members(BANK[:1], 1, Store(tmp_path), fresh=True))
-    assert graded == ["a", "a"]
+    assert graded_names == ["a", "a"]
 
 
 @pytest.mark.parametrize("content", [b"", b'{"key": 3}', b"\xff\xfe", b"[]"])
@@ -252,7 +252,7 @@ def test_a_ladder_must_rise_from_nothing_to_all(tmp_path: Path, points, complain
 
 
 @pytest.fixture
-def shared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def shared_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Replace the folders where every account may write by a new one."""
     folder = tmp_path / "shared"
     folder.mkdir()
@@ -266,35 +266,35 @@ def left_by(tmp_path: Path, leak, name: str = "") -> str:
     return seen.complaint
 
 
-def test_files_left_in_the_temporary_or_home_folder_are_seen(tmp_path: Path, shared: Path):
+def test_files_left_in_the_temporary_or_home_folder_are_seen(tmp_path: Path, shared_folder: Path):
     for leak in (lambda: tempfile.mkstemp(), lambda: (Path.home() / "left").touch()):
         assert left_by(tmp_path, leak).startswith("left behind: the file ")
         shutil.rmtree(tmp_path / "own")
 
 
-def test_what_is_taken_away_again_is_no_trace(tmp_path: Path, shared: Path):
+def test_what_is_taken_away_again_is_no_trace(tmp_path: Path, shared_folder: Path):
     def tidy() -> None:
         with tempfile.TemporaryDirectory() as folder:
             Path(folder, "x").touch()
-        (shared / "x").touch()
-        (shared / "x").unlink()
+        (shared_folder / "x").touch()
+        (shared_folder / "x").unlink()
 
-    (shared / "was-there").touch()
+    (shared_folder / "was-there").touch()
     assert left_by(tmp_path, tidy) == ""
     assert Path.home() != tmp_path / "own" and tempfile.gettempdir() != str(tmp_path / "own")
 
 
-def test_a_file_named_after_the_submission_is_its_own(tmp_path: Path, shared: Path):
+def test_a_file_named_after_the_submission_is_its_own(tmp_path: Path, shared_folder: Path):
     """Written by another process, as a submission is one."""
 
     def leak() -> None:
         for name in ("marks-from-outlives-the-grade.json", "of-another-program"):
-            code = f"open({str(shared / name)!r}, 'w')"
+            code = f"open({str(shared_folder / name)!r}, 'w')"
             subprocess.run([sys.executable, "-c", code], check=True)
 
     complaint = left_by(tmp_path, leak, "outlives-the-grade")
     assert "marks-from-outlives-the-grade.json" in complaint and "program" not in complaint
-    (shared / "marks-from-outlives-the-grade.json").rename(shared / "outlives-the-grade.1")
+    (shared_folder / "marks-from-outlives-the-grade.json").rename(shared_folder / "outlives-the-grade.1")
     os.rmdir(tmp_path / "own")
     assert left_by(tmp_path, lambda: None, "outlives-the-grade") == ""
 

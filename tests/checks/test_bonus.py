@@ -8,7 +8,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
-from mixed_trees import mixed
+from mixed_trees import mix_trees
 from rich.console import Console
 
 from grader.bank.verify import shared_worker
@@ -34,7 +34,7 @@ WORTH = {"B1": 4, "B2": 3, "B3": 4, "B4": 2, "B5": 2, "B6": 1}
 RUNNER = dict.fromkeys(NEEDED.values(), "x")  # what Classroom 50 passes for a submission
 
 
-def graded(folder: Path, only: frozenset[str] = frozenset()) -> Result:
+def grade_tree(folder: Path, only: frozenset[str] = frozenset()) -> Result:
     return grade(folder, Options(shipped_reference(), only=only), shared_worker())
 
 
@@ -45,7 +45,9 @@ def without_bonus(solution: Result, tmp_path_factory: pytest.TempPathFactory) ->
     It grades the program as a whole again, which would run bonus code.
     """
     folder = tmp_path_factory.mktemp("none") / "ann"
-    again = graded(mixed(folder, "solution", "starter", BONUS), frozenset({"whole", *BONUS}))
+    again = grade_tree(
+        mix_trees(folder, "solution", "starter", BONUS), frozenset({"whole", *BONUS})
+    )
     todos = {todo.id: todo for todo in again.todos}
     return msgspec.structs.replace(
         solution, bonus=again.bonus, todos=[todos.get(each.id, each) for each in solution.todos]
@@ -93,7 +95,7 @@ def test_bonus_tasks_earn_their_points_in_an_unfinished_engine(
     tmp_path: Path, some: frozenset[str]
 ):
     """The reference replaces all unfinished TODOs."""
-    result = graded(mixed(tmp_path / "ben", "starter", "solution", BONUS), some)
+    result = grade_tree(mix_trees(tmp_path / "ben", "starter", "solution", BONUS), some)
     worth = {todo: points for todo, points in WORTH.items() if todo in some}
     assert {todo.id: todo.points for todo in result.todos} == worth
     assert (result.points, result.max_points, result.bonus) == (0, 0, sum(worth.values()))
@@ -101,7 +103,7 @@ def test_bonus_tasks_earn_their_points_in_an_unfinished_engine(
 
 def test_a_picture_that_changes_by_itself_says_nothing_of_the_drawing(tmp_path: Path):
     """A counter on the screen also changes in every frame."""
-    folder = mixed(tmp_path / "cy", "solution", "starter", frozenset({"B5"}))
+    folder = mix_trees(tmp_path / "cy", "solution", "starter", frozenset({"B5"}))
     window, loop = (folder / "mini_engine" / each for each in ("bonus/window.py", "game_loop.py"))
     stub = "    # TODO B5: draw between steps\n"
     began = window.read_text().replace(stub, f"{stub}    share = 1.0\n")
@@ -110,7 +112,7 @@ def test_a_picture_that_changes_by_itself_says_nothing_of_the_drawing(tmp_path: 
     dot = "        self.dot = getattr(self, 'dot', 0) + 1\n"
     dot += "        self.screen.set_at((self.dot % 900, 300), INK)\n"
     loop.write_text(loop.read_text().replace(cleared, cleared + dot))
-    (todo,) = graded(folder, frozenset({"B5"})).todos
+    (todo,) = grade_tree(folder, frozenset({"B5"})).todos
     assert [check.state for check in todo.checks] == ["not yet", "waiting"] and not todo.points
 
 
@@ -119,7 +121,7 @@ def test_a_program_older_than_the_bonus_tasks_has_not_started_them(tmp_path: Pat
     folder.mkdir()
     single = KIT / "tests" / "bank" / "single_file" / "mini_engine.py"
     shutil.copyfile(single, folder / "mini_engine.py")
-    result = graded(folder, BONUS)
+    result = grade_tree(folder, BONUS)
     assert {todo.state for todo in result.todos} == {"not started"}
 
 
@@ -133,7 +135,7 @@ def test_only_what_was_asked_decides_whether_a_result_is_complete(with_bonus: Re
 # ---------------------------------------------------------------- reports and sums
 
 
-def told(result: Result) -> str:
+def print_result(result: Result) -> str:
     console = Console(width=80, record=True, file=io.StringIO())
     Printer(console).print(result)
     show_next(result, console)
@@ -141,8 +143,8 @@ def told(result: Result) -> str:
 
 
 def test_the_terminal_shows_the_bonus_apart(without_bonus: Result, with_bonus: Result):
-    assert total(without_bonus) == "100 / 100" and "B1" not in told(without_bonus)
-    text = told(with_bonus)
+    assert total(without_bonus) == "100 / 100" and "B1" not in print_result(without_bonus)
+    text = print_result(with_bonus)
     assert total(with_bonus) == "100 / 100  and 4 bonus"
     assert "1 / 4 bonus" in text and "3 / 3 bonus" in text and "B3" not in text
     assert "Next" not in text and max(map(len, text.splitlines())) <= 80
@@ -150,7 +152,9 @@ def test_the_terminal_shows_the_bonus_apart(without_bonus: Result, with_bonus: R
 
 def test_a_student_who_asks_for_a_bonus_task_is_led_on(with_bonus: Result):
     only = [todo for todo in with_bonus.todos if todo.id in ("B1", "B3")]
-    text = told(msgspec.structs.replace(with_bonus, points=0, max_points=0, bonus=1, todos=only))
+    text = print_result(
+        msgspec.structs.replace(with_bonus, points=0, max_points=0, bonus=1, todos=only)
+    )
     assert "Next: TODO B1" in text and "NOT STARTED B3" in text and ": 1 bonus" in text
 
 

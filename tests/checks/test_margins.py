@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from one_worker import opened
+from one_worker import child_opener
 
 from grader.bank.members import lay_over
 from grader.checks.whole import checks
@@ -37,14 +37,14 @@ CASES = [
 FEW = CASES[4::23]  # another scene, seed and time each
 
 
-def named(value: Any) -> str:
+def name_value(value: Any) -> str:
     return getattr(value, "__name__", str(value))
 
 
 @pytest.mark.parametrize(
     ("module", "scene", "seed", "times"),
     [pytest.param(*case, marks=[] if case in FEW else pytest.mark.soak) for case in CASES],
-    ids=named,
+    ids=name_value,
 )
 def test_a_scene_holds_with_other_balls_and_at_other_times(
     module: str, scene: Callable[[Lab], None], seed: int, times: float, tmp_path: Path
@@ -64,5 +64,8 @@ def test_a_scene_holds_with_other_balls_and_at_other_times(
         patch.setattr(checks, "SEED", seed)
         patch.setattr(checks, "run", run)
         patch.setattr(checks, "PHOTOGRAPHED", photographed)
-        with opened(folder) as children, Lab(module, lambda: children(20), []).opened() as lab:
+        with (
+            child_opener(folder) as children,
+            Lab(module, lambda: children(20), []).opened() as lab,
+        ):
             scene(lab)

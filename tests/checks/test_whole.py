@@ -34,7 +34,7 @@ def without_needs() -> Rubric:
     return Rubric([*TASKS, whole])
 
 
-def failing(todo: Todo, work: Path, worker: Worker) -> set[str]:
+def find_failing(todo: Todo, work: Path, worker: Worker) -> set[str]:
     """Return the checks that fail with this TODO's stub instead of the solution's code."""
     tree = work / todo.id
     shutil.copytree(KIT / "solution", tree, ignore=shutil.ignore_patterns("notebooks", ".*"))
@@ -67,4 +67,4 @@ def test_a_check_needs_what_it_fails_without(todo: Todo, tmp_path: Path, worker:
         for check in WHOLE.checks
         if todo.id in set(check.needs) - TOGETHER.get(check.id, set())
     }
-    assert failing(todo, tmp_path, worker) == needing
+    assert find_failing(todo, tmp_path, worker) == needing

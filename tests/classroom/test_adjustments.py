@@ -16,7 +16,7 @@ DUE = datetime(2026, 5, 4, 22, tzinfo=UTC)
 LATE = "[late]\ndue = 2026-05-04T22:00:00Z\nper_day = 10\nat_most = 25\n"
 
 
-def loaded(tmp_path: Path, text: str, course: Course = FULL) -> Adjustments:
+def load(tmp_path: Path, text: str, course: Course = FULL) -> Adjustments:
     (tmp_path / "adjustments.toml").write_text(text, encoding="utf-8")
     return load_adjustments(tmp_path / "adjustments.toml", course)
 
@@ -27,7 +27,7 @@ def adjust(*lines: str, student: str = "'Ann'", **values: object) -> str:
 
 
 def final(tmp_path: Path, text: str, points: int | None = 80, **found: object):
-    return loaded(tmp_path, text).decide(Work("ann", (), **found), points)
+    return load(tmp_path, text).decide(Work("ann", (), **found), points)
 
 
 SHARE = LATE.replace("per_day = 10", 'per_day = "10%"').replace("at_most = 25\n", "")
@@ -127,14 +127,14 @@ REFUSED = [
 @pytest.mark.parametrize("text, words", REFUSED)
 def test_what_cannot_be_meant_is_refused(tmp_path, text, words):
     with pytest.raises(Stop) as refused:
-        loaded(tmp_path, text)
+        load(tmp_path, text)
     assert words in str(refused.value)
 
 
 @pytest.mark.parametrize("line", ["per_day = 41", "cap = 80", "at_most = 100"])
 def test_more_points_than_a_course_has_are_refused(tmp_path, line):
     with pytest.raises(Stop, match=rf"late: {line} is more than the \d+ points that there are"):
-        loaded(tmp_path, f"[late]\n{line}\n", Course(todos=("1", "2", "8a")))
+        load(tmp_path, f"[late]\n{line}\n", Course(todos=("1", "2", "8a")))
     with pytest.raises(Stop, match="no adjustments at"):
         load_adjustments(tmp_path / "none.toml")
 
@@ -147,7 +147,7 @@ def test_times_without_a_zone_are_the_schools_and_dates_end_with_their_day(tmp_p
     west = LATE.replace("22:00:00Z", "22:00:00-05:00")
     assert final(tmp_path, west, handed_in=datetime(2026, 5, 4, 21, 59)).points == 80
     text = 'zone = "Asia/Kolkata"\n[late]\ndue = 2026-05-04\nper_day = 10\n'
-    decided = loaded(tmp_path, text + adjust(due="2026-05-09"))
+    decided = load(tmp_path, text + adjust(due="2026-05-09"))
     assert decided.find_due(Work("ann", ())) == datetime(2026, 5, 9, 18, 29, 59, tzinfo=UTC)
     assert decided.find_due(Work("ben", ())) == datetime(2026, 5, 4, 18, 29, 59, tzinfo=UTC)
 
@@ -172,14 +172,14 @@ def people(tmp_path: Path) -> ClassList:
     "who", ["cem@x.edu", "CEM", "Cem Öz", "009", "9", "coz", "4713", "Participant 4713"]
 )
 def test_a_student_is_known_by_every_name_of_the_class_list(tmp_path, people, who):
-    decided = loaded(tmp_path, adjust(student=repr(who), points=3))
+    decided = load(tmp_path, adjust(student=repr(who), points=3))
     decided = decided.resolve(["ann@x.edu", "cem@x.edu"], people)
     assert decided.students == ["cem@x.edu"]
     assert decided.decide(Work("cem@x.edu", ()), None).points == 3
 
 
 def test_one_decision_for_several_and_a_name_that_two_have(tmp_path, people):
-    decided = loaded(tmp_path, adjust(student="['ann', 'ben@x']", add=1))
+    decided = load(tmp_path, adjust(student="['ann', 'ben@x']", add=1))
     assert decided.decide(Work("ben@x", ()), 5).points == 6
     assert decided.decide(Work("ann@y", ()), 5).points == 6
     assert decided.find_unused(["ben@x"]) == ["ann"]
@@ -187,9 +187,9 @@ def test_one_decision_for_several_and_a_name_that_two_have(tmp_path, people):
     with pytest.raises(Stop, match="could be ann@x or ann@y: write one of these names"):
         decided.resolve(["ann@x", "ann@y"], ClassList())
     with pytest.raises(Stop, match="'Ann Bell' in the adjustments could be "):
-        loaded(tmp_path, adjust(student="'Ann Bell'", points=3)).resolve(
+        load(tmp_path, adjust(student="'Ann Bell'", points=3)).resolve(
             ["ann@x.edu", "bell@x.edu"], people
         )
     twice = adjust(student="'cem'", points=3) + adjust(student="'coz'", points=3)
     with pytest.raises(Stop, match=r"points of 'cem@x.edu' are set twice"):
-        loaded(tmp_path, twice).resolve(["cem@x.edu"], people)
+        load(tmp_path, twice).resolve(["cem@x.edu"], people)

@@ -78,7 +78,7 @@ def start(intake: Intake, classroom: Path) -> Run:
     return Run(intake, Book(classroom.parent / "out"), "key")
 
 
-def graded(classroom: Path, key: str = "key", adjustments: Adjustments | None = None) -> Run:
+def grade_once(classroom: Path, key: str = "key", adjustments: Adjustments | None = None) -> Run:
     """Run once; the executor's `.names` are the newly graded ones."""
     executor = Inline()
     with open_class(classroom) as intake:
@@ -104,23 +104,23 @@ def test_a_log_gets_a_line_now_and_then(classroom, monkeypatch, pause, lines):
 
 
 def test_only_what_changed_is_graded_again(classroom):
-    run = graded(classroom)
+    run = grade_once(classroom)
     assert run.names == ["ann", "ben", "cem"]
-    assert graded(classroom).names == []
+    assert grade_once(classroom).names == []
     (classroom / "ben" / "helper.py").write_text("", encoding="utf-8")
-    assert graded(classroom).names == ["ben"]
+    assert grade_once(classroom).names == ["ben"]
     run.book.locate_result("ann").unlink()
     run.book.locate_result("cem").write_text("{}", encoding="utf-8")
-    assert graded(classroom).names == ["ann", "cem"]
-    assert graded(classroom, key="another seed").names == ["ann", "ben", "cem"]
+    assert grade_once(classroom).names == ["ann", "cem"]
+    assert grade_once(classroom, key="another seed").names == ["ann", "ben", "cem"]
 
 
 def test_a_line_cut_off_by_a_kill_costs_that_submission_only(classroom):
-    book = graded(classroom).book
+    book = grade_once(classroom).book
     whole = book.path.read_bytes()
     book.path.write_bytes(whole[:-40])
     (book.folder / f".ann.json.{'0' * 16}").write_text("half", encoding="utf-8")
-    assert graded(classroom).names == ["cem"]
+    assert grade_once(classroom).names == ["cem"]
     assert sorted(path.name for path in book.folder.iterdir()) == [
         "ann.json",
         "ben.json",
@@ -129,11 +129,11 @@ def test_a_line_cut_off_by_a_kill_costs_that_submission_only(classroom):
 
 
 def test_no_result_outlives_its_submission_and_those_of_others_stay(classroom):
-    graded(classroom)
+    grade_once(classroom)
     shutil.rmtree(classroom / "ann")
     (classroom / "ann.zip").write_bytes(b"not a zip")
     shutil.rmtree(classroom / "ben")
-    run = graded(classroom)
+    run = grade_once(classroom)
     assert not run.book.locate_result("ann").exists() and run.book.locate_result("ben").exists()
     assert "broken" in {each.name: each.trouble for each in run.outcomes}["ann"]
     assert run.counts == {"graded": 0, "kept": 1, "trouble": 1}
@@ -183,24 +183,27 @@ def test_what_decides_uses_nothing_that_does_not_count():
 
 def test_adjustments_stay_on_top_and_results_as_they_are(classroom):
     adjustments = Adjustments(adjust=[Adjust("ann", "=ill", add=40), Adjust("eve", "x", add=1)])
-    before = graded(classroom).book.locate_result("ann").read_bytes()
-    for run in (graded(classroom, adjustments=adjustments), graded(classroom, "k", adjustments)):
+    before = grade_once(classroom).book.locate_result("ann").read_bytes()
+    for run in (
+        grade_once(classroom, adjustments=adjustments),
+        grade_once(classroom, "k", adjustments),
+    ):
         assert run.book.locate_result("ann").read_bytes() == before
         with open(run.book.table, encoding="utf-8-sig", newline="") as file:
             row = next(row for row in csv.DictReader(file) if row["name"] == "ann")
         assert (row["points"], row["found"], row["adjusted"]) == ("41", "1", "'=ill: +40")
         assert "adjusted, but nothing was handed in: eve" in run.notes
-    assert graded(classroom).outcomes[0].final == 1
+    assert grade_once(classroom).outcomes[0].final == 1
 
 
 def test_the_same_files_from_two_people_are_mentioned_unless_they_work_together(classroom):
     shutil.copy(classroom / "ann" / "integrators.py", classroom / "cem" / "integrators.py")
-    assert "the same files were handed in by ann, cem" in graded(classroom).notes
+    assert "the same files were handed in by ann, cem" in grade_once(classroom).notes
     (classroom / "cem" / "integrators.py").write_text("# cem\n", encoding="utf-8")
     (classroom / "submission_metadata.yml").write_text(
         "ann: {':submitters': [{':email': a@x}, {':email': b@x}]}\n", encoding="utf-8"
     )
-    run = graded(classroom)
+    run = grade_once(classroom)
     assert [each.name for each in run.outcomes] == ["a@x", "b@x", "ben", "cem"]
     assert not any("same files" in note for note in run.notes)
 
@@ -215,7 +218,7 @@ def test_whatever_goes_wrong_with_one_the_others_are_graded(classroom, monkeypat
         return real(work, *more)
 
     monkeypatch.setattr(batch, name, break_at_ben)
-    run = graded(classroom)
+    run = grade_once(classroom)
     assert run.names == ["ann", "cem"]
     assert "surrogates" in {each.name: each.trouble for each in run.outcomes}["ben"]
 
@@ -223,7 +226,7 @@ def test_whatever_goes_wrong_with_one_the_others_are_graded(classroom, monkeypat
 def test_names_that_are_no_text_are_graded(classroom):
     """Names of files or folders in another machine's encoding, or with terminal controls."""
     add_odd_names(classroom / "ben")
-    run = graded(classroom)
+    run = grade_once(classroom)
     assert run.names == ["ann", "ben", "cem"]
     assert not any(each.trouble for each in run.outcomes)
 
@@ -294,7 +297,7 @@ def test_an_executor_that_is_gone_ends_the_class_and_what_is_graded_stays(classr
 
     with open_class(classroom) as intake, pytest.raises(Stop, match="goes on from there"):
         grade_class(start(intake, classroom), Leaving(), QUIET)
-    assert graded(classroom).names == ["ben", "cem"]
+    assert grade_once(classroom).names == ["ben", "cem"]
 
 
 def test_a_class_gets_the_bytes_that_each_gets_alone(tmp_path):
@@ -311,7 +314,7 @@ def test_a_class_gets_the_bytes_that_each_gets_alone(tmp_path):
 
 
 def test_a_page_of_too_many_is_left_to_its_command(classroom, monkeypatch):
-    run = graded(classroom)
+    run = grade_once(classroom)
     monkeypatch.setattr(grading, "LONGEST_PAGE", 2)
     assert "more than 2, by `grader dashboard" in write_page(run)
     monkeypatch.setattr(grading, "LONGEST_PAGE", 3)

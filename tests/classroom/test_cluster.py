@@ -53,7 +53,7 @@ def classroom(tmp_path: Path) -> Path:
     return tmp_path / "class"
 
 
-def graded(classroom: Path, out: str, **how: object) -> dict[str, bytes]:
+def grade_files(classroom: Path, out: str, **how: object) -> dict[str, bytes]:
     """Return every result and the table, byte by byte."""
     wanted = ClassOptions(ONLY_8A, classroom.parent / out, **how)
     run = run_class(classroom, wanted, QUIET)
@@ -65,7 +65,7 @@ def graded(classroom: Path, out: str, **how: object) -> dict[str, bytes]:
 
 @pytest.mark.soak
 def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(workers, classroom):
-    here = graded(classroom, "here", jobs=1)
+    here = grade_files(classroom, "here", jobs=1)
     with distributed.Client(workers, set_as_default=False) as client:
         victim = next(iter(client.run(os.getpid).values()))
     results = classroom.parent / "there"
@@ -78,7 +78,7 @@ def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(workers, class
 
     killed: list[int] = []
     threading.Thread(target=kill_when_two_are_graded, daemon=True).start()
-    there = graded(classroom, "there", cluster=workers.scheduler_address)
+    there = grade_files(classroom, "there", cluster=workers.scheduler_address)
     assert there == here
     assert killed
 
@@ -86,7 +86,7 @@ def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(workers, class
 def test_no_scheduler_is_a_sentence(classroom, monkeypatch):
     monkeypatch.setattr(cluster, "CONNECT_SECONDS", 1)
     with pytest.raises(Stop, match="there is no Dask scheduler"):
-        graded(classroom, "out", cluster="tcp://127.0.0.1:9")
+        grade_files(classroom, "out", cluster="tcp://127.0.0.1:9")
 
 
 @pytest.mark.soak
@@ -114,7 +114,7 @@ def test_workers_with_another_grader_are_refused(workers, classroom):
         client.run(setattr, fingerprint, "fingerprint", partial(str, "another"))
         try:
             with pytest.raises(Stop, match=r"another version .* on tcp://"):
-                graded(classroom, "out", cluster=workers.scheduler_address)
+                grade_files(classroom, "out", cluster=workers.scheduler_address)
         finally:
             client.restart()
 

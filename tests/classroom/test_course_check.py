@@ -21,7 +21,7 @@ def place(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def told(place: Path, **texts: str) -> list[str]:
+def list_problems(place: Path, **texts: str) -> list[str]:
     names = {"roster": "list.csv", "adjust": "adjustments.toml", "marking": "marks.toml"}
     files = {}
     for name, text in {"roster": GOOD, **texts}.items():
@@ -32,7 +32,7 @@ def told(place: Path, **texts: str) -> list[str]:
 
 def test_of_what_is_well_nothing_is_said(place, monkeypatch):
     monkeypatch.setattr(classroom, "find_release_problems", lambda path: [])  # see test_courses.py
-    assert told(place, adjust="[[adjust]]\nstudent = 'ann'\nadd = 1\nreason = 'x'\n") == []
+    assert list_problems(place, adjust="[[adjust]]\nstudent = 'ann'\nadd = 1\nreason = 'x'\n") == []
     done = run_grader("course-check")
     assert done.exit_code == 0 and "No problems found" in done.output
 
@@ -45,7 +45,7 @@ def test_all_that_would_go_wrong_is_said_at_once(place):
         "[late]\ndue = 2026-05-04T12:00:00Z\nper_day = 5\n"
         "[[adjust]]\nstudent = 'nobody'\nadd = 1\nreason = 'x'\n"
     )
-    faults = told(place, adjust=adjust, marking="title = 1\n")
+    faults = list_problems(place, adjust=adjust, marking="title = 1\n")
     for words in (
         "cem: the archive is broken",
         "finn: nothing of the lab",
@@ -71,7 +71,7 @@ def test_all_that_would_go_wrong_is_said_at_once(place):
     ],
 )
 def test_a_class_list_that_does_not_tell_people_apart(place, roster, words):
-    assert any(words in fault for fault in told(place, roster=roster))
+    assert any(words in fault for fault in list_problems(place, roster=roster))
 
 
 def test_a_gradebook_without_the_assignments_column(place):
@@ -79,17 +79,21 @@ def test_a_gradebook_without_the_assignments_column(place):
     canvas = classes.canvas(place / "other", []).replace("(77)", "(77),Essay (78)")
     for title, marking in (("Physics engine", {}), ("Essay", {"marking": "title = 'Essay'\n"})):
         marking = {name: f"{text}shares.engine = 1\n" for name, text in marking.items()}
-        assert not any("no column" in f for f in told(place, roster=canvas, **marking))
+        assert not any("no column" in f for f in list_problems(place, roster=canvas, **marking))
         other = canvas.replace(f"{title} (", "Other (")
-        assert any(f"no column {title!r}" in f for f in told(place, roster=other, **marking))
+        assert any(
+            f"no column {title!r}" in f for f in list_problems(place, roster=other, **marking)
+        )
 
 
 @pytest.mark.parametrize("system", ["moodle", "blackboard", "brightspace"])
 def test_marks_out_of_another_number_than_the_gradebooks(place, system):
     roster = classes.SYSTEMS[system](place / "other", classes.students())
     marking = 'title = "Physics engine"\nshares.engine = 1\ntotal = '
-    assert any("counts to 20" in f for f in told(place, roster=roster, marking=marking + "100"))
-    fine = told(place, roster=roster, marking=f"{marking}{classes.FULL}")
+    assert any(
+        "counts to 20" in f for f in list_problems(place, roster=roster, marking=marking + "100")
+    )
+    fine = list_problems(place, roster=roster, marking=f"{marking}{classes.FULL}")
     assert not any("counts to" in fault for fault in fine)
 
 
@@ -98,6 +102,6 @@ def test_decisions_are_checked_as_a_whole(place):
         "[[adjust]]\nstudent = 'ann'\npoints = 700\nreason = 'x'\n"
         "[[adjust]]\nstudent = 'ann'\npoints = 7\nreason = 'x'\n"
     )
-    (fault,) = told(place, adjust=adjust)
+    (fault,) = list_problems(place, adjust=adjust)
     for words in ("points = 700", "set twice"):
         assert words in fault

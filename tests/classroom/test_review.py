@@ -205,7 +205,7 @@ def lock(archive: bytes) -> bytes:
 
 
 @pytest.fixture(scope="module")
-def graded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def graded_class(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Grade a class with everything that needs a person."""
     lab = tmp_path_factory.mktemp("term") / "lab"
     work = classes.work(5)
@@ -234,9 +234,9 @@ def graded(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def lab(graded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def lab(graded_class: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
-    return shutil.copytree(graded, tmp_path / "lab")
+    return shutil.copytree(graded_class, tmp_path / "lab")
 
 
 @pytest.fixture

@@ -41,12 +41,12 @@ WHOLE = [  # members of the bank, each written independently
 
 
 @pytest.fixture(scope="module")
-def right(tmp_path_factory) -> dict[str, Package]:
+def right_members(tmp_path_factory) -> dict[str, Package]:
     """Return independent right members of the bank: whole programs."""
-    return packed(tmp_path_factory.mktemp("right"), "|".join(WHOLE))
+    return pack_members(tmp_path_factory.mktemp("right"), "|".join(WHOLE))
 
 
-def packed(place: Path, pattern: str) -> dict[str, Package]:
+def pack_members(place: Path, pattern: str) -> dict[str, Package]:
     """Return the right members of the bank with these names."""
     found = {}
     for member in bank():
@@ -61,14 +61,14 @@ def shares(packages: list[Package]) -> list[Pair]:
 
 
 @pytest.mark.soak
-def test_independent_right_answers_stay_below_what_is_expected(right, tmp_path):
-    whole = shares([right[name] for name in WHOLE])
+def test_independent_right_answers_stay_below_what_is_expected(right_members, tmp_path):
+    whole = shares([right_members[name] for name in WHOLE])
     assert whole and max(each.share for each in whole) < 0.3 < EXPECTED
-    tasks = [each for _, each in sorted(packed(tmp_path, "[1-8].*").items())]
+    tasks = [each for _, each in sorted(pack_members(tmp_path, "[1-8].*").items())]
     assert max((each.share for each in shares(tasks)), default=0.0) <= EXPECTED
 
 
-def dressed(package: Package) -> Package:
+def disguise(package: Package) -> Package:
     """Return the same code with other names, numbers, comments, line breaks and order of
     functions."""
     files = []
@@ -84,9 +84,12 @@ def dressed(package: Package) -> Package:
 
 
 @pytest.mark.parametrize("name", sample(["whole-very-terse", "whole-functional-style"], 2))
-def test_a_copy_is_shown_however_it_is_dressed(right, name):
+def test_a_copy_is_shown_however_it_is_dressed(right_members, name):
     (pair,) = find_pairs(
-        [make_prints(p) for p in [*(right[n] for n in WHOLE), dressed(right[name])]]
+        [
+            make_prints(p)
+            for p in [*(right_members[n] for n in WHOLE), disguise(right_members[name])]
+        ]
     )
     assert set(pair.names) == {"copy", name} and pair.share > 0.8
 
@@ -127,8 +130,8 @@ def test_no_more_is_shown_of_two_than_a_person_reads(monkeypatch):
     assert all(sum(map(len, side.values())) == 50 for side in sides)
 
 
-def test_pairs_are_of_two_students_of_the_class_who_share_what_few_have(right):
-    package = right["whole-very-terse"]
+def test_pairs_are_of_two_students_of_the_class_who_share_what_few_have(right_members):
+    package = right_members["whole-very-terse"]
 
     def prints(*names: str, team: tuple[str, ...] = ()) -> list[Prints]:
         return [make_prints(Package(name, package.files), team) for name in names]
@@ -158,11 +161,17 @@ def test_the_same_pairs_whatever_the_hash_seed_is():
     assert len(told) == 1
 
 
-def test_pairs_are_on_the_class_page_side_by_side_and_in_a_table(tmp_path, right, monkeypatch):
+def test_pairs_are_on_the_class_page_side_by_side_and_in_a_table(
+    tmp_path, right_members, monkeypatch
+):
     monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
-    package, classroom = right["whole-very-terse"], tmp_path / "class"
+    package, classroom = right_members["whole-very-terse"], tmp_path / "class"
     wrong = "<script>alert(1)</script>"
-    for name, each in (("ann", package), ("ben", dressed(package)), ("zoe", right[WHOLE[0]])):
+    for name, each in (
+        ("ann", package),
+        ("ben", disguise(package)),
+        ("zoe", right_members[WHOLE[0]]),
+    ):
         files = [*each.files, ("note.py", f"x = '{wrong}{HOSTILE}'\n".encode())]
         Package(name, files).unpack(classroom) if classroom.mkdir(exist_ok=True) is None else None
     run_class(classroom, ClassOptions(Options()), Console(quiet=True))
@@ -179,6 +188,6 @@ def test_pairs_are_on_the_class_page_side_by_side_and_in_a_table(tmp_path, right
 
     last = tmp_path / "2025"
     last.mkdir()
-    Package("old", right[WHOLE[0]].files).unpack(last)
+    Package("old", right_members[WHOLE[0]].files).unpack(last)
     run_class(classroom, ClassOptions(Options(), earlier=[last]), Console(quiet=True))
     assert {each.names for each in read_pairs(results)} == {("ann", "ben"), ("2025/old", "zoe")}

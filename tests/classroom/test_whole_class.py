@@ -189,45 +189,47 @@ def test_there_is_a_class_of_every_system():
 
 
 @pytest.fixture(params=sample(SYSTEMS, 3))
-def graded(request, tmp_path_factory, in_one_process) -> Iterator[Class]:
+def graded_class(request, tmp_path_factory, in_one_process) -> Iterator[Class]:
     place = tmp_path_factory.mktemp("term")
     folder, roster, students = exported(place, request.param)
     run = run_class(folder, with_list(folder, roster), QUIET)
     yield Class(request.param, folder, roster, students, run)
 
 
-def test_a_class_from_export_to_gradebook_and_back(graded: Class):
-    everybody_has_a_mark_or_a_reason(graded)
-    every_table_and_page_says_so(graded)
-    the_gradebook_takes_it(graded)
-    feedback_goes_back(graded)
+def test_a_class_from_export_to_gradebook_and_back(graded_class: Class):
+    check_marks_and_reasons(graded_class)
+    check_tables_and_pages(graded_class)
+    check_gradebook(graded_class)
+    check_feedback(graded_class)
 
 
-def everybody_has_a_mark_or_a_reason(graded: Class) -> None:
-    outcomes = {each.name: each for each in graded.run.outcomes}
-    for student in graded.students:
+def check_marks_and_reasons(graded_class: Class) -> None:
+    outcomes = {each.name: each for each in graded_class.run.outcomes}
+    for student in graded_class.students:
         if student.login == "hana":
-            assert graded.name(student) not in outcomes
-            assert any("nothing was handed in by" in n and "hana" in n for n in graded.run.notes)
+            assert graded_class.name(student) not in outcomes
+            assert any(
+                "nothing was handed in by" in n and "hana" in n for n in graded_class.run.notes
+            )
             continue
-        outcome = outcomes.pop(graded.called(student))
+        outcome = outcomes.pop(graded_class.called(student))
         assert outcome.mark == student.mark, (student.login, outcome)
         if student.points is None:
-            says = "nothing" if student.text and graded.system != "canvas" else student.says
+            says = "nothing" if student.text and graded_class.system != "canvas" else student.says
             assert says in outcome.trouble or "no file" in outcome.trouble, student.login
         else:
             assert not outcome.trouble and outcome.points == student.points, student.login
     assert not outcomes, "somebody who is not in the class"
 
 
-def every_table_and_page_says_so(graded: Class) -> None:
-    with open(graded.run.book.table, encoding="utf-8-sig", newline="") as file:
+def check_tables_and_pages(graded_class: Class) -> None:
+    with open(graded_class.run.book.table, encoding="utf-8-sig", newline="") as file:
         rows = {row["name"]: row for row in csv.DictReader(file)}
-    for student in graded.students:
-        name = graded.called(student)
+    for student in graded_class.students:
+        name = graded_class.called(student)
         if student.login == "hana":
             continue
-        row, page = rows[name], (graded.results / f"{name}.html").read_text(encoding="utf-8")
+        row, page = rows[name], (graded_class.results / f"{name}.html").read_text(encoding="utf-8")
         assert row["points"] == ("" if student.mark is None else str(student.mark))
         if student.mark is None:
             assert row["trouble"] and "No points yet" in page
@@ -239,57 +241,63 @@ def every_table_and_page_says_so(graded: Class) -> None:
             assert "taken as pymunk_scene.py" in row["notes"] and "taken as" in page
 
 
-def the_gradebook_takes_it(graded: Class) -> None:
-    settings = graded.folder.parent / "marks.toml"
+def check_gradebook(graded_class: Class) -> None:
+    settings = graded_class.folder.parent / "marks.toml"
     settings.write_text(
         f'title = "{TITLE}"\ntotal = {classes.FULL}\ndecimals = 0\nshares.engine = 1\n'
     )
-    done = run_in_class(settings.parent, "marks", roster=graded.roster, results=graded.results)
+    done = run_in_class(
+        settings.parent, "marks", roster=graded_class.roster, results=graded_class.results
+    )
     assert done.exit_code == 1, done.output
     content = settings.with_suffix(".csv").read_bytes()
-    told = list(classes.read_marks(graded.system, content).values())
-    for student, (mark, _) in zip(graded.students, told, strict=True):
-        wanted = graded.mark(student)
+    told = list(classes.read_marks(graded_class.system, content).values())
+    for student, (mark, _) in zip(graded_class.students, told, strict=True):
+        wanted = graded_class.mark(student)
         assert mark == ("" if wanted is None else str(wanted)), student.login
         if wanted is None:
-            assert f"{graded.name(student)}: no mark" in done.output
+            assert f"{graded_class.name(student)}: no mark" in done.output
 
 
-def feedback_goes_back(graded: Class) -> None:
-    here = [student for student in graded.students if student.files]
-    if BY_NAME[graded.system].takes_feedback:
-        done = send_back(graded, graded.system)
+def check_feedback(graded_class: Class) -> None:
+    here = [student for student in graded_class.students if student.files]
+    if BY_NAME[graded_class.system].takes_feedback:
+        done = send_back(graded_class, graded_class.system)
         assert done.exit_code in (0, 1), done.output
-        with zipfile.ZipFile(graded.folder.parent / "feedback.zip") as archive:
+        with zipfile.ZipFile(graded_class.folder.parent / "feedback.zip") as archive:
             names = archive.namelist()
-        given = {path.name for path in graded.folder.iterdir()}
-        if graded.system == "canvas":
+        given = {path.name for path in graded_class.folder.iterdir()}
+        if graded_class.system == "canvas":
             assert set(names) <= given and len(names) == len(here)
-        elif graded.system == "moodle":
+        elif graded_class.system == "moodle":
             number = {name.split("_")[1] for name in names}
-            paged = [each for each in graded.students if has_page(graded, each)]
-            assert {f"{graded.students.index(each) + 1}" for each in paged} == number
+            paged = [each for each in graded_class.students if has_page(graded_class, each)]
+            assert {f"{graded_class.students.index(each) + 1}" for each in paged} == number
         else:
             assert {name.partition("/")[0] for name in names} <= given
-        for student in graded.students:
-            text = student.text and graded.system == "brightspace"  # has a folder there
-            without = not (student.files or text) and has_page(graded, student)
-            named = f"{graded.name(student)}: left out, " in done.output
-            assert named == (without and graded.system != "moodle"), student.login
-    elif graded.system in classes.BY_EMAIL:
-        send_back(graded, "email")
-        names = {path.name for path in (graded.folder.parent / "feedback").iterdir()}
+        for student in graded_class.students:
+            text = student.text and graded_class.system == "brightspace"  # has a folder there
+            without = not (student.files or text) and has_page(graded_class, student)
+            named = f"{graded_class.name(student)}: left out, " in done.output
+            assert named == (without and graded_class.system != "moodle"), student.login
+    elif graded_class.system in classes.BY_EMAIL:
+        send_back(graded_class, "email")
+        names = {path.name for path in (graded_class.folder.parent / "feedback").iterdir()}
         assert {f"{each.email}.html" for each in here} <= names
 
 
-def send_back(graded: Class, recipient: str):
+def send_back(graded_class: Class, recipient: str):
     """Write each student's page for a recipient, into the folder around the class."""
-    lines = {"roster": graded.roster, "results": graded.results, "submissions": graded.folder}
-    return run_in_class(graded.folder.parent, "feedback", "--for", recipient, **lines)
+    lines = {
+        "roster": graded_class.roster,
+        "results": graded_class.results,
+        "submissions": graded_class.folder,
+    }
+    return run_in_class(graded_class.folder.parent, "feedback", "--for", recipient, **lines)
 
 
-def has_page(graded: Class, student: Student) -> bool:
-    return (graded.results / f"{graded.name(student)}.html").is_file()
+def has_page(graded_class: Class, student: Student) -> bool:
+    return (graded_class.results / f"{graded_class.name(student)}.html").is_file()
 
 
 def test_a_column_of_ones_own_says_who_is_who(tmp_path, in_one_process):
@@ -346,22 +354,24 @@ def test_each_of_a_group_has_a_mark_and_a_page_of_their_own(tmp_path, in_one_pro
     assert not [n for n in run.notes if "nothing was handed in" in n and names[1] in n]
 
 
-def everybody_gets_a_page(graded: Class, names: list[str]) -> None:
-    out = graded.folder.parent / "feedback"
-    if BY_NAME[graded.system].takes_feedback:
-        send_back(graded, graded.system)
+def everybody_gets_a_page(graded_class: Class, names: list[str]) -> None:
+    out = graded_class.folder.parent / "feedback"
+    if BY_NAME[graded_class.system].takes_feedback:
+        send_back(graded_class, graded_class.system)
         archive = zipfile.ZipFile(out.with_suffix(".zip"))
         found = set(archive.namelist())
     else:
-        send_back(graded, "nbgrader")
+        send_back(graded_class, "nbgrader")
         found = {path.parts[-3] for path in out.rglob("*.html")}
-    if graded.system == "canvas":
+    if graded_class.system == "canvas":
         (own,) = [name for name in found if name.startswith("beekim")]
         text = archive.read(own).decode()
         found = set(text.splitlines())
     for name in names[1:]:
-        student = next(each for each in graded.students if name_in(graded.system, each) == name)
-        number = graded.students.index(student) + 1
+        student = next(
+            each for each in graded_class.students if name_in(graded_class.system, each) == name
+        )
+        number = graded_class.students.index(student) + 1
         moodles = f"{student.full}_{number}_assignsubmission_file_feedback.html"
         assert {name, moodles} & found or any(f"/feedback-{name}.html" in each for each in found)
 

@@ -151,7 +151,7 @@ def in_agreement(run: Run) -> Run:
     points, most = run.result["points"], run.result["max_points"]
     assert run.result["submission"] == "cs-engine-anna"
     assert (run.outputs["points"], run.outputs["max-points"]) == (str(points), str(most))
-    reported = ci_readers.reported(run.outputs["result"])
+    reported = ci_readers.read_report(run.outputs["result"])
     assert sum(test["score"] for test in reported["tests"]) == points
     assert reported["max_score"] == most
     bonus = f", and {run.result['bonus']} bonus" if run.result["bonus"] else ""
@@ -245,7 +245,7 @@ rk4 = module.rk4
 
 
 @pytest.fixture
-def attacked(tmp_path: Path) -> Run:
+def attack_run(tmp_path: Path) -> Run:
     """Run a submission that forges streams, files of the runner, names and messages."""
     checkout, runner = checkout_of("starter", tmp_path), tmp_path / "runner"
     found = [str(runner / name) for name in ("output", "summary", "env", "path")]
@@ -262,8 +262,8 @@ def attacked(tmp_path: Path) -> Run:
     return run_workflow(checkout, runner)
 
 
-def test_nothing_can_be_forged(attacked: Run):
-    run = in_agreement(attacked)
+def test_nothing_can_be_forged(attack_run: Run):
+    run = in_agreement(attack_run)
     assert run.status == 1 and run.outputs["points"] == "0"
     assert set(run.outputs) == {"points", "max-points", "result"}
     assert [(name, held["title"][:8]) for name, held, _ in run.annotations] == [
@@ -273,7 +273,9 @@ def test_nothing_can_be_forged(attacked: Run):
     assert files == {"integrators.py", "a,line=1::b]]>`.py"}
     assert all("told []" in message for _, _, message in run.annotations[:2])
     assert (
-        ci_readers.commands_in(ci_readers.reporter_log(ci_readers.reported(run.outputs["result"])))
+        ci_readers.commands_in(
+            ci_readers.reporter_log(ci_readers.read_report(run.outputs["result"]))
+        )
         == []
     )
     tokens = ci_readers.markdown_tokens(run.summary)

@@ -34,7 +34,7 @@ def worker() -> Iterator[WarmWorker]:
 
 
 @pytest.fixture
-def opened(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+def opened_pages(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """List the pages opened in a browser."""
     pages: list[str] = []
     monkeypatch.setattr(grader.cli.guide.webbrowser, "open", pages.append)
@@ -57,7 +57,7 @@ def open_guide(hand_in, worker: WarmWorker) -> Callable[..., Guide]:
     return start
 
 
-def shown(guide: Guide) -> str:
+def read_output(guide: Guide) -> str:
     """Return the output since the last call, on one line."""
     out = guide.console.file
     text = out.getvalue()
@@ -69,19 +69,19 @@ def shown(guide: Guide) -> str:
 def save(guide: Guide, change: Callable[[str], str]) -> str:
     path = guide.folder / INTEGRATORS
     path.write_text(change(path.read_text(encoding="utf-8")), encoding="utf-8")
-    shown(guide)
+    read_output(guide)
     guide.look()
-    return shown(guide)
+    return read_output(guide)
 
 
 def press(guide: Guide, key: str) -> str:
-    shown(guide)
+    read_output(guide)
     guide.press(key)
-    return shown(guide)
+    return read_output(guide)
 
 
 def test_the_first_screen_has_the_next_task_with_its_text_and_the_keys(open_guide):
-    text = shown(open_guide(options=FEW))
+    text = read_output(open_guide(options=FEW))
     assert "Next: TODO 8a, Semi-implicit Euler" in text  # the lab sheet begins with it
     assert TASKS["8a"][0] in text and text.endswith(grader.cli.guide.KEYS.replace("   ", " "))
     assert "hint --todo" not in text and "check --todo" not in text
@@ -106,13 +106,13 @@ def test_hints_come_one_by_one_and_the_last_one_stays(open_guide):
         assert ("next hint" in text) == (number < 3)
 
 
-def test_a_failure_has_a_replay_and_what_was_printed(open_guide, opened: list[str]):
+def test_a_failure_has_a_replay_and_what_was_printed(open_guide, opened_pages: list[str]):
     guide = open_guide()
     assert "no replay" in press(guide, "r") and "printed nothing" in press(guide, "p")
     save(guide, put(STUB, "    print('here it is')\n    return x, v\n    # END TODO 8a"))
     assert "here it is" in press(guide, "p")
     assert "Opening" in press(guide, "r")
-    (page,) = opened
+    (page,) = opened_pages
     assert page.startswith("file:") and "/8a-" in page and not press(guide, "x")
 
 
@@ -122,9 +122,9 @@ def test_a_program_runs_beside_the_guide_and_its_last_words_are_shown(open_guide
     assert "is running" in press(guide, "w")
     guide.running.process.wait()
     guide.show_output()
-    assert "semi_implicit_euler 39151.23" in shown(guide) and guide.running is None
+    assert "semi_implicit_euler 39151.23" in read_output(guide) and guide.running is None
     guide.show_output()
-    assert shown(guide) == ""
+    assert read_output(guide) == ""
 
 
 def test_a_package_is_started_as_a_module_in_the_folder_of_the_student(open_guide, monkeypatch):
@@ -141,15 +141,15 @@ def test_q_ends_it(open_guide):
 
 
 def test_at_full_marks_there_are_the_film_the_bonus_tasks_and_the_questions(
-    open_guide, opened: list[str], monkeypatch: pytest.MonkeyPatch
+    open_guide, opened_pages: list[str], monkeypatch: pytest.MonkeyPatch
 ):
     guide = open_guide("solution", Options(reference=None, only=frozenset({"8a", "B6"})))
     path = guide.folder / "mini_engine" / "bonus" / "window.py"
     stub = (KIT / "starter" / "mini_engine" / "bonus" / "window.py").read_text(encoding="utf-8")
     path.write_text(stub, encoding="utf-8")
-    shown(guide)
+    read_output(guide)
     guide.look()
-    text = shown(guide)
+    text = read_output(guide)
     assert "All checks pass. To hand in:" in text
     assert grader.cli.guide.KEYS_AT_THE_END.replace("   ", " ") in text
     assert "Next: TODO B6" in press(guide, "b")
@@ -157,7 +157,7 @@ def test_at_full_marks_there_are_the_film_the_bonus_tasks_and_the_questions(
     assert "no cases for practice" in press(guide, "t")  # the kit has none
     monkeypatch.setattr(grader.cli.practice, "make_questions", make_page)
     press(guide, "t")
-    assert opened[0].endswith("questions.html")
+    assert opened_pages[0].endswith("questions.html")
 
 
 def make_page(folder, course):
@@ -169,18 +169,18 @@ def test_before_full_marks_these_keys_do_nothing(open_guide):
     assert not any(press(guide, key) for key in "fbt")
 
 
-def test_the_film_is_of_the_students_own_engine(open_guide, opened: list[str]):
+def test_the_film_is_of_the_students_own_engine(open_guide, opened_pages: list[str]):
     guide = open_guide("solution", Options(reference=None, only=frozenset({"1", "8a"})))
     press(guide, "f")
     page = (guide.folder / "build" / "film.html").read_text(encoding="utf-8")
-    assert opened[0].endswith("film.html") and "<svg" in page and "Your engine" in page
+    assert opened_pages[0].endswith("film.html") and "<svg" in page and "Your engine" in page
     world = guide.folder / "mini_engine" / "world.py"
     world.write_text("raise SystemExit\n", encoding="utf-8")
     assert "There is no film" in press(guide, "f")
 
 
 @pytest.mark.soak
-def test_everybody_can_use_the_page_of_the_film(open_guide, opened: list[str]):
+def test_everybody_can_use_the_page_of_the_film(open_guide, opened_pages: list[str]):
     guide = open_guide("solution")
     press(guide, "f")
     with chromium() as browser:

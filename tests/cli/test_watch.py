@@ -83,7 +83,7 @@ def put(old: str, new: str) -> Callable[[str], str]:
 
 
 @pytest.fixture
-def graded(monkeypatch: pytest.MonkeyPatch) -> list[frozenset[str]]:
+def graded_todos(monkeypatch: pytest.MonkeyPatch) -> list[frozenset[str]]:
     """List the TODOs of each grade that a watch runs."""
     asked: list[frozenset[str]] = []
 
@@ -113,24 +113,24 @@ def of_program(module: str) -> set[str]:
     return {t.id for t in todos if module in {t.module, *(check.module for check in t.checks)}}
 
 
-def test_what_a_save_touched_comes_first_and_other_programs_not_at_all(open_session, graded):
+def test_what_a_save_touched_comes_first_and_other_programs_not_at_all(open_session, graded_todos):
     session = open_session(options=WHOLE)
-    graded.clear()
+    graded_todos.clear()
     session.save(WORLD, solved(WORLD, "5"))
-    assert graded == [{"5"}, of_program("mini_engine") - {"5"}]
-    graded.clear()
+    assert graded_todos == [{"5"}, of_program("mini_engine") - {"5"}]
+    graded_todos.clear()
     session.save(INTEGRATORS, solved(INTEGRATORS, "8b"))
-    assert graded == [{"8b"}, of_program("integrators") - {"8b"}]
+    assert graded_todos == [{"8b"}, of_program("integrators") - {"8b"}]
 
 
 @pytest.mark.soak
-def test_a_watch_of_one_todo_checks_no_other(open_session, graded):
+def test_a_watch_of_one_todo_checks_no_other(open_session, graded_todos):
     session = open_session(options=Options(reference=None, only=frozenset({"8a"})))
-    graded.clear()
+    graded_todos.clear()
     assert "nothing new: 0 of 2 points" in session.save(INTEGRATORS, solved(INTEGRATORS, "8b"))
     out = session.save(INTEGRATORS, solved(INTEGRATORS, "8a"))
     assert "TODO 8a: 0 → 2 of 2, in all 0 → 2 of 2" in out
-    assert set().union(*graded) == {"8a"}
+    assert set().union(*graded_todos) == {"8a"}
 
 
 @pytest.mark.soak  # a process for each check: on a crowded machine one may not start in time
@@ -165,14 +165,14 @@ def test_each_change_is_checked_and_shown(open_session, tree, file, change, word
 # ---------------------------------------------------------------- editors
 
 
-def test_a_file_that_is_no_python_yet_costs_nothing(open_session, graded):
+def test_a_file_that_is_no_python_yet_costs_nothing(open_session, graded_todos):
     session = open_session()
     session.save(WORLD, solved(WORLD, "5"))
-    graded.clear()
+    graded_todos.clear()
     out = session.save(SOLVER, put("def friction_limit(c):", "def friction_limit(c:"))
     assert "mini_engine/solver.py:71 is not valid Python yet: '(' was never closed" in out
     session.save(WORLD, lambda text: text + "\n")  # while another file is broken
-    assert session.watch.result.points == 8 and not graded
+    assert session.watch.result.points == 8 and not graded_todos
     out = session.save(SOLVER, put("def friction_limit(c:", "def friction_limit(c):"))
     assert "nothing new: 8 of 10 points" in out
     assert session.is_up_to_date()
@@ -262,12 +262,12 @@ def test_what_editors_leave_beside_a_file_is_nothing(open_session):
 def test_a_tree_that_cannot_be_copied_now_is_taken_at_the_next_save(
     open_session, monkeypatch: pytest.MonkeyPatch
 ):
-    def gone(*_):
+    def raise_missing(*_):
         raise FileNotFoundError("notebooks/.tmp")
 
     session = open_session()
     with monkeypatch.context() as patch:
-        patch.setattr(grader.cli.watch, "grade", gone)
+        patch.setattr(grader.cli.watch, "grade", raise_missing)
         assert "cannot read the tree now" in session.save(WORLD, solved(WORLD, "5"))
     assert "TODO 5: 0 → 8 of 8" in session.save(SOLVER, lambda text: text + "\n")
     assert session.is_up_to_date()

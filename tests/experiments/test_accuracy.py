@@ -144,7 +144,7 @@ class Exact:
         return 0.0
 
 
-def rest(x=0.0, y=0.0):
+def resting_state(x=0.0, y=0.0):
     return State(x, y, 0.0, 0.0, 0.0, 0.0)
 
 
@@ -154,7 +154,9 @@ def test_an_exact_bounce_has_no_error():
         while t >= start + 2 * speed / G:
             start, speed = start + 2 * speed / G, speed / 2
         t -= start
-        return rest(), State(0.0, -10 - speed * t + G * t**2 / 2, 0.0, G * t - speed, 0.0, 0.0)
+        return resting_state(), State(
+            0.0, -10 - speed * t + G * t**2 / 2, 0.0, G * t - speed, 0.0, 0.0
+        )
 
     assert QUESTIONS["bounce"].ask(Exact(drop(restitution=0.5), at), 2.2, 1 / 120) < 1e-9
 
@@ -172,7 +174,7 @@ def test_an_exact_pendulum_has_no_error():
     def at(t):
         angle, turn = motion[round(t / seconds * steps)]
         x, y = 140 * math.sin(angle), 140 * math.cos(angle)
-        return rest(), State(x, y, y * turn, -x * turn, 0.0, 0.0)
+        return resting_state(), State(x, y, y * turn, -x * turn, 0.0, 0.0)
 
     assert QUESTIONS["pendulum"].ask(Exact(pendulum(), at), seconds, seconds / steps) < 1e-8
     assert find_pendulum_angle(0.0, 140) == pytest.approx(math.pi / 2)
@@ -200,15 +202,15 @@ def test_every_dial_goes_through_the_engine_as_it_is(quick):
 
 @pytest.mark.parametrize("setting", [LESSON, STABLE])
 def test_opcodes_are_the_same_from_run_to_run(setting):
-    def counted(setting):
+    def count_steps(setting):
         engine = setting.build(QUESTIONS["stack"].scene())
         for _ in range(30):
             engine.step(setting.dt)
         return costs.opcodes_per_second(engine, setting.dt)
 
-    assert counted(setting) == counted(setting) > 0
+    assert count_steps(setting) == count_steps(setting) > 0
     twice = replace(setting, passes=16) if setting is LESSON else replace(setting, substeps=8)
-    assert counted(twice) > counted(setting)
+    assert count_steps(twice) > count_steps(setting)
 
 
 def runs_of(*pairs):

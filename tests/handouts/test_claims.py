@@ -40,7 +40,7 @@ def value(lines: dict[str, Any], term: Any) -> Any:
     return lines.get(term, term)
 
 
-def wrong(lines: dict[str, Any], evidence: list[Any]) -> str:
+def find_fault(lines: dict[str, Any], evidence: list[Any]) -> str:
     """Return the fault in a claim's evidence, or an empty text."""
     name, rule, limit = evidence
     if name not in lines:
@@ -56,7 +56,9 @@ def test_a_claim_stands_in_its_handout_and_its_lines_say_so(page: str, says: str
     assert in_one_line(says) in in_one_line((HANDOUTS / page).read_text(encoding="utf-8"))
     evidence = CLAIMS[page][says]
     assert evidence
-    assert not [problem for line in evidence if (problem := wrong(RESULTS.get(page, LINES), line))]
+    assert not [
+        problem for line in evidence if (problem := find_fault(RESULTS.get(page, LINES), line))
+    ]
 
 
 def test_every_page_with_measurements_has_claims() -> None:

@@ -102,7 +102,7 @@ def test_the_tower_sinks_less_for_more_work() -> None:
 # ---------------------------------------------------------------- in a browser
 
 
-def shown(screen: Screen, name: str) -> Any:
+def show_film(screen: Screen, name: str) -> Any:
     figure = screen.page.locator(f'figure[data-figure="{name}"]')
     figure.scroll_into_view_if_needed()
     figure.locator("canvas[data-frame]").first.wait_for()
@@ -120,7 +120,7 @@ def lesson(browser: Any, handout_pages: Path) -> Iterator[Screen]:
 def test_a_prediction_is_made_by_keys_or_pointer(browser: Any, handout_pages: Path) -> None:
     screen = Screen(browser, handout_pages / "lab-sheet.html")
     for way in ("keys", "pointer"):
-        figure = shown(screen, {"keys": "predict-3", "pointer": "predict-1"}[way])
+        figure = show_film(screen, {"keys": "predict-3", "pointer": "predict-1"}[way])
         words = figure.locator("output")
         assert words.inner_text().startswith("Which one will it be?")
         buttons = figure.get_by_role("button")
@@ -151,7 +151,7 @@ def test_a_prediction_is_made_by_keys_or_pointer(browser: Any, handout_pages: Pa
 @pytest.mark.soak
 def test_the_tower_tells_what_was_recorded(lesson: Screen) -> None:
     screen = lesson
-    figure, films = shown(screen, "tower"), film("tower")["films"]
+    figure, films = show_film(screen, "tower"), film("tower")["films"]
     words = figure.locator("output")
     assert f"{films['lesson/8/1/60']['sink']:.1f} px" in words.inner_text()
     engine, passes, substeps, rate = figure.locator("select").all()

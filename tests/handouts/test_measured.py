@@ -25,7 +25,7 @@ def screen(handout_pages: Path) -> Iterator[Screen]:
         assert screen.complaints == []
 
 
-def opened(screen: Screen, name: str) -> Any:
+def open_figure(screen: Screen, name: str) -> Any:
     """Load the page of a figure; return the figure."""
     page = name.partition("-")[0]
     screen.page.goto(re.sub(r"[\w-]+\.html.*", f"{page}.html", screen.page.url))
@@ -42,7 +42,7 @@ def test_prices_add_up_to_those_of_all_together() -> None:
 
 @pytest.mark.soak
 def test_what_is_declared_is_paid_for(screen: Screen) -> None:
-    figure, prices = opened(screen, "effects-stacked"), json.loads(SCRIPT)["prices"]
+    figure, prices = open_figure(screen, "effects-stacked"), json.loads(SCRIPT)["prices"]
     words, drawing = figure.locator("output"), figure.locator("svg[role]")
     every = sum(prices["40"].values())
     assert f"the price of contacts is {prices['40']['contacts']:,} opcodes" in words.inner_text()
@@ -107,7 +107,7 @@ def test_a_curve_says_what_the_lines_say(name: str, look: str, place: int, line:
     assert points[place][1] == pytest.approx(RESULTS["accuracy.md"][line], rel=1e-3)
 
 
-def told(curve: dict[str, Any], place: int, unit: str) -> str:
+def describe_point(curve: dict[str, Any], place: int, unit: str) -> str:
     """Return the start of a figure's text about a point."""
     number = float(f"{curve['points'][place][1]:.3g}")
     return f"{curve['name']}: sink {number:g}{unit}; work (the engine as it is: 1): "
@@ -115,17 +115,17 @@ def told(curve: dict[str, Any], place: int, unit: str) -> str:
 
 @pytest.mark.soak
 def test_a_curve_is_read_by_keys_and_switched_off(screen: Screen) -> None:
-    figure = opened(screen, "accuracy-dials-tower")
+    figure = open_figure(screen, "accuracy-dials-tower")
     words, keys = figure.locator("output"), screen.page.keyboard
     passes, step = (curve_of("accuracy-dials-tower", look) for look in ("passes", "step"))
     figure.locator("svg[role]").first.focus()
     keys.press("ArrowRight")
-    assert words.inner_text().startswith(told(passes, 1, " px"))
+    assert words.inner_text().startswith(describe_point(passes, 1, " px"))
     keys.press("ArrowDown")
     assert words.inner_text().startswith("step: sink ")
     for _ in range(9):
         keys.press("ArrowRight")
-    assert words.inner_text().startswith(told(step, -1, " px"))
+    assert words.inner_text().startswith(describe_point(step, -1, " px"))
     figure.get_by_label("step", exact=True).uncheck()
     assert not words.inner_text().startswith("step")
     for look in ("passes", "shared substeps", "as it is"):
@@ -135,7 +135,7 @@ def test_a_curve_is_read_by_keys_and_switched_off(screen: Screen) -> None:
 
 @pytest.mark.soak
 def test_a_figure_with_two_axes_along_has_a_choice(screen: Screen) -> None:
-    figure = opened(screen, "accuracy-smooth-spring")
+    figure = open_figure(screen, "accuracy-smooth-spring")
     figure.locator("select").select_option("how often the force was asked for")
     assert "; how often the force was asked for: " in figure.locator("output").inner_text()
 
@@ -149,7 +149,7 @@ def test_a_figure_with_two_axes_along_has_a_choice(screen: Screen) -> None:
     ],
 )
 def test_it_fits_a_phone_and_paper_has_the_still(screen: Screen, name: str) -> None:
-    figure = opened(screen, name)
+    figure = open_figure(screen, name)
     screen.page.set_viewport_size({"width": 390, "height": 800})
     assert screen.page.evaluate("document.documentElement.scrollWidth") <= 390
     screen.page.emulate_media(media="print")

@@ -74,7 +74,7 @@ def test_search_does_not_give_hints_away(sites: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def opened(browser: Any) -> Iterator[Callable[[Path], Screen]]:
+def page_opener(browser: Any) -> Iterator[Callable[[Path], Screen]]:
     screens: list[Screen] = []
 
     def open_page(page: Path) -> Screen:
@@ -87,10 +87,10 @@ def opened(browser: Any) -> Iterator[Callable[[Path], Screen]]:
 
 
 def test_a_browser_opens_every_page_without_complaint(
-    sites: Path, opened: Callable[[Path], Screen]
+    sites: Path, page_opener: Callable[[Path], Screen]
 ) -> None:
     for page in pages(sites / "instructors"):
-        screen = opened(page)
+        screen = page_opener(page)
         screen.page.locator("h1").first.wait_for()
         assert screen.complaints == [], page.name
 
@@ -101,9 +101,9 @@ def test_the_site_is_for_all(sites: Path, browser: Any, name: str) -> None:
 
 
 def test_search_finds_a_word_in_pages_opened_from_a_folder(
-    sites: Path, opened: Callable[[Path], Screen]
+    sites: Path, page_opener: Callable[[Path], Screen]
 ) -> None:
-    screen = opened(sites / "students" / "index.html")
+    screen = page_opener(sites / "students" / "index.html")
     screen.page.keyboard.press("/")
     screen.page.keyboard.type("friction")
     screen.page.get_by_text("TODO 4: friction within its limit").first.wait_for()

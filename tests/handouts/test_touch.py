@@ -68,7 +68,7 @@ def screen(browser: Any, handout_pages: Path) -> Iterator[Screen]:
 # ---------------------------------------------------------------- computing
 
 
-def computed(screen: Screen, law: str, inputs: list[Any]) -> list[Any]:
+def compute(screen: Screen, law: str, inputs: list[Any]) -> list[Any]:
     """Return the page's result for each input, a list of arguments."""
     source = f"inputs => inputs.map(each => ({law})(...each))"
     answers: list[Any] = json.loads(json.dumps(screen.page.evaluate(source, inputs)))
@@ -85,7 +85,7 @@ def test_contacts_are_those_of_the_grader(screen: Screen) -> None:
     ]
     inputs = [[each._asdict(), box._asdict()] for each in discs]
     kinds = set()
-    for disc, found in zip(discs, computed(screen, "laws.circleBox", inputs), strict=True):
+    for disc, found in zip(discs, compute(screen, "laws.circleBox", inputs), strict=True):
         (right,) = exact.circle_box(disc, box)
         kinds.add((right is None, found["distance"] > 0))
         assert (found["depth"] <= 0) == (right is None)
@@ -98,7 +98,7 @@ def test_contacts_are_those_of_the_grader(screen: Screen) -> None:
 
 def test_damping_is_that_of_the_grader(screen: Screen) -> None:
     inputs = [(rate, seconds) for rate in exact.RATES for seconds in exact.DAMPED_STEPS]
-    found = computed(screen, "laws.damped", [list(each) for each in inputs])
+    found = compute(screen, "laws.damped", [list(each) for each in inputs])
     assert found == pytest.approx([exact.damped(*each) for each in inputs])
 
 
@@ -113,7 +113,7 @@ class Counted:
 def test_frames_run_the_steps_of_the_reference(screen: Screen) -> None:
     lengths = [4 + 0.25 * n for n in range(POINTS)]  # ms
     for length, frames in zip(
-        lengths, computed(screen, "laws.runFrames", [[each, 10] for each in lengths]), strict=True
+        lengths, compute(screen, "laws.runFrames", [[each, 10] for each in lengths]), strict=True
     ):
         rest, paid, seconds = 0.0, 0, 0.0
         for frame in frames:
@@ -138,7 +138,7 @@ def test_a_disc_gives_way_as_the_grader_has_it(screen: Screen) -> None:
         [{"mass": each.mass, "radius": each.radius}, {"x": each.rx, "y": each.ry}, angle]
         for each, angle in zip(levers, angles, strict=True)
     ]
-    found = computed(screen, "laws.giving", inputs)
+    found = compute(screen, "laws.giving", inputs)
     for lever, angle, answer in zip(levers, angles, found, strict=True):
         axis = math.cos(angle), math.sin(angle)
         right = exact.effective_mass(lever, floor, axis)
@@ -158,7 +158,7 @@ def test_rods_are_those_of_the_grader(screen: Screen) -> None:
         inputs.append([{**at_once, "speedA": speeds[0], "speedB": speeds[1]}])
         ends = [(speed, 0.0) for speed in speeds]
         rods.append(Rod(masses[0], masses[1], length, (now, 0.0), ends[0], ends[1], 1 / 120))
-    for rod, found in zip(rods, computed(screen, "laws.rodSolved", inputs), strict=True):
+    for rod, found in zip(rods, compute(screen, "laws.rodSolved", inputs), strict=True):
         (a, _), (b, _) = exact.rod_solved(rod)
         assert (found["speedA"], found["speedB"]) == pytest.approx((a, b), abs=1e-7)
 
@@ -173,7 +173,7 @@ def test_chains_are_those_of_the_grader_pass_by_pass(screen: Screen) -> None:
         inputs.append(
             [{"masses": masses, "errors": errors, "passes": rng.randint(1, 8), "dt": 1 / 120}]
         )
-    for (given,), found in zip(inputs, computed(screen, "laws.chainSolved", inputs), strict=True):
+    for (given,), found in zip(inputs, compute(screen, "laws.chainSolved", inputs), strict=True):
         speeds = [0.0, 0.0, 0.0]
         for _ in range(given["passes"]):
             for n, error in enumerate(given["errors"]):
@@ -189,7 +189,7 @@ def test_chains_are_those_of_the_grader_pass_by_pass(screen: Screen) -> None:
 @pytest.mark.soak
 def test_a_sliding_ball_rolls_at_the_speed_of_the_grader(screen: Screen) -> None:
     speeds = [float(number) for number in range(1, POINTS)]
-    answers = computed(screen, "laws.sliding", [[each, 0.4, 60.0] for each in speeds])
+    answers = compute(screen, "laws.sliding", [[each, 0.4, 60.0] for each in speeds])
     for speed, found in zip(speeds, answers, strict=True):
         assert found["speed"] == pytest.approx(exact.rolling_speed(speed))
         assert found["rim"] == pytest.approx(found["speed"]) and found["rolls"]
@@ -201,7 +201,7 @@ def test_a_step_on_a_spring_is_that_of_the_grader(screen: Screen, name: str) -> 
     rng = random.Random(4)
     method = getattr(exact, name, None) or getattr(integrators, name)
     steps = [rng.uniform(0.01, 1.5) for _ in range(POINTS // 4)]  # rad of the swing
-    found = computed(screen, f"laws.integrators.{name}", [[each] for each in steps])
+    found = compute(screen, f"laws.integrators.{name}", [[each] for each in steps])
     for h, (a, b, c, d) in zip(steps, found, strict=True):
         x, s = rng.uniform(-9, 9), rng.uniform(-9, 9)
         right = method(x, s, h, lambda place: -place)

@@ -61,7 +61,7 @@ def outputs_in(text: str) -> dict[str, str]:
     return found
 
 
-def reported(encoded: str) -> dict[str, Any]:
+def read_report(encoded: str) -> dict[str, Any]:
     """Return the reporter's input from an output, in the form that it requires."""
     results = json.loads(base64.b64decode(encoded, validate=True))
     assert results["version"] == 1 and results["status"] in ("pass", "fail", "error")

@@ -8,7 +8,7 @@ from grader.judge.grade import KIT
 from grader.source.regions import python_files, regions_in, replace_regions
 
 
-def mixed(folder: Path, base: str, donor: str, todos: Collection[str]) -> Path:
+def mix_trees(folder: Path, base: str, donor: str, todos: Collection[str]) -> Path:
     """Copy the tree `base`, with these TODOs from the tree `donor`."""
     shutil.copytree(KIT / base, folder, ignore=shutil.ignore_patterns("__pycache__", "notebooks"))
     for path in python_files(KIT / donor):

@@ -11,7 +11,7 @@ from grader.judge.wall.children import Child
 
 
 @contextmanager
-def opened(tree: Path) -> Iterator[Callable[[int], Child]]:
+def child_opener(tree: Path) -> Iterator[Callable[[int], Child]]:
     """Yield a way to open children of a tree, as `grader.judge.grade.opened` does."""
     with work_folder() as work:
         taken_in = take_in(tree, work / "tree", load_rubric(), {})

@@ -37,7 +37,7 @@ WORK: packed.Files = {"integrators.py": SOURCE}
 MARKING = Marking("Physics engine", {"engine": 1}, 20)
 
 
-def taken(folder: Path, people: ClassList | None = None) -> Intake:
+def list_intake(folder: Path, people: ClassList | None = None) -> Intake:
     with open_class(folder, people) as intake:
         return intake
 
@@ -48,7 +48,7 @@ def put(folder: Path, files: packed.Files) -> Path:
     return folder
 
 
-def one(folder: Path, files: packed.Files) -> Work:
+def make_work(folder: Path, files: packed.Files) -> Work:
     put(folder / "ann", files)
     return Work("ann", (folder / "ann",))
 
@@ -73,7 +73,7 @@ CHANGED = (
 
 @pytest.mark.parametrize("name", CHANGED)
 def test_a_name_that_python_cannot_import_is_taken_as_what_it_was(tmp_path: Path, name: str):
-    package = read_package(one(tmp_path, {name: SOURCE}))
+    package = read_package(make_work(tmp_path, {name: SOURCE}))
     assert dict(package.files)["integrators.py"] == SOURCE.encode()
     assert package.notes == [f"{name} is taken as integrators.py"]
 
@@ -81,7 +81,7 @@ def test_a_name_that_python_cannot_import_is_taken_as_what_it_was(tmp_path: Path
 @pytest.mark.parametrize("what", ["ann/mini_engine", "ann/mini_engine/world.py"])
 def test_what_may_not_be_read_is_for_a_person_and_not_nothing(tmp_path: Path, monkeypatch, what):
     """A locked folder, or one of another user, may contain work."""
-    found = one(tmp_path, WORK | {"mini_engine/__init__.py": "", "mini_engine/world.py": ""})
+    found = make_work(tmp_path, WORK | {"mini_engine/__init__.py": "", "mini_engine/world.py": ""})
     shut(monkeypatch, tmp_path / what)
     with pytest.raises(CannotTake, match=f"{what[4:]} cannot be read: Permission denied"):
         read_package(found)
@@ -109,7 +109,7 @@ def test_the_labs_own_files_come_first_however_many_others_there_are(tmp_path: P
     many: packed.Files = {f"aaa/m{n}.py": "x = 1\n" for n in range(MAX_FILES + 100)}
     lab: packed.Files = {"mini_engine/__init__.py": "x = 1\n", **WORK}
     deep = {f"deep/{name}": content for name, content in (many | lab).items()}
-    for found in (one(tmp_path / "folder", many | lab), zipped(tmp_path, deep)):
+    for found in (make_work(tmp_path / "folder", many | lab), zipped(tmp_path, deep)):
         package = read_package(found)
         assert lab.keys() <= {name for name, _ in package.files}
         assert any("files: size limit reached" in note for note in package.notes)
@@ -158,7 +158,7 @@ def test_a_loose_file_of_who_is_listed_is_theirs_and_so_is_what_cannot_be_read(t
     folder = put(tmp_path / "class", {"ann@x.edu.docx": "words", "bo/integrators.py": SOURCE})
     put(folder, {"notes.docx": "mine", "ben.tar.zst": b"(\xb5/\xfd"})
     (folder / "cem").symlink_to(folder / "bo")
-    intake = taken(folder, people)
+    intake = list_intake(folder, people)
     assert intake.troubles.keys() == {"ann@x.edu", "ben.tar", "cem"}
     assert intake.notes == ["notes.docx is no submission: skipped"]
     assert "links are not followed" in intake.troubles["cem"]
@@ -169,7 +169,7 @@ def test_names_that_look_the_same_are_told_apart(tmp_path: Path):
     first, second = (unicodedata.normalize(form, "José") for form in ("NFC", "NFD"))
     put(tmp_path, {f"{first}/integrators.py": SOURCE, f"{second}/integrators.py": "other = 1\n"})
     put(tmp_path, {"Ann/integrators.py": SOURCE, "ann/integrators.py": "other = 1\n"})
-    troubles = taken(tmp_path).troubles
+    troubles = list_intake(tmp_path).troubles
     assert r"'Jose\u0301' and 'Jos\xe9'" in troubles[first]
     assert "rename one where they are two students'" in troubles["Ann"]
 
@@ -181,13 +181,13 @@ def test_canvas_names_in_every_script_have_their_owner(tmp_path: Path, name: str
         classes.put(tmp_path / "class" / file, packed.as_zip({"integrators.py": f"x = {at}\n"}))
     rows = 'Student,ID,SIS Login ID,Section\n"A, B",1,ann,x\n"C, D",2,ben,x\n'
     people = people_of(tmp_path / "list.csv", rows)
-    assert [each.name for each in taken(tmp_path / "class", people).found] == ["ann", "ben"]
+    assert [each.name for each in list_intake(tmp_path / "class", people).found] == ["ann", "ben"]
 
 
 def test_the_same_upload_twice_is_one(tmp_path: Path):
     content = packed.as_zip(WORK)
     put(tmp_path, {"leeann_1_10_work.zip": content, "leeann_1_11_work-1.zip": content})
-    (found,) = taken(tmp_path).found
+    (found,) = list_intake(tmp_path).found
     assert dict(read_package(found).files)["integrators.py"] == SOURCE.encode()
 
 
@@ -196,20 +196,20 @@ def test_a_blackboard_user_with_an_underscore_is_known_without_a_receipt(tmp_pat
         tmp_path / "list.csv", "Last Name,First Name,Username\nSix,Kay,kl_6\nSeven,Lea,6\n"
     )
     name = "Lab_1_kl_6_attempt_2026-05-04-23-59-00_integrators.py"
-    assert [each.name for each in taken(put(tmp_path / "class", {name: SOURCE}), people).found] == [
-        "kl_6"
-    ]
+    assert [
+        each.name for each in list_intake(put(tmp_path / "class", {name: SOURCE}), people).found
+    ] == ["kl_6"]
 
 
 def test_of_attempts_at_unread_times_none_is_the_last(tmp_path: Path):
     start = "1001-77 - Jane Doe - "
     put(tmp_path / "a", {f"{start}4 mai 2026 0930/integrators.py": "x = 1\n"})
     put(tmp_path / "a", {f"{start}15 mai 2026 0930/integrators.py": SOURCE})
-    (found,) = taken(tmp_path / "a").found
+    (found,) = list_intake(tmp_path / "a").found
     assert dict(read_package(found).files)["integrators.py"] == SOURCE.encode()
     put(tmp_path / "b", {f"{start}4 kvetna 2026 0930/integrators.py": "x = 1\n"})
     put(tmp_path / "b", {f"{start}15 kvetna 2026 0930/integrators.py": SOURCE})
-    intake = taken(tmp_path / "b")
+    intake = list_intake(tmp_path / "b")
     assert not intake.found and "at unknown times" in intake.troubles["Jane Doe_1001-77"]
 
 
@@ -219,7 +219,7 @@ def test_a_groups_folder_is_its_members(tmp_path: Path):
         "Username,Last Name,First Name,Group\nu1,Lee,Ann,Group 3\nu2,Poe,Ben,Group 3\n",
     )
     name = "1006-77 - Group 3 - May 4, 2026 1159 PM/integrators.py"
-    found = taken(put(tmp_path / "class", {name: SOURCE}), people).found
+    found = list_intake(put(tmp_path / "class", {name: SOURCE}), people).found
     assert [each.name for each in found] == ["u1", "u2"]
 
 
@@ -278,7 +278,7 @@ def test_a_worksheet_in_another_language_goes_back_in_it(tmp_path: Path, letters
     roster = read_roster(tmp_path / "list.csv")
     people = ClassList(roster)
     put(tmp_path / "class", {"Jörg Müller_401_assignsubmission_file_/integrators.py": SOURCE})
-    (found,) = taken(tmp_path / "class", people).found
+    (found,) = list_intake(tmp_path / "class", people).found
     assert (found.name, found.handed_in) == ("j@x.de", datetime(2026, 5, 4, 23, 59))
     made = marks_of(roster, {"j@x.de": {"engine": Part(12, 20)}})
     content = made.text.encode(made.encoding)
@@ -444,8 +444,8 @@ def test_nobody_hands_in_for_another_by_the_name_of_a_file(tmp_path, system, oth
     names = [OWN_NAMES[system].format(name=name, number=n) for n, name in enumerate(("ann", "ben"))]
     claim = OWN_NAMES[other].format(name="ann", number=0).replace("2026", "2027")
     put(tmp_path, {f"{name}integrators.py": SOURCE for name in names})
-    honest = taken(tmp_path)
+    honest = list_intake(tmp_path)
     put(tmp_path, {f"{names[1]}x_{claim}a.py": SOURCE, f"{names[1]}{claim}b.py": SOURCE})
-    attacked = taken(tmp_path)
+    attacked = list_intake(tmp_path)
     assert attacked.names == honest.names and not attacked.troubles
     assert [len(each.sources) for each in attacked.found] == [1, 3]

@@ -34,7 +34,7 @@ ALL = sorted(PROGRAM)
 def write(folder: Path, files: packed.Files | bytes) -> Work:
     """Write a submission: a folder of files, or a zip."""
     if isinstance(files, bytes):
-        return one(folder.parent, "work.zip", files)
+        return make_work(folder.parent, "work.zip", files)
     for name, content in files.items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -42,7 +42,7 @@ def write(folder: Path, files: packed.Files | bytes) -> Work:
     return Work("ann", (folder,))
 
 
-def one(tmp_path: Path, name: str, content: bytes) -> Work:
+def make_work(tmp_path: Path, name: str, content: bytes) -> Work:
     (tmp_path / name).write_bytes(content)
     return Work("ann", (tmp_path / name,))
 
@@ -72,7 +72,7 @@ KINDS = {
 @pytest.mark.parametrize("kind", KINDS)
 def test_archives_of_all_kinds_are_read(tmp_path, kind):
     for name in (f"ann.{kind}", "other.rar" if kind == "tar" else "other.zip"):
-        package = read_package(one(tmp_path, name, KINDS[kind](under("work"))))
+        package = read_package(make_work(tmp_path, name, KINDS[kind](under("work"))))
         assert {name: content.decode() for name, content in package.files} == PROGRAM
     with open_class(tmp_path) as taken:
         assert [each.name for each in taken.found] == ["ann", "other"]
@@ -81,7 +81,7 @@ def test_archives_of_all_kinds_are_read(tmp_path, kind):
 @pytest.mark.parametrize("kind", sample(["tar.gz", "7z", "rar"], 3))
 def test_no_archive_reaches_outside(tmp_path, kind):
     for name in ("../up.py", "a/../../up.py"):
-        found = one(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {name: "x"}))
+        found = make_work(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {name: "x"}))
         with pytest.raises(CannotTake, match=r"outside|broken"):
             read_package(found)
     assert [path.name for path in tmp_path.iterdir()] == [f"ann.{kind}"]
@@ -92,12 +92,12 @@ def test_what_is_no_archive_is_a_sentence(tmp_path, kind):
     good = KINDS[kind](PROGRAM)
     for content in (b"", b"hello", good[: len(good) // 2], good[:20] + bytes(200)):
         with pytest.raises(CannotTake, match=r"broken|holds no file"):
-            read_package(one(tmp_path, f"ann.{kind}", content))
+            read_package(make_work(tmp_path, f"ann.{kind}", content))
 
 
 def test_an_encrypted_archive_asks_for_one_without_a_password(tmp_path):
     with pytest.raises(CannotTake, match="password"):
-        read_package(one(tmp_path, "ann.7z", packed.as_7z(PROGRAM, password="secret")))
+        read_package(make_work(tmp_path, "ann.7z", packed.as_7z(PROGRAM, password="secret")))
 
 
 def test_links_in_a_tar_are_left_out(tmp_path):
@@ -110,7 +110,10 @@ def test_links_in_a_tar_are_left_out(tmp_path):
         link = tarfile.TarInfo(name)
         link.type, link.linkname = kind, to
         links.append(link)
-    assert names(read_package(one(tmp_path, "a.tgz", packed.as_tar(PROGRAM, "gz", *links)))) == ALL
+    assert (
+        names(read_package(make_work(tmp_path, "a.tgz", packed.as_tar(PROGRAM, "gz", *links))))
+        == ALL
+    )
 
 
 @pytest.mark.parametrize("kind", sample(["7z", "tar.xz"], 2))
@@ -118,7 +121,7 @@ def test_a_bomb_of_one_file_gives_the_program_alone(tmp_path, kind):
     # As a script, repack imports nothing of the judge, so it has a constant of its own.
     assert repack.MAX_CONTENT == MAX_BYTES
     bomb = bytes(repack.MAX_CONTENT + 1)
-    found = one(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {"big.bin": bomb}))
+    found = make_work(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {"big.bin": bomb}))
     package = read_package(found)
     assert names(package) == ALL and package.notes == ["left out big.bin: size limit reached"]
 

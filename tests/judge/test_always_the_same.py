@@ -55,7 +55,7 @@ def submission(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def graded(
+def grade_in(
     submission: Path, python: Sequence[str] = (sys.executable,), **environment: str
 ) -> bytes:
     """Return the JSON that the command writes in another environment."""
@@ -80,7 +80,7 @@ def graded(
     ids=lambda names: ",".join(names),
 )
 def test_the_environment_changes_nothing(submission: Path, environment: dict[str, str]):
-    assert graded(submission, **environment) == graded(submission)
+    assert grade_in(submission, **environment) == grade_in(submission)
 
 
 def test_the_order_of_files_changes_nothing(submission: Path, tmp_path: Path):
@@ -90,13 +90,13 @@ def test_the_order_of_files_changes_nothing(submission: Path, tmp_path: Path):
             target = backwards / path.relative_to(submission)
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(path, target)
-    assert graded(backwards) == graded(submission)
+    assert grade_in(backwards) == grade_in(submission)
 
 
 @pytest.mark.skipif(not shutil.which("taskset"), reason="only Linux has taskset")
 def test_the_number_of_cores_changes_nothing(submission: Path):
     one_core = ("taskset", "-c", "0", sys.executable)
-    assert graded(submission, one_core) == graded(submission)
+    assert grade_in(submission, one_core) == grade_in(submission)
 
 
 @pytest.mark.parametrize("version", ["3.11", "3.12", "3.13", "3.14"])
@@ -109,4 +109,4 @@ def test_the_version_of_python_changes_nothing(submission: Path, tmp_path: Path,
     python = str(tmp_path / "venv" / folder / "python")
     install = [python, "-m", "pip", "install", "--quiet", "-r", str(KIT / "requirements.txt")]
     subprocess.run(install, check=True)
-    assert graded(submission, (python,)) == graded(submission)
+    assert grade_in(submission, (python,)) == grade_in(submission)

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from mixed_trees import mixed
+from mixed_trees import mix_trees
 
 import grader
 from grader.judge.grade import KIT
@@ -30,7 +30,7 @@ def example() -> str:
 
 
 def test_the_lines_of_the_guide_print_the_points_of_each_todo(tmp_path: Path):
-    mixed(tmp_path / "submissions" / "ann", "starter", "solution", {"8a"})
+    mix_trees(tmp_path / "submissions" / "ann", "starter", "solution", {"8a"})
     done = run(example(), tmp_path)
     assert done.returncode == 0, done.stderr
     head, *todos = done.stdout.splitlines()

@@ -88,7 +88,7 @@ def test_all_together_ends_within_two_minutes_of_work_and_one_of_rest():
 def test_a_process_that_waits_for_a_processor_is_busy():
     """Two loops on one processor have worked or queued all the time; a sleeper has not."""
     loop, sleep = "while True: pass", "time.sleep(600)"
-    started = [begun(code) for code in (loop, loop, sleep)]
+    started = [start_loop(code) for code in (loop, loop, sleep)]
     try:
         before = [busy_seconds(each.pid) for each in started]
         time.sleep(0.5)
@@ -101,7 +101,7 @@ def test_a_process_that_waits_for_a_processor_is_busy():
             each.communicate()
 
 
-def begun(code: str) -> "subprocess.Popen[str]":
+def start_loop(code: str) -> "subprocess.Popen[str]":
     """Run this code on the first processor, and return once it has begun."""
     first = min(os.sched_getaffinity(0))
     begin = f"import os, time; os.sched_setaffinity(0, [{first}]); print(flush=True); {code}"

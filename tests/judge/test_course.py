@@ -55,7 +55,7 @@ EACH = [
 ]
 
 
-def graded(path: Path, course: Course) -> Result:
+def grade_course(path: Path, course: Course) -> Result:
     return grade(path, Options(shipped_reference(), course=course), shared_worker())
 
 
@@ -201,12 +201,12 @@ def test_the_course_comes_from_the_environment_as_make_gives_it(tmp_path: Path):
 def test_the_solution_earns_all_and_what_is_handed_out_nothing(course: Course, tmp_path: Path):
     write_tree(make_students_tree(KIT, course), tmp_path / "handed-out")
     most = course.rubric.max_points
-    full = graded(KIT / "solution", course)
+    full = grade_course(KIT / "solution", course)
     assert (full.points, full.max_points) == (most, most)
     assert full.bonus == sum(todo.max_points for todo in course.rubric.todos if todo.bonus)
     assert [todo.id for todo in full.todos] == [todo.id for todo in course.rubric.todos]
     for tree in (KIT / "starter", tmp_path / "handed-out"):
-        nothing = graded(tree, course)
+        nothing = grade_course(tree, course)
         assert (nothing.points, nothing.bonus, nothing.max_points) == (0, 0, most)
         assert {todo.state for todo in nothing.todos} == {"not started"}
 
@@ -216,7 +216,7 @@ def test_a_stub_of_what_is_given_takes_nothing_from_the_whole_program(hand_in):
     """The starter of another course, with only this course's TODOs done."""
     course = Course(todos=("6", "whole"))
     done = {"mini_engine__game_loop_py": (KIT / "solution/mini_engine/game_loop.py").read_text()}
-    result = graded(hand_in("starter", **done), course)
+    result = grade_course(hand_in("starter", **done), course)
     assert (result.points, result.max_points) == (20, 20)
 
 
@@ -237,16 +237,16 @@ def test_a_decision_goes_before_the_courses_rules_line_by_line(tmp_path: Path):
     course = Course(due=due, late=Late(10, 50, cap=80))
     assert load_adjustments(None, course).late == Late(10, 50, cap=80, due=due)
 
-    def decided(text: str) -> Late | None:
+    def read_late(text: str) -> Late | None:
         (tmp_path / "adjustments.toml").write_text(text, encoding="utf-8")
         return load_adjustments(tmp_path / "adjustments.toml", course).late
 
     later = due + timedelta(days=2)
-    moved = decided("[late]\ndue = 2027-05-07T00:00:00Z")
+    moved = read_late("[late]\ndue = 2027-05-07T00:00:00Z")
     assert moved == Late(10, 50, cap=80, due=later)
-    assert decided('[late]\nper_day = "5%"\ngrace = 9') == Late("5%", 50, 9, cap=80, due=due)
-    assert decided("[late]\nper_day = 0") == Late(0, 50, cap=80, due=due)
-    assert decided('zone = "Europe/Berlin"') == Late(10, 50, cap=80, due=due)
+    assert read_late('[late]\nper_day = "5%"\ngrace = 9') == Late("5%", 50, 9, cap=80, due=due)
+    assert read_late("[late]\nper_day = 0") == Late(0, 50, cap=80, due=due)
+    assert read_late('zone = "Europe/Berlin"') == Late(10, 50, cap=80, due=due)
 
 
 def test_the_courses_due_date_can_be_extended(tmp_path: Path):

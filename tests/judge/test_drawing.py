@@ -60,14 +60,14 @@ def test_what_else_is_loaded_changes_no_example(tmp_path: Path):
     assert usual == beside
 
 
-def drawn(function, seed: int | None = 1) -> list:
+def draw(function, seed: int | None = 1) -> list:
     found: list = []
     with kept_examples(function, seed):
         function(lab=found)
     return found
 
 
-def a_property(text: str = "pass", name: str = "numbers"):
+def make_property(text: str = "pass", name: str = "numbers"):
     """Return a property with this name and text."""
     names: dict = {"given": given, "between": between, "st": st}
     exec(
@@ -79,11 +79,11 @@ def a_property(text: str = "pass", name: str = "numbers"):
 
 
 def test_the_seed_and_the_name_decide_and_the_text_does_not():
-    usual = drawn(a_property())
+    usual = draw(make_property())
     assert len(usual) == EXAMPLES
-    assert drawn(a_property("y = 1234567")) == usual
-    assert drawn(a_property(), seed=2) != usual
-    assert drawn(a_property(name="other_numbers")) != usual
+    assert draw(make_property("y = 1234567")) == usual
+    assert draw(make_property(), seed=2) != usual
+    assert draw(make_property(name="other_numbers")) != usual
 
 
 def test_numbers_between_two_are_all_that_can_come():
@@ -91,7 +91,7 @@ def test_numbers_between_two_are_all_that_can_come():
     def spread(lab, n: int) -> None:
         lab.append(n)
 
-    found = drawn(spread)
+    found = draw(spread)
     assert (found[0], min(found), max(found)) == (0, -7, 60)
     assert len(set(found)) > 50
 
@@ -109,7 +109,7 @@ def test_a_failing_property_ends_with_the_simplest_example():
 
 
 def test_examples_can_be_asked_again():
-    function = a_property()
+    function = make_property()
     inner = function.hypothesis.inner_test
     with kept_examples(function, 1) as examples:
         function(lab=(found := []))
@@ -117,4 +117,4 @@ def test_examples_can_be_asked_again():
     again: list = []
     for example in examples:
         example(lab=again)
-    assert again == found == drawn(function)
+    assert again == found == draw(function)

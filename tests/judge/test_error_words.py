@@ -26,7 +26,7 @@ class DistanceJoint:
 """
 
 
-def told(error: str, line: int, todo: str = "3") -> str:
+def explain(error: str, line: int, todo: str = "3") -> str:
     got = f"{error} (in mini_engine/joints.py, line {line}: {TEXT.splitlines()[line - 1].strip()})"
     return explain_error(got, lambda file: TEXT, todo)
 
@@ -68,13 +68,15 @@ def told(error: str, line: int, todo: str = "3") -> str:
     ],
 )
 def test_an_error_is_explained(error: str, line: int, says: str):
-    words = told(error, line)
+    words = explain(error, line)
     assert says in words and bool(says) == bool(words)
 
 
 def test_what_the_stub_set_must_be_set():
-    assert "must give it a value" in told("NameError: name 'keep_vel' is not defined", 13, "5")
-    assert "must give it a value" not in told("NameError: name 'keep_vel' is not defined", 13, "3")
+    assert "must give it a value" in explain("NameError: name 'keep_vel' is not defined", 13, "5")
+    assert "must give it a value" not in explain(
+        "NameError: name 'keep_vel' is not defined", 13, "3"
+    )
 
 
 def test_an_error_outside_of_their_files_is_read_by_its_message_alone():

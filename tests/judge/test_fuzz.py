@@ -131,7 +131,7 @@ def misbehave(sock: socket.socket, rng: random.Random) -> None:
                 sock.shutdown(socket.SHUT_WR)
 
 
-def asked(lab: Lab, rng: random.Random) -> None:
+def ask(lab: Lab, rng: random.Random) -> None:
     """Ask one question in any of the ways that a check has."""
     thing = lab.thing(Ref(1))
     rng.choice(
@@ -162,7 +162,7 @@ def survive(messages: int, seed: int) -> Counter[str]:
         lab.probe()
         while not child.over:
             try:
-                asked(lab, rng)
+                ask(lab, rng)
                 ended["answered"] += 1
             except NotYet:
                 ended["refused"] += 1

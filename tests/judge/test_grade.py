@@ -12,7 +12,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
-from mixed_trees import mixed
+from mixed_trees import mix_trees
 from whole_bank import bank
 
 from grader.bank.members import Entry, Member
@@ -32,7 +32,7 @@ Graded = Callable[[tuple[str, ...]], Result]
 ONLY = {todo: Options(shipped_reference(), only=frozenset({todo})) for todo in "15"}
 
 
-def graded(submission: Path, options: Options = WITH_REFERENCE) -> Result:
+def grade_tree(submission: Path, options: Options = WITH_REFERENCE) -> Result:
     """Grade by a worker that all tests share, which saves half a second."""
     return grade(submission, options, shared_worker())
 
@@ -66,7 +66,7 @@ def test_the_starter_earns_nothing(starter: Result):
 
 @pytest.mark.parametrize("todos", [("8b",), pytest.param((), marks=SOAK)])
 def test_the_solution_needs_no_reference(solution_graded: Graded, todos: tuple[str, ...]):
-    alone = graded(KIT / "solution", Options(reference=None, only=frozenset(todos))).todos
+    alone = grade_tree(KIT / "solution", Options(reference=None, only=frozenset(todos))).todos
     assert alone == solution_graded(todos).todos
 
 
@@ -129,9 +129,9 @@ def test_who_was_graded_before_changes_nothing(tmp_path: Path, chosen: tuple[str
             folder = tmp_path / member.name
             if not folder.exists():
                 member.build(KIT, folder)
-            again.append(as_json(graded(folder, only)))
+            again.append(as_json(grade_tree(folder, only)))
         touched = frozenset().union(*(member.todos for member in members))
-        assert graded(KIT / "solution", Options(shipped_reference(), only=touched)).complete
+        assert grade_tree(KIT / "solution", Options(shipped_reference(), only=touched)).complete
         assert running.passed_before
     assert results[0] == results[1]
 
@@ -163,8 +163,8 @@ def test_one_finished_todo_earns_its_own_points(
     In the whole it earns what needs no other TODO, and nothing in any other TODO.
     """
     for todo in todos:
-        folder = mixed(tmp_path / f"only-{todo}", "starter", "solution", {todo})
-        result = graded(folder, Options(reference))
+        folder = mix_trees(tmp_path / f"only-{todo}", "starter", "solution", {todo})
+        result = grade_tree(folder, Options(reference))
         assert {each.id for each in result.todos if each.points} - {"whole"} == {todo}
         assert state(result, todo) == "passed"
         (whole,) = [each for each in result.todos if each.id == "whole"]
@@ -192,7 +192,7 @@ def test_in_one_file_too_an_unfinished_todo_costs_its_own_points(
         folder = tmp_path / f"all-but-{id}"
         shutil.rmtree(folder, ignore_errors=True)
         Member("wrong", id, "package", Entry(transform="one-file"), unfinished).build(KIT, folder)
-        result = graded(folder, engine)
+        result = grade_tree(folder, engine)
         assert {each.id for each in result.todos if each.state != "passed"} == {id}
         assert points(result, id) == 0
 
@@ -210,7 +210,7 @@ def stubs_of(todo: str) -> list[tuple[str, str]]:
 
 def test_without_a_reference_the_whole_waits(hand_in):
     region = "    # TODO 5: damp by a rate per second\n    pass\n    # END TODO 5\n"
-    result = graded(hand_in("starter", extra_py=region), Options(None))
+    result = grade_tree(hand_in("starter", extra_py=region), Options(None))
     assert state(result, "whole") in ("waiting", "not started")
 
 
@@ -222,7 +222,7 @@ def test_a_failed_check_says_what_ran_what_was_expected_and_what_came_out(hand_i
     wrong = source.replace("math.exp(-self.linear_damping * dt)", "1 - 0.01")
     wrong = wrong.replace("math.exp(-self.angular_damping * dt)", "1 - 0.01")
     assert wrong.count("1 - 0.01") == 2
-    result = graded(hand_in("solution", mini_engine__world_py=wrong), ONLY["5"])
+    result = grade_tree(hand_in("solution", mini_engine__world_py=wrong), ONLY["5"])
     (todo,) = [each for each in result.todos if each.id == "5"]
     check = todo.checks[0]
     assert check.ran == "one ball, no gravity, linear_damping = 0.5, for one second"
@@ -236,7 +236,7 @@ def test_a_failed_check_says_what_ran_what_was_expected_and_what_came_out(hand_i
 def test_an_exception_names_the_students_own_line(hand_in):
     source = (KIT / "solution" / "mini_engine" / "contacts.py").read_text(encoding="utf-8")
     wrong = source.replace("offset = closest - centre", "offset = closest - center")
-    result = graded(hand_in("solution", mini_engine__contacts_py=wrong), ONLY["1"])
+    result = grade_tree(hand_in("solution", mini_engine__contacts_py=wrong), ONLY["1"])
     check = result.todos[0].checks[0]
     assert check.state == "error" and "NameError" in check.got
     assert "offset = closest - center" in check.got

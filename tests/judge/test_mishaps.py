@@ -28,7 +28,7 @@ def hear_all_signals() -> None:
         signal.signal(number, signal.SIG_DFL)
 
 
-def started(place: Path, *arguments: str) -> "subprocess.Popen[str]":
+def start_grade(place: Path, *arguments: str) -> "subprocess.Popen[str]":
     """Start a grade with its own temporary folder, and wait until a child has been opened."""
     place.mkdir(exist_ok=True)
     process = subprocess.Popen(
@@ -56,7 +56,7 @@ def started(place: Path, *arguments: str) -> "subprocess.Popen[str]":
     "name", ["SIGTERM", pytest.param("SIGHUP", marks=soak), pytest.param("SIGINT", marks=soak)]
 )
 def test_told_to_end_it_says_so_and_leaves_nothing(tmp_path: Path, name: str):
-    process = started(tmp_path / "place")
+    process = start_grade(tmp_path / "place")
     process.send_signal(getattr(signal, name))
     _, said = process.communicate(timeout=600)
     assert process.returncode == 2 and "stopped before the end" in said
@@ -70,14 +70,14 @@ def test_a_class_that_is_told_to_end_leaves_nothing_either(tmp_path: Path):
         (tmp_path / "class" / name).mkdir(parents=True)
         program = (KIT / "solution" / "integrators.py").read_bytes()
         (tmp_path / "class" / name / "integrators.py").write_bytes(program)
-    process = started(tmp_path / "place", "--class", str(tmp_path / "class"), "--jobs", "1")
+    process = start_grade(tmp_path / "place", "--class", str(tmp_path / "class"), "--jobs", "1")
     process.terminate()
     _, said = process.communicate(timeout=600)
     assert process.returncode == 2 and "what is graded stays" in said
-    assert emptied(tmp_path / "place")  # by the class's own process, which ends by itself
+    assert wait_until_empty(tmp_path / "place")  # by the class's own process, which ends by itself
 
 
-def emptied(folder: Path) -> bool:
+def wait_until_empty(folder: Path) -> bool:
     for _ in range(60_000):
         if not any(folder.iterdir()):
             return True
@@ -90,7 +90,7 @@ def emptied(folder: Path) -> bool:
 def test_what_a_killed_grade_left_goes_with_the_next(tmp_path: Path, killed: bool):
     place = tmp_path / "place"
     if killed:
-        process = started(place)
+        process = start_grade(place)
         helpers = psutil.Process(process.pid).children(recursive=True)
         process.kill()
         process.communicate()
@@ -170,17 +170,17 @@ def test_a_warm_process_that_was_stopped_is_replaced(tmp_path: Path, monkeypatch
     worker = start_worker(without={*everything, "pid-namespace", "network-namespace"})
     assert isinstance(worker, WarmWorker)
 
-    def opened(scratch: str):
+    def open_child(scratch: str):
         submission, bytecode = str(tmp_path / "submission"), str(tmp_path / "bytecode")
         place = str(tmp_path / scratch)
         return worker.open(ChildSetup(submission, place, Limits(10), True, [], bytecode, False))
 
-    first = opened("first")
+    first = open_child("first")
     first.ask(Import("stops"))
     assert first.ask(Call("stops:stop_the_parent")).reply == Returned(True)
     stopped = worker.process.pid
     first.end()
-    second = opened("second")
+    second = open_child("second")
     assert worker.process.pid != stopped and not psutil.pid_exists(stopped)
     second.ask(Import("stops"))
     assert second.ask(Call("stops:add", [1, 2])).reply == Returned(3)

@@ -25,7 +25,7 @@ def take(tree: Path, copy: Path) -> Submission:
     return take_in(tree, copy, load_rubric(), load_stubs())
 
 
-def refused(tree: Path, copy: Path) -> tuple[set[str], set[str]]:
+def list_refused(tree: Path, copy: Path) -> tuple[set[str], set[str]]:
     """Return the TODOs and programs with code that is not Python; check that the rest compiles."""
     taken = take(tree, copy)
     for path in copy.rglob("*.py"):
@@ -33,7 +33,7 @@ def refused(tree: Path, copy: Path) -> tuple[set[str], set[str]]:
     return set(taken.flaws), set(taken.outside)
 
 
-def edited(tree: Path, file: str, old: str, new: str) -> Path:
+def edit_file(tree: Path, file: str, old: str, new: str) -> Path:
     path = tree / file
     text = path.read_text(encoding="utf-8")
     assert text.count(old) >= 1
@@ -106,14 +106,14 @@ FLAWS = [  # a few for the quick run, then the others
     [*FLAWS[:4], *(pytest.param(*each, marks=pytest.mark.soak) for each in FLAWS[4:])],
 )
 def test_what_is_no_python_is_found_where_it_is(programs, tmp_path, edit, todos, outside):
-    tree = edited(programs(), *edit)
-    assert refused(tree, tmp_path / "copy") == (todos, {"mini_engine"} if outside else set())
+    tree = edit_file(programs(), *edit)
+    assert list_refused(tree, tmp_path / "copy") == (todos, {"mini_engine"} if outside else set())
 
 
 def test_two_broken_todos_and_a_broken_line_cost_what_they_are(programs, tmp_path: Path):
-    tree = edited(programs(), SOLVER, IN_2, "total += cross(ra, axis ** 2")
-    edited(tree, SOLVER, "limit = friction_limit(c)", "limit = friction_limit(c")
-    edited(tree, SOLVER, "c.jn = total", "c.jn = (total")
+    tree = edit_file(programs(), SOLVER, IN_2, "total += cross(ra, axis ** 2")
+    edit_file(tree, SOLVER, "limit = friction_limit(c)", "limit = friction_limit(c")
+    edit_file(tree, SOLVER, "c.jn = total", "c.jn = (total")
     taken = take(tree, tmp_path / "copy")
     lines = (tree / SOLVER).read_text(encoding="utf-8").splitlines()
     assert taken.flaws.keys() == {"2", "4"} and taken.outside.keys() == {"mini_engine"}
@@ -164,7 +164,7 @@ def test_a_missing_sign_costs_the_place_it_is_missing_from(programs, tmp_path: P
         line = text[:at].count("\n")
         own = {region.id for region in regions_in(text) if region.start < line < region.stop}
         path.write_text(broken, encoding="utf-8")
-        todos, outside = refused(tree, tmp_path / f"copy-{number}")
+        todos, outside = list_refused(tree, tmp_path / f"copy-{number}")
         path.write_text(text, encoding="utf-8")
         where = f"{path.name}:{line + 1}"
         assert todos == own if own else outside, where
@@ -178,9 +178,9 @@ def test_a_todo_without_markers_is_found_by_its_function(programs, tmp_path: Pat
         lines = read_source(path).splitlines(keepends=True)
         kept = [line for line in lines if not line.strip().startswith(("# TODO", "# END TODO"))]
         path.write_text("".join(kept), encoding="utf-8")
-    edited(tree, "mini_engine/joints.py", "self.length", "self.(length")
-    edited(tree, SOLVER, IN_2, "total += cross(ra, axis ** 2")
-    todos, outside = refused(tree, tmp_path / "copy")
+    edit_file(tree, "mini_engine/joints.py", "self.length", "self.(length")
+    edit_file(tree, SOLVER, IN_2, "total += cross(ra, axis ** 2")
+    todos, outside = list_refused(tree, tmp_path / "copy")
     assert todos == {"2"} and outside == {"mini_engine"}
 
 
@@ -218,7 +218,7 @@ def test_a_file_made_to_be_read_for_long_is_given_up():
     ids=["grade", "check"],
 )
 def test_a_broken_todo_costs_its_own_points(hand_in, reference: Path | None):
-    tree = edited(hand_in("solution"), SOLVER, IN_2, "total += cross(ra, axis ** 2")
+    tree = edit_file(hand_in("solution"), SOLVER, IN_2, "total += cross(ra, axis ** 2")
     options = Options(reference, only=frozenset("25"), trusted=True)
     result = grade(tree, options, shared_worker())
     assert {todo.id: todo.state for todo in result.todos} == {"2": "error", "5": "passed"}
@@ -231,7 +231,9 @@ def test_a_broken_todo_costs_its_own_points(hand_in, reference: Path | None):
 
 @pytest.mark.soak
 def test_code_outside_of_all_todos_costs_the_whole_alone(hand_in):
-    tree = edited(hand_in("solution"), SOLVER, "slip = relative_velocity(a, b, ra, rb)", "slip = (")
+    tree = edit_file(
+        hand_in("solution"), SOLVER, "slip = relative_velocity(a, b, ra, rb)", "slip = ("
+    )
     only = frozenset({"4", "8a", "whole"})
     result = grade(tree, Options(shipped_reference(), only=only, trusted=True), shared_worker())
     assert {todo.id for todo in result.todos if todo.state == "passed"} == {"4", "8a"}
@@ -249,6 +251,6 @@ def test_the_function_of_every_todo_can_stand_in():
 def test_a_todo_without_markers_is_mended_where_two_functions_share_a_name(hand_in):
     tree, loop = hand_in("starter"), "mini_engine/game_loop.py"
     for marker in ("    # TODO 6: run whole steps from the accumulator\n", "    # END TODO 6\n"):
-        edited(tree, loop, marker, "")
-    edited(tree, loop, "    world.step(STEP)\n", "    world.step(STEP\n")
+        edit_file(tree, loop, marker, "")
+    edit_file(tree, loop, "    world.step(STEP)\n", "    world.step(STEP\n")
     assert take(tree, tree.parent / "copy").flaws.keys() == {"6"}

@@ -26,7 +26,7 @@ ODD = {
 }
 
 
-def graded(folder: Path, code: str) -> Result:
+def grade_code(folder: Path, code: str) -> Result:
     shutil.copytree(KIT / "solution", folder, ignore=shutil.ignore_patterns("__pycache__"))
     file = folder / "integrators.py"
     file.write_text(
@@ -40,7 +40,7 @@ def graded(folder: Path, code: str) -> Result:
 
 @pytest.mark.parametrize("what", ODD)
 def test_odd_code_costs_its_own_points_alone(what: str, tmp_path: Path) -> None:
-    result = graded(tmp_path / "work", ODD[what])
+    result = grade_code(tmp_path / "work", ODD[what])
     assert [todo.points for todo in result.todos] == [0, 2]
     places = [check.where for todo in result.todos for check in todo.checks if check.where]
     assert places and max(each.line for each in places) < 2000  # there is such a line
@@ -50,6 +50,6 @@ def test_an_error_that_names_a_file_outside_does_not_open_it(tmp_path: Path) -> 
     outside = tmp_path / "outside.py"
     outside.write_text("secret_of_the_judge.dot(1)\n", encoding="utf-8")
     words = f"'Vector2' object is not callable (in {outside}, line 1: x)"
-    result = graded(tmp_path / "work", f'    raise TypeError("{words}")')
+    result = grade_code(tmp_path / "work", f'    raise TypeError("{words}")')
     told = [check for todo in result.todos for check in todo.checks if check.failed]
     assert told and not any(re.search("secret_of", check.meaning) for check in told)

@@ -115,7 +115,7 @@ def test_changes_leave_all_else_as_it_is():
                 assert all(1 <= line <= len(region.lines) for line in each.lines)
 
 
-def tried(text: str, is_right: str = "") -> tuple[Mend | None, list[str]]:
+def try_changes(text: str, is_right: str = "") -> tuple[Mend | None, list[str]]:
     """Return the mend of a text with all these parts, and the texts that were tried."""
     asked: list[str] = []
 
@@ -127,7 +127,7 @@ def tried(text: str, is_right: str = "") -> tuple[Mend | None, list[str]]:
 
 
 def test_the_end_of_a_loop_is_not_changed():
-    mend, asked = tried(LOOP)
+    mend, asked = try_changes(LOOP)
     assert mend is None and asked
     assert all("while left >= step:\n        left -= step" in text for text in asked)
 
@@ -146,14 +146,14 @@ def test_the_end_of_a_loop_is_not_changed():
 def test_missing_brackets_are_found_in_one_line_and_in_two(
     code: str, is_right: str, lines: tuple[int, ...]
 ):
-    mend, _ = tried(LOOP.replace("done += 1", code), is_right)
+    mend, _ = try_changes(LOOP.replace("done += 1", code), is_right)
     assert mend == Mend("run.py", lines, "With brackets elsewhere in")
     assert mend.in_words.startswith("With brackets elsewhere in line 7")
 
 
 def test_texts_with_values_in_them_stay_python():
     text = LOOP.replace("done += 1", """done += len(f"{left - step:{done}d} of {step!r}")""")
-    mend, asked = tried(text)
+    mend, asked = try_changes(text)
     assert mend is None and asked
     for changed in asked:
         compile(changed, "run.py", "exec")
@@ -161,7 +161,7 @@ def test_texts_with_values_in_them_stay_python():
 
 @pytest.mark.parametrize("code", ["done = " + "+".join(["done"] * 5000), "done += (1"])
 def test_no_change_is_tried_in_endless_sums_and_where_python_refuses(code: str):
-    assert tried(LOOP.replace("done += 1", code)) == (None, [])
+    assert try_changes(LOOP.replace("done += 1", code)) == (None, [])
 
 
 def test_no_change_is_tried_without_time():

@@ -20,7 +20,7 @@ DAMPING = "mini_engine/world.py"
 TODOS = frozenset({"8a", "8b"})
 
 
-def changed(tree: Path, file: str, text: str) -> Path:
+def change(tree: Path, file: str, text: str) -> Path:
     """Return a copy of the solution with another text in one file."""
     shutil.copytree(KIT / "solution", tree)
     (tree / file).write_text(text, encoding="utf-8")
@@ -40,7 +40,7 @@ def key_for(tree: Path, copy: Path) -> str:
 def test_a_wrong_todo_leaves_the_others_the_program_that_they_were(tmp_path: Path):
     text = (KIT / "solution" / "integrators.py").read_text("utf-8")
     wrong = replace_regions(text, {"8b": ("    x = x + v * dt",)})
-    tree = changed(tmp_path / "tree", "integrators.py", wrong)
+    tree = change(tmp_path / "tree", "integrators.py", wrong)
     passed = PassedPrograms(tmp_path / "passed")
     options = Options(shipped_reference(), only=TODOS, trusted=True)
     assert grade(KIT / "solution", replace(options, passed=passed), shared_worker()).points == 4
@@ -75,7 +75,7 @@ def test_all_but_replaced_code_belongs_to_a_program(
 ):
     text = (KIT / "solution" / file).read_text("utf-8")
     assert old in text
-    tree = changed(tmp_path / "tree", file, text.replace(old, new))
+    tree = change(tmp_path / "tree", file, text.replace(old, new))
     usual = key_for(KIT / "solution", tmp_path / "usual")
     assert (key_for(tree, tmp_path / "copy") == usual) is same
 

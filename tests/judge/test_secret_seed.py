@@ -32,7 +32,7 @@ def so_far(child: Child, request: Request | Record) -> Asked:
     return tuple(history)
 
 
-def graded(seed: int | None, only: frozenset[str]) -> Result:
+def grade_solution(seed: int | None, only: frozenset[str]) -> Result:
     options = Options(shipped_reference(), seed=seed, only=only)
     return grade(KIT / "solution", options, shared_worker())
 
@@ -48,7 +48,7 @@ def right_answers(only: frozenset[str], patch: pytest.MonkeyPatch) -> dict[Asked
 
     with patch.context() as here:
         here.setattr(Child, "ask", ask_and_note)
-        result = graded(None, only)
+        result = grade_solution(None, only)
     assert (result.points, result.bonus) == (result.max_points, bonus_of(result))
     return answers
 
@@ -70,9 +70,9 @@ def test_who_knows_the_usual_answers_by_heart_earns_nothing_under_a_seed(
         return answered
 
     monkeypatch.setattr(Child, "ask", by_heart)
-    usual = graded(None, only)
+    usual = grade_solution(None, only)
     assert (usual.points, usual.bonus) == (usual.max_points, bonus_of(usual))
-    secret = graded(4711, only)
+    secret = grade_solution(4711, only)
     passed = [each.id for todo in secret.todos for each in todo.checks if each.points]
     assert passed == []
 
@@ -83,7 +83,7 @@ def test_who_knows_the_usual_answers_by_heart_earns_nothing_under_a_seed(
 )
 def test_right_work_keeps_every_point_under_any_seed(seeds: range, only: frozenset[str]):
     for seed in seeds:
-        result = graded(seed, only)
+        result = grade_solution(seed, only)
         lost = [c.got for todo in result.todos for c in todo.checks if c.points < c.max_points]
         assert lost == []
 

@@ -17,7 +17,7 @@ WRONG = "        keep_vel = keep_omega = 1 - self.linear_damping * dt"
 ENDLESS = "        while True:", "            pass"
 
 
-def broken(folder: Path, code: tuple[str, ...]) -> Path:
+def break_todo_5(folder: Path, code: tuple[str, ...]) -> Path:
     """Return the solution with other code in TODO 5."""
     shutil.copytree(KIT / "solution", folder, ignore=shutil.ignore_patterns("notebooks"))
     path = folder / "mini_engine" / "world.py"
@@ -27,7 +27,7 @@ def broken(folder: Path, code: tuple[str, ...]) -> Path:
 
 @pytest.mark.parametrize("jobs", [2, pytest.param(3, marks=pytest.mark.soak)])
 def test_results_are_the_same_and_come_in_order(tmp_path: Path, jobs: int):
-    tree = broken(tmp_path / "tree", (WRONG,))
+    tree = break_todo_5(tmp_path / "tree", (WRONG,))
     told: dict[int, list[CheckResult]] = {1: [], jobs: []}
     results = [
         grade(
@@ -51,7 +51,7 @@ def test_results_are_the_same_and_come_in_order(tmp_path: Path, jobs: int):
 
 @pytest.mark.soak
 def test_who_uses_up_the_time_of_a_todo_has_as_little_beside_others(tmp_path: Path):
-    tree = broken(tmp_path / "tree", ENDLESS)
+    tree = break_todo_5(tmp_path / "tree", ENDLESS)
     alone = Options(shipped_reference(), only=frozenset({"5"}), trusted=True)
     first, second = (grade(tree, options) for options in (alone, replace(alone, jobs=3)))
     assert first == second and first.points == 0

@@ -20,12 +20,12 @@ def with_regions(tree: Path, file: str, regions: dict[str, tuple[str, ...]]) -> 
     return tree
 
 
-def graded(tree: Path, *todos: str, reference: Path | None = None) -> Result:
+def grade_tree(tree: Path, *todos: str, reference: Path | None = None) -> Result:
     options = Options(reference, only=frozenset(todos), trusted=True)
     return grade(tree, options, shared_worker())
 
 
-def whole(result: Result) -> TodoResult:
+def find_whole(result: Result) -> TodoResult:
     return next(todo for todo in result.todos if todo.id == "whole")
 
 
@@ -33,14 +33,14 @@ def whole(result: Result) -> TodoResult:
 @pytest.mark.parametrize(("file", "regions"), [(WORLD, NO_DAMPING), (SOLVER, NO_SPIN)])
 def test_a_mistake_in_a_todo_costs_nothing_in_the_whole(hand_in, file, regions):
     tree = with_regions(hand_in("solution"), file, regions)
-    result = graded(tree, *regions, "whole", reference=shipped_reference())
+    result = grade_tree(tree, *regions, "whole", reference=shipped_reference())
     assert {todo.id for todo in result.todos if todo.state != "passed"} == set(regions)
 
 
 def test_where_all_that_was_begun_is_wrong_nothing_stands_in(hand_in):
     """Otherwise a line in each TODO would earn the points of the whole."""
     tree = with_regions(hand_in("starter"), WORLD, NO_DAMPING)
-    result = graded(tree, "5", "whole", reference=shipped_reference())
+    result = grade_tree(tree, "5", "whole", reference=shipped_reference())
     assert result.points == 0
 
 
@@ -48,15 +48,15 @@ def test_where_nothing_stands_in_the_todos_are_named(hand_in):
     """The right code around them is not named."""
     tree = with_regions(hand_in("starter"), WORLD, NO_DAMPING)
     with_regions(tree, "mini_engine/joints.py", {"3": ("        self.k = 1.0 * self.k",)})
-    result = graded(tree, "3", "5", "whole", reference=shipped_reference())
-    (check,) = [each for each in whole(result).failed if "stages in their order" in each.title]
+    result = grade_tree(tree, "3", "5", "whole", reference=shipped_reference())
+    (check,) = [each for each in find_whole(result).failed if "stages in their order" in each.title]
     assert "TODO 3 and 5 are not right yet" in check.got
 
 
 @pytest.mark.soak
 def test_without_the_reference_the_whole_names_the_todo(hand_in):
     tree = with_regions(hand_in("solution"), WORLD, NO_DAMPING)
-    failed = whole(graded(tree, "5", "whole")).failed
+    failed = find_whole(grade_tree(tree, "5", "whole")).failed
     needs_it = [check for check in failed if "TODO 5 is not right yet" in check.got]
     assert needs_it and all("finish it first" in check.meaning for check in needs_it)
     assert all(check.meaning and check.where for check in failed)
@@ -69,7 +69,7 @@ def test_what_is_wrong_outside_of_all_todos_is_said_to_be_there(hand_in):
     text = read_source(source)
     assert text.count("pygame.K_r") == 1
     tree = hand_in(mini_engine_py=text.replace("pygame.K_r", "pygame.K_q"))
-    failed = whole(graded(tree, "2", "whole", reference=shipped_reference())).failed
+    failed = find_whole(grade_tree(tree, "2", "whole", reference=shipped_reference())).failed
     wrong = next(check for check in failed if check.id == "clicks_drop_balls_and_r_resets")
     assert wrong.where.file == "mini_engine.py" and "code around them" in wrong.meaning
     missing = next(check for check in failed if check.id == "clicks_b_and_r_work_in_pymunk")

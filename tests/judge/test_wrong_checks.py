@@ -29,7 +29,7 @@ WRONG = {
 RIGHT = '(end,) = lab.integrate("rk4", (1.0, 0.0), 0.1, [0.0])'
 
 
-def graded(
+def grade_check(
     body: str, tree: Path, patched: pytest.MonkeyPatch, function: str = "integrators:rk4"
 ) -> str:
     """Return the state of the check, or the sentence that refuses it."""
@@ -51,7 +51,7 @@ def graded(
     [pytest.param(each, marks=() if n % 2 else pytest.mark.soak) for n, each in enumerate(WRONG)],
 )
 def test_a_check_that_the_right_code_fails_is_wrong(name: str, monkeypatch: pytest.MonkeyPatch):
-    said = graded(WRONG[name], KIT / "solution", monkeypatch)
+    said = grade_check(WRONG[name], KIT / "solution", monkeypatch)
     assert said.startswith("the check mine in checks/mine")
     assert "is wrong: the right code fails it too. It ran: one step" in said
 
@@ -71,9 +71,9 @@ def test_a_submission_that_fails_what_the_right_code_passes_is_to_blame(
 ):
     wrong = f"def rk4(x, v, dt, accel):\n    return {answer}\n"
     (tmp_path / "integrators.py").write_text(wrong, encoding="utf-8")
-    state = graded(RIGHT, tmp_path / "integrators.py", monkeypatch)
+    state = grade_check(RIGHT, tmp_path / "integrators.py", monkeypatch)
     assert state in ("not yet", "error")
 
 
 def test_what_the_right_code_passes_is_no_wrong_check(monkeypatch: pytest.MonkeyPatch):
-    assert graded(RIGHT, KIT / "solution", monkeypatch) == "passed"
+    assert grade_check(RIGHT, KIT / "solution", monkeypatch) == "passed"

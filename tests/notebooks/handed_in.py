@@ -37,7 +37,7 @@ def kind(cell):
     return "+".join(flag for flag in ("grade", "locked", "solution", "task") if details.get(flag))
 
 
-def released(cell):
+def release_source(cell):
     """Return the source of a cell without answers and hidden tests."""
     text = source(cell)
     if "solution" in kind(cell) and "### BEGIN SOLUTION" not in text:
@@ -52,7 +52,7 @@ def released(cell):
     return re.sub(hidden, "", text, flags=re.MULTILINE | re.DOTALL).rstrip("\n")
 
 
-def answered(name):
+def fill_answers(name):
     """Return a released notebook with every answer filled in."""
     notebook = read(RELEASED / f"{name}.ipynb")
     right = {cell["id"]: cell for cell in read(SOURCE / f"{name}.ipynb")["cells"]}
@@ -64,10 +64,10 @@ def answered(name):
 
 
 def answers():
-    return {name: answered(name) for name in NAMES}
+    return {name: fill_answers(name) for name in NAMES}
 
 
-def activated():
+def active_environment():
     """Return the variables of a terminal with the active environment."""
     path = os.pathsep.join([str(SCRIPTS), os.environ["PATH"]])
     return {**os.environ, "PATH": path}
@@ -76,7 +76,9 @@ def activated():
 def run(course, *arguments):
     """Run one of nbgrader's commands in the course folder."""
     command = [str(SCRIPTS / "nbgrader"), *arguments]
-    return subprocess.run(command, cwd=course, env=activated(), capture_output=True, text=True)
+    return subprocess.run(
+        command, cwd=course, env=active_environment(), capture_output=True, text=True
+    )
 
 
 def hand_in(folder, tree, notebooks):

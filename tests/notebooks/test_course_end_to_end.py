@@ -13,8 +13,8 @@ from handed_in import (
     NAMES,
     RELEASED,
     SOURCE,
-    answered,
     answers,
+    fill_answers,
     hand_in,
     kind,
     read,
@@ -162,7 +162,7 @@ def book(course):
     return gradebook(course)
 
 
-def lost(book, student, notebook):
+def list_lost_cells(book, student, notebook):
     """Return the automatically graded cells without full points."""
     grades = book[student][notebook]["grades"].items()
     return {name for name, (score, most, waits) in grades if score != most and not waits}
@@ -207,7 +207,7 @@ def test_the_gradebook_holds_the_marks_of_the_grader(course, book):
 
 def test_every_answer_of_the_solution_gets_its_points(book):
     for name in NAMES:
-        assert lost(book, "anna", name) == set()
+        assert list_lost_cells(book, "anna", name) == set()
     waiting = {
         cell for part in book["anna"].values() for cell, mark in part["grades"].items() if mark[2]
     }
@@ -222,36 +222,45 @@ def test_the_untouched_release_gets_nothing_and_waits_for_nobody(book):
 
 def test_noise_costs_nothing(book):
     for name in ("integrators", "accuracy", "quiz"):
-        assert lost(book, "chen", name) == set()
-    assert lost(book, "chen", ENGINE) == {"todo-4", "todo-whole"}  # both are rules of contacts
+        assert list_lost_cells(book, "chen", name) == set()
+    assert list_lost_cells(book, "chen", ENGINE) == {
+        "todo-4",
+        "todo-whole",
+    }  # both are rules of contacts
 
 
 def test_a_loop_in_a_notebook_costs_its_own_part_and_says_why(course, book):
-    assert lost(book, "dora", "integrators") == {"one-step-8a", "swing-8a"}
+    assert list_lost_cells(book, "dora", "integrators") == {"one-step-8a", "swing-8a"}
     text = (course / "autograded" / "dora" / ASSIGNMENT / "integrators.ipynb").read_text("utf-8")
     assert f"ran for more than {SECONDS} s and was stopped" in text
-    assert lost(book, "dora", "accuracy") == set() == lost(book, "dora", ENGINE)
+    assert (
+        list_lost_cells(book, "dora", "accuracy") == set() == list_lost_cells(book, "dora", ENGINE)
+    )
 
 
 def test_a_deleted_test_comes_back_and_a_wrong_answer_is_wrong(book):
-    assert lost(book, "dora", "quiz") == {"quiz-3"}
+    assert list_lost_cells(book, "dora", "quiz") == {"quiz-3"}
     assert book["dora"]["integrators"]["grades"]["one-step-8b"][0] == 1
 
 
 def test_a_loop_in_a_python_file_costs_what_imports_it(book):
     tests = {c["id"] for c in read(SOURCE / "accuracy.ipynb")["cells"] if kind(c) == "grade+locked"}
-    assert lost(book, "emil", "accuracy") == tests
-    assert lost(book, "emil", ENGINE) == {"todo-8a", "todo-8b", "todo-8c"}
-    assert lost(book, "emil", "quiz") == lost(book, "emil", "integrators") == set()
+    assert list_lost_cells(book, "emil", "accuracy") == tests
+    assert list_lost_cells(book, "emil", ENGINE) == {"todo-8a", "todo-8b", "todo-8c"}
+    assert (
+        list_lost_cells(book, "emil", "quiz")
+        == list_lost_cells(book, "emil", "integrators")
+        == set()
+    )
 
 
 def test_a_loop_that_cannot_be_interrupted_costs_what_comes_after_it(book):
-    assert lost(book, "gus", "quiz") == {"quiz-8"}
-    assert all(lost(book, "gus", name) == set() for name in NAMES if name != "quiz")
+    assert list_lost_cells(book, "gus", "quiz") == {"quiz-8"}
+    assert all(list_lost_cells(book, "gus", name) == set() for name in NAMES if name != "quiz")
 
 
 def test_a_broken_notebook_costs_nobody_the_engine(book):
-    assert lost(book, "hana", ENGINE) == set()
+    assert list_lost_cells(book, "hana", ENGINE) == set()
 
 
 def test_without_notebooks_the_engine_counts_alone(book):
@@ -347,11 +356,11 @@ def test_a_changed_submission_is_taken_in_and_graded_anew(course, tmp_path):
     again = tmp_path / "class"
     notebooks = {name: read(RELEASED / f"{name}.ipynb") for name in NAMES}
     folder = hand_in(again / "ben", "starter", notebooks)
-    write(folder / "notebooks" / "quiz.ipynb", answered("quiz"))
+    write(folder / "notebooks" / "quiz.ipynb", fill_answers("quiz"))
     taken = list(collect_submissions(again, copy))
     assert [each.words for each in taken] == ["5 notebooks"]
     again = run(copy, "autograde", ASSIGNMENT, "--student", "ben")  # no --force
     assert again.returncode == 0, again.stderr[-2000:]
     grades = gradebook(copy)["ben"]
-    assert lost(gradebook(copy), "ben", "quiz") == set()
+    assert list_lost_cells(gradebook(copy), "ben", "quiz") == set()
     assert all(mark[0] == 0 for mark in grades["integrators"]["grades"].values())

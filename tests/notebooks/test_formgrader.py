@@ -12,7 +12,7 @@ from contextlib import contextmanager
 
 import pytest
 from command_line import run_grader
-from handed_in import NAMES, SCRIPTS, activated, answers, hand_in, replace_in, run
+from handed_in import NAMES, SCRIPTS, active_environment, answers, hand_in, replace_in, run
 from page_readers import PATIENCE, chromium
 
 from grader.classroom.nbgrader.submissions import ASSIGNMENT
@@ -75,7 +75,9 @@ def jupyter(course):
     log = course / "jupyter.log"
     with (
         log.open("w", encoding="utf-8") as said,
-        subprocess.Popen(command, cwd=course, env=activated() | own, stderr=said) as server,
+        subprocess.Popen(
+            command, cwd=course, env=active_environment() | own, stderr=said
+        ) as server,
     ):
         try:
             while not (found := ADDRESS.search(log.read_text(encoding="utf-8"))):

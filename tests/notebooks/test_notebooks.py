@@ -14,11 +14,11 @@ from handed_in import (
     NAMES,
     RELEASED,
     SOURCE,
-    answered,
+    fill_answers,
     hand_in,
     kind,
     read,
-    released,
+    release_source,
     replace_in,
     source,
 )
@@ -125,7 +125,7 @@ def test_the_release_is_the_source_without_answers_and_hidden_tests(name):
     ours, theirs = cells(name), cells(name, RELEASED)
     assert [cell["id"] for cell in ours] == [cell["id"] for cell in theirs]
     for cell, given in zip(ours, theirs, strict=True):
-        assert source(given).rstrip("\n") == released(cell), cell["id"]
+        assert source(given).rstrip("\n") == release_source(cell), cell["id"]
         assert kind(given) == kind(cell)
     text = (RELEASED / f"{name}.ipynb").read_text(encoding="utf-8")
     assert "HIDDEN" not in text and "SOLUTION" not in text
@@ -260,7 +260,7 @@ def test_a_wrong_answer_fails_its_own_test_alone(name, cell_id, right, wrong, te
 
 
 def test_another_right_way_of_measuring_is_accepted(tmp_path):
-    notebook = answered("accuracy")
+    notebook = fill_answers("accuracy")
     hidden = {cell["id"]: source(cell) for cell in cells("accuracy")}
     for cell in graded_by_code("accuracy"):
         replace_in(notebook, cell, hidden[cell])

@@ -35,7 +35,7 @@ MARKING = Marking("Physics engine", {"engine": 70, "quiz": 30})
 ZOE = {"engine": Part(80, 100), "quiz": Part(8, 8), "journal": Part(0, 12, waiting=True)}
 
 
-def listed(tmp_path, text, encoding="utf-8"):
+def read_list(tmp_path, text, encoding="utf-8"):
     (tmp_path / "class.csv").write_bytes(text.encode(encoding))
     return read_roster(tmp_path / "class.csv")
 
@@ -48,7 +48,7 @@ def rows(made, delimiter=","):
 
 
 def test_canvas_gets_its_columns_back_with_one_mark_each(tmp_path):
-    roster = listed(tmp_path, CANVAS)
+    roster = read_list(tmp_path, CANVAS)
     made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, MARKING))
     assert rows(made) == [
         ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "Physics engine (4711)"],
@@ -61,7 +61,7 @@ def test_canvas_gets_its_columns_back_with_one_mark_each(tmp_path):
 
 def test_a_list_without_points_possible_or_the_column_works_too(tmp_path):
     text = "Student,ID,SIS Login ID,Section\nZoe,17,zoe,A\n"
-    roster = listed(tmp_path, text)
+    roster = read_list(tmp_path, text)
     made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, MARKING))
     assert rows(made)[0][-1] == "Physics engine" and rows(made)[1] == [
         "Zoe",
@@ -73,7 +73,9 @@ def test_a_list_without_points_possible_or_the_column_works_too(tmp_path):
 
 
 def test_a_byte_order_mark_and_semicolons_come_back_as_they_came(tmp_path):
-    roster = listed(tmp_path, CANVAS.replace(",", ";").replace("Müller;", "Müller,"), "utf-8-sig")
+    roster = read_list(
+        tmp_path, CANVAS.replace(",", ";").replace("Müller;", "Müller,"), "utf-8-sig"
+    )
     made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, MARKING))
     assert made.text.startswith("\ufeffStudent;ID;")
     assert rows(made, ";")[2][0] == "Müller, Zoë" and rows(made, ";")[2][-1] == "86.0"
@@ -83,7 +85,7 @@ def test_a_byte_order_mark_and_semicolons_come_back_as_they_came(tmp_path):
 
 
 def test_moodle_gets_identifiers_grade_and_feedback(tmp_path):
-    roster = listed(tmp_path, MOODLE)
+    roster = read_list(tmp_path, MOODLE)
     made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE, "ben": {}}, MARKING))
     assert rows(made) == [
         ["First name", "Last name", "ID number", "Email address", "Grade", "Feedback"],
@@ -93,7 +95,7 @@ def test_moodle_gets_identifiers_grade_and_feedback(tmp_path):
 
 
 def test_the_key_may_be_another_column(tmp_path):
-    roster = listed(tmp_path, MOODLE)
+    roster = read_list(tmp_path, MOODLE)
     made = make_marks(roster, roster.choose_key("ID number"), Scores({"s-17": ZOE}, MARKING))
     assert rows(made)[1][4] == "86.0"
     with pytest.raises(Stop, match="no column 'Login'"):
@@ -101,15 +103,15 @@ def test_the_key_may_be_another_column(tmp_path):
 
 
 def test_names_match_whatever_the_case_and_the_form_of_accents(tmp_path):
-    roster = listed(tmp_path, "Email address\nZo\u00eb@x.example\n")
+    roster = read_list(tmp_path, "Email address\nZo\u00eb@x.example\n")
     made = make_marks(roster, roster.choose_key(), Scores({"zoe\u0308": ZOE}, MARKING))
     assert rows(made)[1][0] == "Zo\u00eb@x.example" and rows(made)[1][1] == "86.0"
 
 
 def test_nbgrader_is_told_the_names(tmp_path):
-    found = list(list_people(listed(tmp_path, CANVAS), "SIS Login ID"))
+    found = list(list_people(read_list(tmp_path, CANVAS), "SIS Login ID"))
     assert found[0] == {"id": "zoe", "first_name": "Zoë", "last_name": "Müller", "email": ""}
-    found = list(list_people(listed(tmp_path, MOODLE), "ID number"))
+    found = list(list_people(read_list(tmp_path, MOODLE), "ID number"))
     assert found[0]["first_name"] == "Zoë" and found[0]["email"] == "zoe@school.example"
 
 
@@ -139,7 +141,7 @@ def test_the_total_and_the_decimals_are_the_instructors():
 
 def test_a_mark_that_waits_for_a_person_is_left_empty_and_named(tmp_path):
     marking = msgspec.structs.replace(MARKING, shares={"engine": 70, "quiz": 20, "journal": 10})
-    roster = listed(tmp_path, CANVAS)
+    roster = read_list(tmp_path, CANVAS)
     made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, marking))
     assert rows(made)[2][-1] == "" and made.given == 1
     assert made.notes[0] == "zoe: no mark yet, journal must be graded by hand"
@@ -148,7 +150,7 @@ def test_a_mark_that_waits_for_a_person_is_left_empty_and_named(tmp_path):
 
 
 def test_who_is_not_in_the_list_is_named(tmp_path):
-    roster = listed(tmp_path, CANVAS)
+    roster = read_list(tmp_path, CANVAS)
     made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE, "guest": ZOE}, MARKING))
     assert "guest: handed in, but is not in the class list under 'SIS Login ID'" in made.notes
 
@@ -174,12 +176,12 @@ def test_the_shipped_settings_name_the_notebooks():
 )
 def test_a_list_that_makes_no_sense_is_refused(tmp_path, text, words):
     with pytest.raises(Stop, match=words):
-        listed(tmp_path, text).choose_key()
+        read_list(tmp_path, text).choose_key()
 
 
 def test_a_list_that_is_not_utf_8_is_read_and_somebody_is_asked_to_look(tmp_path):
     text = MOODLE.replace("李", "Ö")
-    read, usual = listed(tmp_path, text, "latin-1"), listed(tmp_path, text)
+    read, usual = read_list(tmp_path, text, "latin-1"), read_list(tmp_path, text)
     assert read.rows == usual.rows
     assert "is not UTF-8" in read.doubt and "Zoë" in read.doubt and not usual.doubt
 

@@ -21,7 +21,7 @@ pytestmark = [
 HERE = Path(sys.executable).parent
 
 
-def typed(lines: str, folder: Path) -> subprocess.CompletedProcess[str]:
+def run_lines(lines: str, folder: Path) -> subprocess.CompletedProcess[str]:
     """Run lines in a new shell, without this environment."""
     kept = ("HOME", "LANG", "http_proxy", "https_proxy", "no_proxy", "PIP_INDEX_URL")
     environment = {name: os.environ[name] for name in kept if name in os.environ}
@@ -72,15 +72,15 @@ def handed_out(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_a_student_checks_by_the_readme_alone(handed_out: Path):
     readme = (handed_out / "README.md").read_text(encoding="utf-8")
     assert {f"{name}.ipynb" for name in NAMES} <= {path.name for path in handed_out.iterdir()}
-    installed = typed(first_lines(readme), handed_out)
+    installed = run_lines(first_lines(readme), handed_out)
     if "No matching distribution" in installed.stderr:
         pytest.skip("pip reaches no package index from here")
     assert installed.returncode == 0, installed.stderr
-    checked = typed("source .venv/bin/activate\nmake check", handed_out)
+    checked = run_lines("source .venv/bin/activate\nmake check", handed_out)
     assert "NOT STARTED" in checked.stdout.upper(), checked.stdout + checked.stderr
     done = KIT / "solution" / "integrators.py"
     shutil.copyfile(done, handed_out / "integrators.py")
-    again = typed("source .venv/bin/activate\nmake check TODO=8a", handed_out)
+    again = run_lines("source .venv/bin/activate\nmake check TODO=8a", handed_out)
     assert again.returncode == 0 and "PASSED" in again.stdout.upper(), again.stdout
-    same = typed("sha256sum --check --quiet MANIFEST.txt", handed_out)
+    same = run_lines("sha256sum --check --quiet MANIFEST.txt", handed_out)
     assert same.stdout == "integrators.py: FAILED\n"

@@ -33,7 +33,7 @@ def untouched(folder):
     return hand_in(folder, "starter", {name: read(RELEASED / f"{name}.ipynb") for name in NAMES})
 
 
-def taken(classroom, course):
+def collect(classroom, course):
     return {each.student: each for each in collect_submissions(classroom, course)}
 
 
@@ -82,7 +82,7 @@ def test_a_course_inside_the_kit_is_refused(inside):
 def test_notebooks_come_to_the_top_and_files_stay_as_they_are(course, classroom):
     tree = untouched(classroom / "anna")
     (tree / "helper.py").write_text("x = 1\n", encoding="utf-8")
-    assert taken(classroom, course)["anna"].words == "5 notebooks"
+    assert collect(classroom, course)["anna"].words == "5 notebooks"
     target = course / "submitted" / "anna" / ASSIGNMENT
     assert sorted(path.stem for path in target.glob("*.ipynb")) == NAMES
     assert not (target / "notebooks").exists() or not list((target / "notebooks").iterdir())
@@ -95,7 +95,7 @@ def test_notebooks_may_lie_beside_the_engine_as_nbgrader_releases_them(course, c
     for path in (tree / "notebooks").iterdir():
         path.rename(tree / path.name)
     (tree / "notebooks").rmdir()
-    assert taken(classroom, course)["anna"].words == "5 notebooks"
+    assert collect(classroom, course)["anna"].words == "5 notebooks"
     assert (course / "submitted" / "anna" / ASSIGNMENT / "quiz.ipynb").exists()
 
 
@@ -107,7 +107,7 @@ def test_notebooks_may_lie_beside_a_folder_of_programs(course, classroom):
         (tree.parent / "my notebooks" / "quiz.ipynb").rename(tree.parent / "quiz.ipynb")
         for name in names:
             (tree / name).rename(tree / name.replace(".py", " (1).py"))
-    found = taken(classroom, course)
+    found = collect(classroom, course)
     for student in ("anna", "ben"):
         assert found[student].words == "5 notebooks"
         submitted = course / "submitted" / student / ASSIGNMENT
@@ -120,20 +120,20 @@ def test_of_two_notebooks_that_are_as_near_nobody_takes_one(course, classroom):
     (tree / "notebooks").rename(tree.parent / "new")
     (tree.parent / "old").mkdir()
     (tree.parent / "old" / "quiz.ipynb").write_text("{}")
-    found = taken(classroom, course)["anna"]
+    found = collect(classroom, course)["anna"]
     assert not found.taken and "new/quiz.ipynb and old/quiz.ipynb are" in found.words
 
 
 def test_python_files_alone_are_taken_too(course, classroom):
     hand_in(classroom / "farid", "starter", {})
-    assert taken(classroom, course)["farid"].words == "no notebook"
+    assert collect(classroom, course)["farid"].words == "no notebook"
     assert (course / "submitted" / "farid" / ASSIGNMENT / "mini_engine" / "world.py").exists()
 
 
 @pytest.mark.parametrize("around", ["physics-engine", "hand-in/physics-engine"])
 def test_folders_around_a_submission_are_taken_off(course, classroom, around):
     untouched(classroom / "Zoë Müller" / around)
-    taken(classroom, course)
+    collect(classroom, course)
     target = course / "submitted" / "Zoë Müller" / ASSIGNMENT
     assert (target / "quiz.ipynb").exists() and (target / "integrators.py").exists()
 
@@ -146,7 +146,7 @@ def test_links_and_hidden_files_stay_outside(course, classroom, tmp_path):
     (tree / ".hidden").mkdir()
     (tree / ".hidden" / "x.py").touch()
     (classroom / "linked").symlink_to(KIT / "solution")
-    all_of_them = taken(classroom, course)
+    all_of_them = collect(classroom, course)
     assert {name for name, each in all_of_them.items() if each.taken} == {"eve"}
     assert "link" in all_of_them["linked"].words
     assert not (course / "submitted" / "linked").exists()
@@ -157,7 +157,7 @@ def test_links_and_hidden_files_stay_outside(course, classroom, tmp_path):
 def test_a_name_that_nbgrader_would_take_for_a_pattern_is_refused(course, classroom):
     untouched(classroom / "a[bc]")
     untouched(classroom / "ben")
-    found = taken(classroom, course)
+    found = collect(classroom, course)
     assert not found["a[bc]"].taken and "rename" in found["a[bc]"].words
     assert found["ben"].taken
 
@@ -165,12 +165,12 @@ def test_a_name_that_nbgrader_would_take_for_a_pattern_is_refused(course, classr
 def test_only_a_submission_that_changed_is_graded_anew(course, classroom):
     for name in ("anna", "ben"):
         untouched(classroom / name)
-    taken(classroom, course)
+    collect(classroom, course)
     for name in ("anna", "ben"):
         (course / "autograded" / name / ASSIGNMENT).mkdir(parents=True)
     with (classroom / "ben" / "integrators.py").open("a", encoding="utf-8") as file:
         file.write("# one more line\n")
-    found = taken(classroom, course)
+    found = collect(classroom, course)
     assert found["anna"].words == "unchanged" and found["ben"].words == "5 notebooks"
     assert (course / "autograded" / "anna" / ASSIGNMENT).exists()
     assert not (course / "autograded" / "ben" / ASSIGNMENT).exists()
@@ -232,6 +232,6 @@ def test_one_that_cannot_be_laid_out_leaves_the_others(classroom, course):
     (classroom / "ben" / f"{NAMES[0]}.ipynb").mkdir()
     (classroom / "ben" / f"{NAMES[0]}.ipynb" / "a.txt").write_text("x")
     (classroom / "ben" / "notebooks" / f"{NAMES[0]}.ipynb").write_text("{}")
-    found = taken(classroom, course)
+    found = collect(classroom, course)
     assert found["anna"].taken and found["zoe"].taken
     assert not found["ben"].taken and "/" not in found["ben"].words

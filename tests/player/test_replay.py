@@ -13,7 +13,7 @@ from typing import Any
 import msgspec
 import pytest
 from conftest import Once, only_some
-from one_worker import opened
+from one_worker import child_opener
 from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers
 from whole_bank import bank
 
@@ -87,7 +87,7 @@ def mistaken(once: Once) -> Path:
 
 
 @pytest.fixture(scope="session")
-def graded(mistaken: Path) -> Result:
+def graded_result(mistaken: Path) -> Result:
     return msgspec.json.decode((mistaken.parent / "result.json").read_bytes(), type=Result)
 
 
@@ -116,14 +116,14 @@ def line_of_parting(data: dict[str, Any]) -> tuple[int, dict[str, Any]]:
     return last, lines[last]
 
 
-def test_every_failed_check_that_gave_an_answer_has_a_replay(graded: Result, pages: Path):
-    failed = [(t, c) for t in graded.todos for c in t.checks if c.state == "not yet"]
+def test_every_failed_check_that_gave_an_answer_has_a_replay(graded_result: Result, pages: Path):
+    failed = [(t, c) for t in graded_result.todos for c in t.checks if c.state == "not yet"]
     assert len(failed) > 12
     for todo, check in failed:
         assert check.replay == f"pages/{todo.id}-{check.id}.html"
         assert (pages.parent / check.replay).is_file()
         assert (pages.parent / check.replay).with_suffix(".py").is_file()
-    passed = [c for t in graded.todos for c in t.checks if c.state != "not yet"]
+    passed = [c for t in graded_result.todos for c in t.checks if c.state != "not yet"]
     assert passed and all(check.replay is None for check in passed)
     assert len(list(pages.iterdir())) == 2 * len(failed)
 
@@ -207,7 +207,7 @@ def test_the_right_run_parts_nowhere_from_itself():
         ("4", todo_4.every_contact_of_a_pile_keeps_within_its_friction),
         ("whole", whole.the_rod_swings_alike_at_any_frame_rate),
     )
-    with opened(KIT / "solution") as children:
+    with child_opener(KIT / "solution") as children:
         for todo, function in chosen:
             check = next(c for c in rubric[todo].checks if c.id == function.__name__)
             failing = Failing(rubric[todo], check, function, [])
@@ -447,7 +447,7 @@ class Liar:
     def end(self) -> None: ...
 
 
-def failing(again: Any) -> Failing:
+def make_failing(again: Any) -> Failing:
     todo = load_rubric().todos[0]
     return Failing(todo, todo.checks[0], again, [])
 
@@ -457,7 +457,7 @@ def record_liar(answer: WithMoments, requests: int) -> RecordingLab:
         for _ in range(requests):
             lab.call("circle_box")
 
-    return record_again(failing(again), lambda seconds: Liar(answer), [])  # type: ignore[arg-type,return-value]
+    return record_again(make_failing(again), lambda seconds: Liar(answer), [])  # type: ignore[arg-type,return-value]
 
 
 def test_a_flood_of_moments_is_cut():
@@ -507,12 +507,12 @@ def test_an_object_that_has_everything_is_looked_at_for_a_moment_only(tmp_path: 
     (tmp_path / "integrators.py").write_text(EVERYTHING, encoding="utf-8")
     rk4 = next(todo for todo in load_rubric().todos if todo.id == "8c")
     again = todo_8.rk4_keeps_the_spring_swinging
-    with opened(tmp_path) as children:
+    with child_opener(tmp_path) as children:
         lab = record_again(Failing(rk4, rk4.checks[1], again, []), children, [])
     assert lab.failure is not None and not lab.ended
 
 
-def test_children_that_die_while_recorded_end_the_replays(graded: Result, tmp_path: Path):
+def test_children_that_die_while_recorded_end_the_replays(graded_result: Result, tmp_path: Path):
     """Marks and reasons stay; after a few deaths no more replays are made."""
     opened_children = []
 
@@ -522,29 +522,29 @@ def test_children_that_die_while_recorded_end_the_replays(graded: Result, tmp_pa
 
     maker = Replays(tmp_path / "none", open_child, None)
     calls = {
-        (todo.id, check.id): failing(lambda lab: lab.call("circle_box"))
-        for todo in graded.todos
+        (todo.id, check.id): make_failing(lambda lab: lab.call("circle_box"))
+        for todo in graded_result.todos
         for check in todo.checks
     }
-    result = maker.add_to(graded, calls)
+    result = maker.add_to(graded_result, calls)
     assert len(opened_children) == replays.MAX_DEATHS
     assert not (tmp_path / "none").exists()
-    assert result.points == graded.points
+    assert result.points == graded_result.points
 
 
-def test_old_replays_go_and_links_are_not_followed(graded: Result, tmp_path: Path):
+def test_old_replays_go_and_links_are_not_followed(graded_result: Result, tmp_path: Path):
     folder = tmp_path / "replays"
     folder.mkdir()
-    todo = graded.todos[0]
+    todo = graded_result.todos[0]
     stale = folder / f"{todo.id}-{todo.checks[0].id}.html"
     for path in (stale, stale.with_suffix(".py"), folder / "mine.txt"):
         path.write_text("old", encoding="utf-8")
-    Replays(folder, lambda seconds: None, None).add_to(graded, {})  # type: ignore[arg-type,return-value]
+    Replays(folder, lambda seconds: None, None).add_to(graded_result, {})  # type: ignore[arg-type,return-value]
     assert [each.name for each in folder.iterdir()] == ["mine.txt"]
     link = tmp_path / "link"
     link.symlink_to(folder, target_is_directory=True)
     stale.write_text("old", encoding="utf-8")
-    assert Replays(link, lambda seconds: None, None).add_to(graded, {}) is graded  # type: ignore[arg-type,return-value]
+    assert Replays(link, lambda seconds: None, None).add_to(graded_result, {}) is graded_result  # type: ignore[arg-type,return-value]
     assert stale.exists()
 
 
@@ -777,7 +777,7 @@ def arm_recorder() -> Recorder:
     (todo,) = (todo for todo in load_rubric().todos if todo.id == "2")
     function = todo_2.only_the_part_of_an_arm_across_the_axis_counts
     check = next(each for each in todo.checks if each.id == function.__name__)
-    with opened(KIT / "solution") as children:
+    with child_opener(KIT / "solution") as children:
         recorder = record_again(Failing(todo, check, function, []), children, []).recorder
     assert len(recorder.scenes) > 1
     return recorder

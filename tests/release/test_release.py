@@ -358,7 +358,7 @@ def test_what_students_have_anyway_is_no_leak(secrets: list[Secret]):
         assert not list(find_leaks_in_text(path.name, path.read_text(encoding="utf-8"), secrets))
 
 
-def packed(name: str, text: str | bytes) -> bytes:
+def zip_text(name: str, text: str | bytes) -> bytes:
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w") as archive:
         archive.writestr(name, text)
@@ -371,8 +371,8 @@ FORMS = {
     "hints.toml": f'4 = ["{LINE}"]'.encode(),
     "cells.ipynb": json.dumps({"cells": [{"source": ["x = 1\n", LINE]}]}).encode(),
     "windows.txt": f"one\r\n{LINE}\r\n".encode(),
-    "a.whl": packed("grader/help.py", LINE),
-    "b.zip": packed("in.whl", packed("c.py", LINE)),
+    "a.whl": zip_text("grader/help.py", LINE),
+    "b.zip": zip_text("in.whl", zip_text("c.py", LINE)),
 }
 
 

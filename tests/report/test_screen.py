@@ -30,7 +30,7 @@ def todo(id: str, *checks: CheckResult) -> TodoResult:
     return TodoResult(id, f"Task {id}", state, points, len(checks), None, list(checks))
 
 
-def passed(id: str) -> TodoResult:
+def passed_todo(id: str) -> TodoResult:
     return todo(id, CheckResult("c", "Check", "unit", "passed", 1, 1))
 
 
@@ -51,7 +51,7 @@ def screen(*todos: TodoResult, width: int = 80, touched: set[str] | None = None)
 def test_it_has_sixteen_lines_at_most_and_says_the_cause_in_full(times: int, width: int):
     checks = [failed(n, ran=LONG * times, expected=LONG * times) for n in range(8)]
     checks[3] = failed(3, ran=LONG * times, meaning=f"{HALF}.")
-    todos = [passed("1"), todo("2", *checks), todo("3", failed(9)), fresh("4"), fresh("5")]
+    todos = [passed_todo("1"), todo("2", *checks), todo("3", failed(9)), fresh("4"), fresh("5")]
     lines = screen(*todos, width=width)
     assert len(lines) <= LINES and max(map(len, lines)) <= min(width, 80)
     words = " ".join(" ".join(lines).split())
@@ -86,9 +86,11 @@ def test_a_loop_that_never_ends_is_said_once():
 
 
 def test_what_is_next_where_nothing_fails():
-    result = Result(1, "mine", 0, 0, 0, [], []).with_todos([passed("1"), fresh("2"), fresh("3")])
+    result = Result(1, "mine", 0, 0, 0, [], []).with_todos(
+        [passed_todo("1"), fresh("2"), fresh("3")]
+    )
     assert choose_todo(result) is result.todos[1]
-    assert choose_todo(result.with_todos([passed("1")])) is None
+    assert choose_todo(result.with_todos([passed_todo("1")])) is None
 
 
 @pytest.mark.soak

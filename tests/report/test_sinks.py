@@ -189,7 +189,7 @@ def test_the_word_that_lets_commands_through_again_cannot_be_known(capfd: Any):
 
 def test_the_reporter_adds_up_to_the_points():
     encoded = ci_readers.outputs_in(write_outputs(result(states=EVERY, todos=2)))["result"]
-    results = ci_readers.reported(encoded)
+    results = ci_readers.read_report(encoded)
     assert sum(test["score"] for test in results["tests"]) == 6
     assert results["max_score"] == 30 and results["status"] == "fail"
     statuses = [test["status"] for test in results["tests"][:5]]

@@ -22,14 +22,14 @@ def crowd(count, seed):
     return world, rng
 
 
-def near(a, b):
+def are_near(a, b):
     """Return whether two boxes are within the margin, the low end of one being moved out."""
     sides = ((a.x, a.hx, b.x, b.hx), (a.y, a.hy, b.y, b.hy))
     return all(abs(p - q) < reach + other + MARGIN for p, reach, q, other in sides)
 
 
 def by_looking(world):
-    pairs = [(a, b) for a, b in combinations(world.bodies, 2) if near(a, b)]
+    pairs = [(a, b) for a, b in combinations(world.bodies, 2) if are_near(a, b)]
     return {frozenset((a.id, b.id)) for a, b in pairs if not (a.idle and b.idle)}
 
 

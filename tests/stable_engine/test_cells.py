@@ -88,7 +88,7 @@ class Cells:
         ]
 
 
-def all_stay(seed, steps):
+def do_all_stay(seed, steps):
     cells = Cells(seed)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # warnings of effects that a random scene does not use
@@ -99,13 +99,13 @@ def all_stay(seed, steps):
 
 @pytest.mark.parametrize("seed", [10, 24, 31, 41, 755, 7, 64])  # each lost a ball once
 def test_balls_stay_in_their_cells(seed):
-    all_stay(seed, 100)
+    do_all_stay(seed, 100)
 
 
 @pytest.mark.soak  # three minutes
 def test_balls_stay_in_a_thousand_grids_of_cells():
     for seed in range(1000):
-        all_stay(seed, 240)
+        do_all_stay(seed, 240)
 
 
 @pytest.mark.parametrize("count", [2, 3, 4])

@@ -19,7 +19,7 @@ def world_with(*names, floor=True, **surface):
     return world
 
 
-def named(sentences):
+def read_effects(sentences):
     """Return the effects named in the sentences, and whether each is needed."""
     return {s.partition("()")[0].rpartition(" ")[2]: "calls for" in s for s in sentences}
 
@@ -49,13 +49,13 @@ def named(sentences):
     ],
 )
 def test_what_is_called_for_and_what_is_not_used_is_named(effects, surface, told):
-    assert named(world_with(*effects, **surface).check()) == told
+    assert read_effects(world_with(*effects, **surface).check()) == told
 
 
 def test_friction_and_bounce_without_a_surface_for_them_are_not_used():
     world = world_with("Contacts", "Friction", "Bounce", friction=0, restitution=0)
     world.bodies[0].friction = world.bodies[0].restitution = 0
-    assert named(world.check()) == {"Friction": False, "Bounce": False}
+    assert read_effects(world.check()) == {"Friction": False, "Bounce": False}
 
 
 def test_a_peg_that_something_hangs_on_calls_for_no_contacts():
@@ -120,7 +120,7 @@ def told_by_a_step(world):
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         world.step(DT)
-    return named([str(warning.message) for warning in told])
+    return read_effects([str(warning.message) for warning in told])
 
 
 def test_balls_that_fly_at_each_other_call_for_contacts():
@@ -148,7 +148,7 @@ def test_a_belt_and_a_spinning_ball_call_for_friction(field):
 def test_a_ball_too_fast_for_contacts_calls_for_bullets():
     world = world_with("Contacts")
     world.bodies[1].vel = (1e6, 0)
-    assert named(world.check()) == {"Bullets": True}
+    assert read_effects(world.check()) == {"Bullets": True}
 
 
 def test_what_is_added_or_set_after_the_first_step_is_checked_in_the_next():

@@ -128,10 +128,10 @@ def leaks(scene, steps):
 def test_nobody_escapes_from_a_closed_box(examples):
     @settings(max_examples=examples, **QUIETLY)
     @given(scene=BOXES)
-    def nobody_escapes(scene):
+    def check_boxes(scene):
         assert not leaks(scene, [DT] * 240)
 
-    nobody_escapes()
+    check_boxes()
 
 
 @pytest.mark.soak

@@ -15,20 +15,20 @@ def disc(**options):
     return Body(Circle(10), (3, 4), **{"mass": 1, **options})
 
 
-def refused(field, value):
+def expect_error(field, value):
     """Expect a ValueError whose message begins with the field and the value."""
     return pytest.raises(ValueError, match=rf"^{field} is .*{value}.*, but it must be .+\.$")
 
 
 @pytest.mark.parametrize("dt", [0, -STEP, NAN, INF, -INF])
 def test_a_step_of_no_or_endless_or_backward_time_is_refused(dt):
-    with refused("World.step's dt", dt):
+    with expect_error("World.step's dt", dt):
         World().step(dt)
 
 
 @pytest.mark.parametrize("dt", [0, -STEP, NAN, INF])
 def test_integrators_refuse_the_same_time_steps(dt):
-    with refused("dt", dt):
+    with expect_error("dt", dt):
         integrators.simulate(integrators.explicit_euler, dt, 10)
 
 
@@ -41,7 +41,7 @@ def test_a_step_refuses_a_body_that_is_nowhere(field, value, mass):
     body = world.add(disc(mass=mass))
     owner, _, axis = field.partition(".")
     setattr(getattr(body, owner) if axis else body, axis or owner, value)
-    with refused(f"Body.{field}", value):
+    with expect_error(f"Body.{field}", value):
         world.step(STEP)
 
 
@@ -65,7 +65,7 @@ def test_a_step_refuses_a_body_that_is_nowhere(field, value, mass):
 )
 def test_a_value_that_makes_no_sense_is_refused(field, make, values):
     for value in values:
-        with refused(field, value):
+        with expect_error(field, value):
             make(value)
 
 
@@ -78,19 +78,19 @@ def test_the_ends_of_each_range_are_welcome():
 def test_a_body_can_be_added_only_once():
     world, body = World(), disc()
     world.add(body)
-    with refused("World.add's body", r"\[3, 4\]"):
+    with expect_error("World.add's body", r"\[3, 4\]"):
         world.add(body)
     assert world.bodies == [body]
 
 
 def test_a_rod_from_a_body_to_itself_is_refused():
     body = disc()
-    with refused("DistanceJoint.b", r"the same body as a, at \[3, 4\]"):
+    with expect_error("DistanceJoint.b", r"the same body as a, at \[3, 4\]"):
         DistanceJoint(body, body)
 
 
 def test_a_rod_between_two_static_bodies_is_refused():
-    with refused("DistanceJoint.b", r"static like a, at \[3, 4\]"):
+    with expect_error("DistanceJoint.b", r"static like a, at \[3, 4\]"):
         DistanceJoint(disc(mass=0), disc(mass=0))
 
 

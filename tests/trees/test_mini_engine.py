@@ -429,7 +429,7 @@ def test_closing_the_window_ends_the_program():
     assert len(played["printed"]) == 2
 
 
-def drawn(body):
+def draw_body(body):
     """Draw a body on an empty surface."""
     window = Window()
     window.screen = pygame.Surface((60, 60))
@@ -441,7 +441,7 @@ def test_the_spoke_turns_with_the_ball():
     one = disc(30, 30, radius=20)
     right, below = [], []
     for one.angle in (0, math.pi / 2):
-        screen = drawn(one)
+        screen = draw_body(one)
         right.append(screen.get_at((40, 30))[:3])
         below.append(screen.get_at((30, 40))[:3])
     assert right == [BACKGROUND, one.color]
@@ -450,4 +450,4 @@ def test_the_spoke_turns_with_the_ball():
 
 def test_static_circles_have_no_spoke():
     peg = Body(Circle(20), (30, 30))
-    assert drawn(peg).get_at((40, 30))[:3] == peg.color
+    assert draw_body(peg).get_at((40, 30))[:3] == peg.color

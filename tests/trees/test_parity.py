@@ -22,7 +22,7 @@ IN_BOTH = [name for name in list_given_files(SOLUTION) if not is_laid_in(name)]
 TREES = pytest.mark.parametrize("tree", [SOLUTION, STARTER], ids=["solution", "starter"])
 
 
-def emptied(path: Path) -> bytes:
+def empty_regions(path: Path) -> bytes:
     """Return a file without the lines of its regions."""
     content = path.read_bytes()
     if path.suffix != ".py":
@@ -48,7 +48,9 @@ def test_students_get_all_the_files_of_the_solution_and_no_region_of_it():
     assert sorted(files) == list_given_files(SOLUTION)
     for name, path in files.items():
         assert path == (SOLUTION if is_laid_in(name) else STARTER) / name
-        assert not is_laid_in(name) or path.read_bytes() == emptied(path), "a TODO to be handed out"
+        assert not is_laid_in(name) or path.read_bytes() == empty_regions(path), (
+            "a TODO to be handed out"
+        )
 
 
 @TREES

@@ -8,7 +8,7 @@ import re
 
 import probes
 import pytest
-from mixed_trees import mixed
+from mixed_trees import mix_trees
 from programs import INTEGRATORS, MINI, PYMUNK, SOLUTION, STARTER, TODOS, probe, run_in
 from test_integrators import TABLE
 
@@ -22,7 +22,7 @@ CLICKS = [[4 * i, "MOUSEBUTTONDOWN", {"pos": [30 * i + 15, 50], "button": 1}] fo
 @pytest.fixture
 def without(tmp_path):
     """Make the solution with one TODO undone."""
-    return lambda todo: mixed(tmp_path / "tree", "solution", "starter", [todo])
+    return lambda todo: mix_trees(tmp_path / "tree", "solution", "starter", [todo])
 
 
 # ---------------------------------------------------------------- it runs
@@ -49,7 +49,7 @@ def test_it_runs_on_with_many_balls(loop):
     [todo if todo in ("4", "7b") else pytest.param(todo, marks=SOAK) for todo in TODOS],
 )
 def test_it_runs_with_one_todo_finished(todo, tmp_path):
-    tree = mixed(tmp_path / "tree", "starter", "solution", [todo])
+    tree = mix_trees(tmp_path / "tree", "starter", "solution", [todo])
     if todo.startswith("8"):
         assert run_in(tree, *INTEGRATORS).count("\n") == 5
     else:

@@ -231,12 +231,12 @@ def test_nothing_is_carried_to_the_next_child(name: str, sandbox: Sandbox, world
             ask(first, "leave", name, work)
     else:
         ask(first, "leave", name, work)
-    assert found(sandbox, name) is False
+    assert is_found(sandbox, name) is False
     first.end()
-    assert found(sandbox, name) is False
+    assert is_found(sandbox, name) is False
 
 
-def found(sandbox: Sandbox, name: str) -> bool:
+def is_found(sandbox: Sandbox, name: str) -> bool:
     """Return whether a new child finds the word."""
     child = sandbox.open_child(10)
     try:

@@ -68,14 +68,14 @@ def test_without_isolation_all_of_the_judge_is_loaded_before_a_submission_runs()
 posix = pytest.mark.skipif(os.name == "nt", reason="the script needs a shell")
 
 
-def copied() -> list[str]:
+def list_copied() -> list[str]:
     return re.findall(r"^COPY (\S+) ", INSTRUCTIONS, re.MULTILINE)
 
 
 def test_what_is_copied_is_not_ignored():
     kept = re.findall(r"^!(\S+)$", (KIT / ".dockerignore").read_text(), re.MULTILINE)
-    assert sorted(kept) == sorted(copied())
-    assert all((KIT / name).exists() for name in copied())
+    assert sorted(kept) == sorted(list_copied())
+    assert all((KIT / name).exists() for name in list_copied())
 
 
 class EngineCall:
@@ -129,7 +129,7 @@ def test_what_is_copied_grades_a_class_and_writes_nowhere_else(tmp_path: Path):
     """Run the entry point on the container's files, in another folder."""
     kit = tmp_path / "kit"
     kit.mkdir()
-    for name in copied():
+    for name in list_copied():
         copy = shutil.copytree if (KIT / name).is_dir() else shutil.copyfile
         copy(KIT / name, kit / name)
     ann = tmp_path / "submissions" / "ann"

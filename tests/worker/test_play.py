@@ -7,7 +7,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from one_worker import opened
+from one_worker import child_opener
 
 from grader.bank.members import lay_over
 from grader.checks.pacing import STEP_TAKES, frames_at, pace
@@ -30,7 +30,7 @@ def lab_of(tmp_path: Path):
                 path = folder / name
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_text(each, encoding="utf-8")
-            children = stack.enter_context(opened(folder))
+            children = stack.enter_context(child_opener(folder))
             return stack.enter_context(Lab(module, lambda: children(5), []).opened())
 
         yield make
@@ -58,7 +58,7 @@ def main():
 """
 
 
-def started(lab: Lab) -> list[str]:
+def list_starts(lab: Lab) -> list[str]:
     return [line for line in lab.play([17] * 4).lines if line.startswith("this is")]
 
 
@@ -80,7 +80,7 @@ def started(lab: Lab) -> list[str]:
     }.items(),
 )
 def test_a_file_runs_what_asks_for_its_name(lines: str, name: str, lab_of: LabOf):
-    assert started(lab_of(PROGRAM + lines)) == [f"this is {name} in mini_engine"]
+    assert list_starts(lab_of(PROGRAM + lines)) == [f"this is {name} in mini_engine"]
 
 
 @pytest.mark.parametrize(
@@ -93,12 +93,12 @@ def test_a_file_runs_what_asks_for_its_name(lines: str, name: str, lab_of: LabOf
 )
 def test_a_package_runs_its_dunder_main(lines: str, name: str, lab_of: LabOf):
     files = {"mini_engine/__init__.py": PROGRAM, "mini_engine/__main__.py": lines}
-    assert started(lab_of("", **files)) == [f"this is {name} in mini_engine"]
+    assert list_starts(lab_of("", **files)) == [f"this is {name} in mini_engine"]
 
 
 def test_a_program_without_main_is_named(lab_of: LabOf):
     with pytest.raises(Exception, match="there is no main in mini_engine"):
-        started(lab_of(PROGRAM.replace("def main", "def start")))
+        list_starts(lab_of(PROGRAM.replace("def main", "def start")))
 
 
 # ---------------------------------------------------------------- the window
@@ -165,7 +165,10 @@ def lesson_with(folder: Path, changes: dict[str, str]) -> Path:
 
 def play(folder: Path, changes: dict[str, str], events: list[Event]) -> Played:
     lesson_with(folder, changes)
-    with opened(folder) as children, Lab("mini_engine", lambda: children(5), []).opened() as lab:
+    with (
+        child_opener(folder) as children,
+        Lab("mini_engine", lambda: children(5), []).opened() as lab,
+    ):
         return lab.play([17] * 60, events, physics=False, trail_every=1)
 
 
@@ -190,7 +193,7 @@ def test_a_loop_that_stops_when_steps_are_slow_is_behind(tmp_path: Path):
         "        while accumulator >= STEP:\n": SHORT_OF_TIME,
     }
     frames = frames_at(60, 1.0)
-    with opened(lesson_with(tmp_path / "short", changes)) as children:
+    with child_opener(lesson_with(tmp_path / "short", changes)) as children:
         for takes, share in ((0.0, 1.0), (STEP_TAKES, 0.5)):
             with Lab("mini_engine", lambda: children(5), []).opened() as lab:
                 steps = sum(pace(lab, frames, takes).steps)

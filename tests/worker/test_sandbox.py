@@ -62,15 +62,15 @@ def test_an_unchanged_folder_is_read_only_and_all_else_is_the_childs_own(trees, 
             options = Options(reference=reference, trusted=True)
             child = sandbox_for(taken, work, worker, options).open_child(5)
 
-            def asked(target: str, *args: str) -> object:
+            def ask(target: str, *args: str) -> object:
                 return child.ask(Call(f"mini_engine:{target}", list(args))).reply
 
             assert isinstance(child.ask(Import("mini_engine", [])).reply, Returned)
-            told = asked("told")
+            told = ask("told")
             assert isinstance(told, Returned) and told.value == Items([3.5, 0.0, 0.0, 1.0])
-            assert isinstance(asked("write_into", "results"), Returned)
-            assert isinstance(asked("write_into", "experiments"), Returned)
-            assert isinstance(asked("write_into", "stable_engine"), Raised)
+            assert isinstance(ask("write_into", "results"), Returned)
+            assert isinstance(ask("write_into", "experiments"), Returned)
+            assert isinstance(ask("write_into", "stable_engine"), Raised)
             child.end()
         assert not list(submission.rglob("log.txt"))
     finally:

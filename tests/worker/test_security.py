@@ -178,7 +178,7 @@ def probe(tmp_path: Path, layer: str, workers: dict[frozenset[str], Worker]) -> 
         child.end()
 
 
-def refused(reply: object, *errors: str) -> bool:
+def is_refused(reply: object, *errors: str) -> bool:
     return isinstance(reply, Raised) and reply.error in errors
 
 
@@ -275,14 +275,14 @@ def test_no_abstract_socket_of_the_machine_is_there(probe: Prober):
     with socket.socket(socket.AF_UNIX) as server:
         server.bind("\0" + name)
         server.listen()
-        assert refused(probe("abstract", name), "ConnectionRefusedError", "PermissionError")
+        assert is_refused(probe("abstract", name), "ConnectionRefusedError", "PermissionError")
 
 
 @needs("mount-namespace")
 def test_the_scratch_folder_is_small_and_ends_with_the_child(probe: Prober):
     limits = Limits(cpu_seconds=10)
-    assert refused(probe("fill", limits.scratch_mb + 1), "OSError")
-    assert refused(probe("many", limits.scratch_files + 1), "OSError")
+    assert is_refused(probe("fill", limits.scratch_mb + 1), "OSError")
+    assert is_refused(probe("many", limits.scratch_files + 1), "OSError")
     assert probe("fill", limits.scratch_mb // 2) is True
     assert list(Path(probe.setup.scratch).iterdir()) == []
 
@@ -300,11 +300,11 @@ def test_what_lies_outside_has_no_name(probe: Prober, tmp_path: Path):
         server.bind(path := f"/tmp/own-root-{os.getpid()}")
         try:
             server.listen()
-            assert refused(probe("connect", path), "FileNotFoundError")
+            assert is_refused(probe("connect", path), "FileNotFoundError")
         finally:
             os.unlink(path)
     for name in ("look", "change_mode", "change_times", "change_attribute"):
-        assert refused(probe(name, str(other)), "FileNotFoundError")
+        assert is_refused(probe(name, str(other)), "FileNotFoundError")
     after = other.stat()
     assert (after.st_mode, after.st_ctime_ns) == (before.st_mode, before.st_ctime_ns)
     names = str(probe("in_root"))
@@ -318,8 +318,8 @@ def test_what_lies_inside_stays_as_it_is(probe: Prober):
     library, before = str(probe("a_library")), Path(os.__file__).stat()
     assert library == os.__file__
     for name in ("change_mode", "change_times", "change_attribute"):
-        assert refused(probe(name, library), "OSError", "PermissionError")
-    assert refused(probe("fill_at", "/new"), "OSError", "PermissionError")
+        assert is_refused(probe(name, library), "OSError", "PermissionError")
+    assert is_refused(probe("fill_at", "/new"), "OSError", "PermissionError")
     assert probe("mount_anew") == -1
     after = Path(os.__file__).stat()
     assert (after.st_mode, after.st_mtime_ns, after.st_ctime_ns) == (
@@ -352,7 +352,7 @@ def test_a_kit_among_the_packages_is_left_out_however_deep(tmp_path: Path):
 )
 def test_neither_the_machine_nor_the_kit_can_be_read(probe: Prober, path: str):
     asked = probe("visible" if Path(path).is_dir() else "read", path)
-    assert asked is False or refused(asked, "PermissionError", "FileNotFoundError")
+    assert asked is False or is_refused(asked, "PermissionError", "FileNotFoundError")
 
 
 @pytest.mark.parametrize(
@@ -371,7 +371,7 @@ def test_a_layer_alone_refuses(
     other.parent.mkdir()
     other.write_text("x = 1\n", encoding="utf-8")
     name, *args = (str(other) if each == "OTHER" else each for each in asked)
-    assert refused(probe(name, *args), *errors)
+    assert is_refused(probe(name, *args), *errors)
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ INTEGRATORS = read_source(KIT / "solution" / "integrators.py")
 PROGRAM = read_source(KIT / "solution" / "pymunk_scene.py")
 
 
-def graded(folder: Path, todo: str = "8a") -> Result:
+def grade_folder(folder: Path, todo: str = "8a") -> Result:
     options = Options(shipped_reference(), only=frozenset({todo}))
     return grade(folder, options, shared_worker())
 
@@ -56,21 +56,21 @@ import threading, multiprocessing, sqlite3, decimal
 
 def test_habits_of_students_cost_nothing(hand_in: HandIn):
     files = {"settings.json": '{"dt": 1}', "lib__own_py": "x = 1\n"}
-    result = graded(hand_in(integrators_py=f"{HABITS}\n{INTEGRATORS}", **files))
+    result = grade_folder(hand_in(integrators_py=f"{HABITS}\n{INTEGRATORS}", **files))
     assert result.points == result.max_points, checks(result)[0].got
 
 
 @pytest.mark.parametrize("library", ["scipy", "grader.checks.exact"])
 def test_any_other_import_in_a_todo_meets_the_rule(library: str, hand_in: HandIn):
     program = re.sub("(# TODO 8a.*\n)", rf"\1    import {library}\n", INTEGRATORS)
-    result = graded(hand_in(integrators_py=program))
+    result = grade_folder(hand_in(integrators_py=program))
     assert result.points == 0 and RULE in checks(result)[0].got
 
 
 @pytest.mark.parametrize("library", ["scipy", "grader.checks.exact"])
 def test_an_import_in_given_code_is_put_back(library: str, hand_in: HandIn):
     """The import is in given code, so the TODO keeps its points."""
-    result = graded(hand_in(integrators_py=f"import {library}\n{INTEGRATORS}"))
+    result = grade_folder(hand_in(integrators_py=f"import {library}\n{INTEGRATORS}"))
     check = checks(result)[0]
     assert f"`import {library}`, was not there" in check.meaning
     assert result.points == result.max_points
@@ -79,7 +79,7 @@ def test_an_import_in_given_code_is_put_back(library: str, hand_in: HandIn):
 
 def test_a_forbidden_import_costs_what_needs_it_and_no_more(hand_in: HandIn):
     program = PROGRAM.replace("def draw(", "import scipy\n\n\ndef draw(", 1)
-    result = graded(hand_in("solution", pymunk_scene_py=program), "8a")
+    result = grade_folder(hand_in("solution", pymunk_scene_py=program), "8a")
     assert result.points == result.max_points
 
 
@@ -93,7 +93,7 @@ def test_what_a_check_leaves_in_the_folder_is_gone_for_the_next(hand_in: HandIn)
         "import pathlib\nnote = pathlib.Path(__file__).with_name('note')\n"
         "assert not note.exists()\nnote.write_text('here')\n"
     )
-    result = graded(hand_in(integrators_py=habit + INTEGRATORS))
+    result = grade_folder(hand_in(integrators_py=habit + INTEGRATORS))
     assert result.points == result.max_points
 
 

@@ -47,7 +47,7 @@ def tab() -> Iterator[InlineWorker]:
     signal.signal(signal.SIGPROF, before)
 
 
-def graded(folder: Path, worker: InlineWorker, *todos: str) -> Result:
+def grade_tab(folder: Path, worker: InlineWorker, *todos: str) -> Result:
     return grade(folder, Options(only=frozenset(todos), trusted=True), worker)
 
 
@@ -101,7 +101,7 @@ def test_a_sample_of_the_bank_gets_the_same(tab: InlineWorker, tmp_path: Path):
 def test_an_endless_loop_ends(tab: InlineWorker, hand_in: HandIn):
     tab.connect = lambda setup: TabChannel(setup, watch, PACE)
     loop = "\n\ndef semi_implicit_euler(x, v, dt, accel):\n    while True:\n        pass\n"
-    result = graded(hand_in(integrators_py=INTEGRATORS + loop), tab, "8a")
+    result = grade_tab(hand_in(integrators_py=INTEGRATORS + loop), tab, "8a")
     assert "a loop that never ends?" in checks(result)[0].got
 
 
@@ -144,9 +144,9 @@ def test_nothing_that_a_submission_changes_stays(tab: InlineWorker, hand_in: Han
         own = [sys.argv[:], sys.path[:], sys.getrecursionlimit(), os.getcwd(), sys.stdout]
         return [*own, math.sqrt, pygame.Vector2, set(sys.modules), vars(pygame).keys() - set()]
 
-    graded(KIT / "starter", tab, "8a")  # loads what checks need
+    grade_tab(KIT / "starter", tab, "8a")  # loads what checks need
     before = state()
-    result = graded(hand_in(integrators_py=CHANGES + INTEGRATORS), tab, "8a")
+    result = grade_tab(hand_in(integrators_py=CHANGES + INTEGRATORS), tab, "8a")
     assert result.points == result.max_points, checks(result)[0].got
     assert state() == before
 

@@ -105,7 +105,7 @@ def notebook(cells: list[dict[str, Any]]) -> str:
 # ---------------------------------------------------------------- nbgrader
 
 
-def marked(name: str, **of: Any) -> dict[str, Any]:
+def make_metadata(name: str, **of: Any) -> dict[str, Any]:
     """Return the metadata by which nbgrader knows a cell."""
     usual = {"grade": False, "locked": False, "solution": False, "task": False}
     return {"nbgrader": usual | {"schema_version": 3, "grade_id": name} | of}
@@ -115,11 +115,13 @@ def prepare_nbgrader(folder: Path, handed_in: Class) -> list[str]:
     (folder / "nbgrader_config.py").write_text(
         f"c = get_config()\nc.CourseDirectory.root = {str(folder)!r}\n", encoding="utf-8"
     )
-    cells = [code_cell(0, "### BEGIN SOLUTION\n### END SOLUTION", **marked("work", solution=True))]
+    cells = [
+        code_cell(0, "### BEGIN SOLUTION\n### END SOLUTION", **make_metadata("work", solution=True))
+    ]
     for number, asked in enumerate(ASKED, 1):
         text = asked if number > 1 else f"{CHECKS}\n{asked}"
         hidden = f"# A test\n### BEGIN HIDDEN TESTS\n{text}\n### END HIDDEN TESTS"
-        about = marked(f"test-{number}", grade=True, locked=True, points=1)
+        about = make_metadata(f"test-{number}", grade=True, locked=True, points=1)
         cells.append(code_cell(number, hidden, **about))
     (folder / "source" / "ps1").mkdir(parents=True)
     (folder / "source" / "ps1" / "ps1.ipynb").write_text(notebook(cells), encoding="utf-8")
