@@ -25,7 +25,7 @@ from grader.checks.strategies import (
 from grader.judge.drawing import given
 from grader.judge.lab import STEP, Lab
 
-NO_CAP = "A slow frame is simulated in full: one frame may add MAX_STEPS * STEP at the most."
+NO_CAP = "A slow frame is simulated in full: one frame may add at most MAX_STEPS * STEP."
 OTHER_STEPS = "Steps are not STEP long: call step(STEP), however long the frame is."
 EARLY = (
     "More is simulated than has passed: a step runs only while the accumulator holds a whole STEP."
@@ -76,7 +76,7 @@ def explain_too_much(paces: dict[int, Pace]) -> str:
         return ""
     if shares[30] > 1.05 * shares[144]:
         return (
-            "The longer a frame, the more is simulated in it: a step is STEP long whatever the "
+            "The longer a frame, the more is simulated in it: a step is STEP long for any "
             "frame, as many run as the accumulator holds, and each takes one STEP out of it."
         )
     return (
@@ -207,7 +207,7 @@ def any_frames_lose_nothing_but_what_the_cap_cuts(
     lab.want(
         max(paced.steps) <= MAX_STEPS
         and -STEP_MS - paced.waiting <= cut - paced.done <= (1 + slow) * STEP_MS + paced.slack,
-        f"{cut / STEP_MS:.0f} steps or up to {1 + slow} less, and {MAX_STEPS} a frame at the most",
+        f"{cut / STEP_MS:.0f} steps or up to {1 + slow} less, and at most {MAX_STEPS} a frame",
         f"{sum(paced.steps)} steps, and up to {max(paced.steps)} a frame",
     )
     want_fixed_steps(lab, paced.sizes)

@@ -64,8 +64,7 @@ for about, known in KNOWN.items():
     known(
         "the-spring-itself",
         lambda x, v, dt, force, about=about: right_models[about](x, v, dt, SPRING),
-        meaning="The acceleration of the lesson's spring is used, whatever force is asked about: "
-        "accel(x).",
+        meaning="The acceleration of the lesson's spring is used for every force: call accel(x).",
     )
 
 
@@ -380,12 +379,12 @@ for about, known in KNOWN.items():
     known(
         "x-is-not-moved",
         lambda x, v, dt, force, about=about: (x, right_models[about](x, v, dt, force)[1]),
-        meaning="x comes back as it was: it must move.",
+        meaning="x is returned unchanged: it must move.",
     )
     known(
         "v-is-not-changed",
         lambda x, v, dt, force, about=about: (right_models[about](x, v, dt, force)[0], v),
-        meaning="v comes back as it was: the acceleration must change it.",
+        meaning="v is returned unchanged: the acceleration must change it.",
     )
 
 

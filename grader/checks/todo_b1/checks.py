@@ -163,7 +163,7 @@ def the_lab_scene_falls_asleep(lab: Lab) -> None:
 
 
 def nothing_sleeps_that_moves_flies_or_hangs(lab: Lab) -> None:
-    """A body that rolls, spins, flies or is held stays awake, and each push restarts the time"""
+    """Bodies that roll, spin, fly or are held stay awake; a push restarts the time"""
     nothing_sleeps_that_moves_or_flies(lab)
     nothing_sleeps_that_is_held(lab)
     time_at_rest_begins_anew(lab)
