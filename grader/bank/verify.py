@@ -106,9 +106,9 @@ class Report:
         wrong = sum(each.complaint.startswith("says ") for each in self.halfway)
         helped = sum(not each.complaint for each in self.halfway)
         if wrong:
-            return f"{wrong} are told something wrong"
+            return f"{wrong} get a wrong message"
         if helped < MIN_HELPED * len(self.halfway):
-            return f"only {helped} of {len(self.halfway)} are told what is wrong"
+            return f"only {helped} of {len(self.halfway)} get a helpful message"
         return ""
 
 
@@ -374,7 +374,7 @@ def summarize(report: Report) -> Iterator[str]:
         helped = sum(not state.complaint for state in report.halfway)
         again = sum(state.earlier for state in report.halfway)
         yield (
-            f"half-way states: {len(report.halfway)}, told what is wrong: {helped}; "
+            f"half-way states: {len(report.halfway)}, with a helpful message: {helped}; "
             f"{again} taken from an earlier run"
         )
     if report.halfway_complaint:

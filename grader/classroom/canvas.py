@@ -353,6 +353,6 @@ def explain(done: str) -> Iterator[None]:
 def find_reason(error: BaseException) -> str:
     """Return the reason of a failed request; its own words could hold the token."""
     if is_throttled(error):
-        return "it takes no more requests for now (rate limit): wait some minutes"
+        return "it accepts no more requests for now (rate limit): wait some minutes"
     known = (words for kind, words in REASONS.items() if isinstance(error, kind))
     return next(known, f"{error!s:.200}")

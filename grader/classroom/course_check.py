@@ -76,7 +76,7 @@ def check_roster(roster: Roster, key: str) -> Iterator[str]:
     nameless = sum(not row[key].strip() for row in roster.rows)
     if nameless:
         have = f"{plural(nameless, 'row')} {'has' if nameless == 1 else 'have'}"
-        yield f"{roster.path}: {have} no {key!r}: nobody's work will be theirs"
+        yield f"{roster.path}: {have} no {key!r}: no work will match them"
     for value, count in Counter(fold(row[key]) for row in roster.rows).items():
         if value and count > 1:
             yield f"{roster.path}: {value!r} is listed {count} times under {key!r}"

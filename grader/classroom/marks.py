@@ -188,8 +188,8 @@ def make_marks(roster: Roster, key: str, scores: Scores) -> Marks:
         made.notes.append(f"{student}: handed in, but is not in the class list under {key!r}")
     if made.unowned:
         made.notes.append(
-            f"{list_names(made.unowned)}: no mark, as that may be their work: say whose it is in "
-            "a column Called, or with --others-known that it is nobody's here"
+            f"{list_names(made.unowned)}: no mark, since work without an owner may be theirs: name "
+            "its owner in a column Called, or use --others-known if no student here owns it"
         )
     lms = find_system(roster)
     if scores.of_sheets:

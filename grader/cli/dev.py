@@ -44,7 +44,7 @@ def sync_command(
     named = {todo.id for todo in read_course().rubric.todos}
     left = [todo.id for todo in load_rubric().todos if todo.id not in named]
     if left and not check:
-        console.print(f"course.toml does not name TODO {', '.join(left)}: nobody is asked for it")
+        console.print(f"course.toml does not name TODO {', '.join(left)}: no student has to do it")
     raise typer.Exit(1 if check and lines else 0)
 
 

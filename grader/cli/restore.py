@@ -55,12 +55,12 @@ def restore(tree: Path, name: str) -> list[str]:
     """
     texts = make_texts(tree, name)
     if not texts:
-        return [f"{name} is unchanged: there is nothing to put back."]
+        return [f"{name} is unchanged: there is nothing to restore."]
     for file, text in texts.items():  # write both files or none
         if flaw := find_flaw(text):
             raise Stop(
                 f"{file} would be no Python with that (line {flaw.line}: {flaw.message}): correct "
-                f"it, or put back all of its given code with --restore {file}"
+                f"it, or restore all of its given code with --restore {file}"
             )
     return [write_text(tree, name, file, text) for file, text in texts.items()]
 

@@ -47,7 +47,7 @@ def check_command(
     status: Annotated[bool, typer.Option(hidden=True)] = True,
     undo: Annotated[
         list[str] | None,
-        typer.Option("--restore", metavar="NAME", help="Put back given code, by its name."),
+        typer.Option("--restore", metavar="NAME", help="Restore given code, by its name."),
     ] = None,
     course: CourseFile = None,
 ) -> None:

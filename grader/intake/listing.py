@@ -106,7 +106,7 @@ def list_uploads(paths: list[Path], people: ClassList, intake: Intake) -> Iterat
     for path in paths:
         upload = None if path.is_symlink() else read_upload(path, people, systems)
         if any(each.is_trial(path) for each in systems):
-            intake.notes.append(f"{path.name} is left out: the teacher's own trial")
+            intake.notes.append(f"{path.name} was skipped: a test submission of the teacher")
         elif upload is None:
             mention_file(path, intake, people)
         elif upload.empty:

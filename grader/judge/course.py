@@ -356,7 +356,7 @@ def faults_between(course: Course) -> Iterator[str]:
     if course.todos is not None:
         asked = [todo for todo in load_rubric().todos if todo.id in course.todos]
         if not any(todo.function and not todo.bonus for todo in asked):
-            yield "todos: nobody could earn a point without a bonus: add one of TODO 1 to 8c"
+            yield "todos: there are no points without a bonus: add one of TODO 1 to 8c"
         whole = next(
             (todo for todo in choose_todos(course.todos, ()).todos if not todo.function), None
         )

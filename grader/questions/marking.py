@@ -173,7 +173,7 @@ def mark_question(student: str, number: int, question: Question, given: GivenAns
 def mark_by_hand(question: Question, given: GivenAnswer) -> tuple[int | None, str]:
     if given.by_hand.isdecimal() and int(given.by_hand) <= question.points:
         return int(given.by_hand), ""
-    return None, f"waits for a person: 0 to {question.points} in the column {BY_HAND}"
+    return None, f"needs manual marking: 0 to {question.points} in the column {BY_HAND}"
 
 
 def mark_answer(question: Question, given: GivenAnswer) -> tuple[int | None, str]:

@@ -128,7 +128,7 @@ def add_tab(out: Path, course: Course = FULL, cffi: Path | None = None) -> list[
         fetch_parts(CACHE)
     except Stop as error:
         why = str(error).partition("\n")[0].rstrip(":")
-        return [f"left out the page for a browser: {why}"]
+        return [f"skipped the page for a browser: {why}"]
     return [f"made {path}" for path in make_tab(out, course, cffi)]
 
 

@@ -168,7 +168,7 @@ def compare_whole_file(file: str, text: str, given: str) -> Iterator[GivenChange
 def restore_piece(
     name: str, file: str, body: list[ast.stmt], piece: Piece, wanted: tuple[str, ...], count: int
 ) -> GivenChange:
-    """Return a missing piece, to be put back after the imports, its class, or the whole file."""
+    """Return a missing piece, to be restored after the imports, its class, or the whole file."""
     place = end_of_imports(body) if piece.constant else end_of(body, piece.owner, count)
     gap = () if piece.constant else ("",) if piece.owner else ("", "")
     return GivenChange(name, file, place + 1, "", first_code(wanted), place, place, (*gap, *wanted))

@@ -17,7 +17,7 @@ RULE = (
     "a submission may import the standard library, "
     f"{', '.join(LIBRARIES.values())} and its own files"
 )
-IN_C = "it works in machine code, and nobody could count what that does"  # of a banned module
+IN_C = "it works in machine code, whose work cannot be counted"  # of a banned module
 
 
 ALLOWED = frozenset({"__main__", *sys.stdlib_module_names, *LIBRARIES, *NEEDED_BY_THEM})

@@ -38,7 +38,7 @@ def server() -> Iterator[Canvas]:
 
 
 @pytest.fixture(scope="module")
-def graded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def graded_class(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Make a graded class: dora handed in nothing, and eve's work needs review."""
     rows = [f'"{name.title()}, A",{n},{name},' for n, name in enumerate(STUDENTS, 1)]
     lines = ["Student,ID,SIS Login ID,Section", "    Points Possible,,,", *rows, ""]
@@ -56,12 +56,14 @@ def graded(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def lab(graded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, server: Canvas) -> Path:
+def lab(
+    graded_class: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, server: Canvas
+) -> Path:
     """Copy the class, whose marks Canvas does not have yet."""
     monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
     monkeypatch.setattr(canvas.time, "sleep", lambda seconds: None)
     monkeypatch.setenv("CANVAS_TOKEN", TOKEN)
-    lab = shutil.copytree(graded, tmp_path / "lab")
+    lab = shutil.copytree(graded_class, tmp_path / "lab")
     said, _ = upload(lab, "--to", f"{server.base}/courses/7/assignments/9?module_item_id=3")
     assert "4 to send, 0 unchanged, 2 left out" in said
     return lab
@@ -166,7 +168,7 @@ def test_a_throttled_request_is_made_again_but_not_for_ever(
     assert "4 sent" in upload(lab, "--send")[0] and server.graded == [1, 2, 3, 4]
     server.troubles = [("GET", trouble)] * 5
     said, code = upload(lab, "--send")
-    assert "it takes no more requests for now (rate limit)" in said and code == 2
+    assert "it accepts no more requests for now (rate limit)" in said and code == 2
 
 
 @pytest.mark.parametrize(

@@ -64,7 +64,7 @@ def handed_in(classroom: Path, content: bytes) -> Work:
     return Work("ann", (classroom / "ann.zip",))
 
 
-def refused(classroom: Path, content: bytes) -> str:
+def refuse(classroom: Path, content: bytes) -> str:
     with pytest.raises(CannotTake) as caught:
         read_package(handed_in(classroom, content))
     assert {path.name for path in classroom.parent.iterdir()} == {"class"}, "written outside"
@@ -335,10 +335,10 @@ UNPORTABLE = ["aux.py", "a/com1.zip", "what?.py", "lab: last/more.py", "x" * 200
 
 def test_names_that_not_every_system_takes_are_refused_or_left_out(classroom):
     for name in OUTSIDE:
-        assert "outside" in refused(classroom, zipped(PROGRAM | {name: "x"})), name
+        assert "outside" in refuse(classroom, zipped(PROGRAM | {name: "x"})), name
     for name in UNPORTABLE:
-        assert "not for every system" in refused(classroom, zipped(PROGRAM | {name: "x"})), name
-    assert "case alone" in refused(classroom, zipped(PROGRAM | {"Integrators.py": "x"}))
+        assert "not for every system" in refuse(classroom, zipped(PROGRAM | {name: "x"})), name
+    assert "case alone" in refuse(classroom, zipped(PROGRAM | {"Integrators.py": "x"}))
     for name in ("a/com1.txt", 'the "floor".png', "at 10:30.png", "note: b.md"):
         package = read_package(handed_in(classroom, zipped(PROGRAM | {name: "x"})))
         assert [file for file, _ in package.files] == sorted(PROGRAM)
@@ -347,17 +347,17 @@ def test_names_that_not_every_system_takes_are_refused_or_left_out(classroom):
 
 def test_broken_encrypted_and_unusual_zips_are_refused(classroom):
     good = zipped(PROGRAM)
-    assert "broken" in refused(classroom, b"")
-    assert "broken" in refused(classroom, b"Rar!" + bytes(100))
-    assert "broken" in refused(classroom, good[:-30])
+    assert "broken" in refuse(classroom, b"")
+    assert "broken" in refuse(classroom, b"Rar!" + bytes(100))
+    assert "broken" in refuse(classroom, good[:-30])
     stored = zipped(PROGRAM, zipfile.ZIP_STORED)
-    assert "broken" in refused(classroom, stored.replace(b"x = 1", b"x = 2"))
+    assert "broken" in refuse(classroom, stored.replace(b"x = 1", b"x = 2"))
     central = good.rindex(b"PK\x01\x02")
     locked = bytearray(good)
     locked[central + 8] |= 1
-    assert "encrypted" in refused(classroom, bytes(locked))
-    assert "unusual" in refused(classroom, zipped(PROGRAM, zipfile.ZIP_BZIP2))
-    assert "unusual" in refused(classroom, zipped(PROGRAM, zipfile.ZIP_LZMA))
+    assert "encrypted" in refuse(classroom, bytes(locked))
+    assert "unusual" in refuse(classroom, zipped(PROGRAM, zipfile.ZIP_BZIP2))
+    assert "unusual" in refuse(classroom, zipped(PROGRAM, zipfile.ZIP_LZMA))
 
 
 @pytest.mark.parametrize("hidden", [b"", b"PK\x05\x06", b"PK\x06\x07"])
@@ -368,7 +368,7 @@ def test_a_zip_that_lists_too_many_files_is_not_even_listed(classroom, monkeypat
     if hidden:
         content[-2:] = (40).to_bytes(2, "little")
         hidden += bytes(36)
-    assert "too many" in refused(classroom, bytes(content + hidden))
+    assert "too many" in refuse(classroom, bytes(content + hidden))
 
 
 def test_a_short_list_is_read_where_another_end_is_hidden_in_it(classroom):
@@ -403,7 +403,7 @@ def test_bombs_give_the_program_and_no_more_than_the_bounds(classroom, monkeypat
         assert sum(len(content) for _, content in package.files) <= MAX_BYTES
         assert package.notes
     monkeypatch.setattr(archives, "MAX_ZIP", 10)
-    assert "MB" in refused(classroom, zipped(PROGRAM))
+    assert "MB" in refuse(classroom, zipped(PROGRAM))
 
 
 def test_more_files_than_may_be_are_left_out_and_named(classroom):
@@ -420,7 +420,7 @@ def test_a_size_that_lies_gives_no_more_than_it_says(classroom):
     at = content.rindex(b"PK\x01\x02") + 24
     assert int.from_bytes(content[at : at + 4], "little") == 100_000
     content[at : at + 4] = (10).to_bytes(4, "little")
-    assert "broken" in refused(classroom, bytes(content))
+    assert "broken" in refuse(classroom, bytes(content))
 
 
 def test_links_environments_and_system_files_in_a_zip_are_left_out(classroom):
@@ -452,7 +452,7 @@ def test_names_are_read_in_utf_8_and_in_the_old_dos_letters(classroom):
 
 
 def test_a_file_that_is_also_a_folder_is_refused(classroom):
-    words = refused(classroom, zipped(PROGRAM | {"a.py": "", "a.py/b.py": ""}))
+    words = refuse(classroom, zipped(PROGRAM | {"a.py": "", "a.py/b.py": ""}))
     assert "broken" in words and "/" not in words  # no path of this machine
 
 
@@ -496,7 +496,7 @@ def test_folders_in_each_other_without_end_are_for_a_person(classroom):
     with pytest.raises(CannotTake, match="40 folders in each other"):
         read_package(Work("ann", (folder,)))
     deep = {"d/" * 1500 + "integrators.py": "x = 1\n"}
-    assert "40 folders in each other" in refused(classroom.parent / "class", zipped(deep))
+    assert "40 folders in each other" in refuse(classroom.parent / "class", zipped(deep))
     subprocess.run(["rm", "-r", folder], check=True)  # pytest cannot
 
 
@@ -515,12 +515,12 @@ def test_nobody_waits_at_a_pipe(classroom, name):
 
 @pytest.mark.parametrize("name", ["{}/integrators.py", "{}/mini_engine/__init__.py"])
 def test_a_program_many_times_takes_no_more_calls_than_its_files(classroom, name):
-    def taken(count: int) -> None:
+    def take(count: int) -> None:
         folder = write(classroom / f"{count}", {name.format(n): "" for n in range(count)})
         with suppress(CannotTake):
             read_package(Work("ann", (folder,)))
 
-    few, many = (count_calls(lambda count=count: taken(count)) for count in (200, 400))
+    few, many = (count_calls(lambda count=count: take(count)) for count in (200, 400))
     assert many < 3 * few
 
 
@@ -536,4 +536,4 @@ def test_what_the_teacher_tried_in_canvas_is_nobodys(classroom):
     (classroom / "doejane_12_34_lab.zip").write_bytes(zipped(PROGRAM))
     with open_class(classroom) as intake:
         assert intake.names == ["doejane_12"] and len(intake.notes) == 2
-        assert intake.notes[0].endswith("is left out: the teacher's own trial")
+        assert intake.notes[0].endswith("was skipped: a test submission of the teacher")

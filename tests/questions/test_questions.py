@@ -214,14 +214,14 @@ def test_a_film_shows_a_change_by_what_the_lesson_lets_one_expect():
     assert films.measure_rise(usual) == pytest.approx(1.6)
     assert films.measure_turning(buzzes) == pytest.approx(6.0)
 
-    def told(**shown: Film) -> bool:
+    def can_tell_apart(**shown: Film) -> bool:
         changed = {named[name.replace("_", "-")]: film for name, film in shown.items()}
         return films.can_tell_apart({films.AS_IT_IS: usual} | changed)
 
-    assert told(bouncy=bounces, no_bounce=stays) and not told(bouncy=usual)
-    assert told(ice=slides) and not told(ice=film_of(falls, 2.5))
-    assert told(no_spin=buzzes) and not told(no_spin=buzzes, ice=buzzes)
-    assert not told(bouncy=bounces, all_at_once=bounces), "who could tell these two?"
+    assert can_tell_apart(bouncy=bounces, no_bounce=stays) and not can_tell_apart(bouncy=usual)
+    assert can_tell_apart(ice=slides) and not can_tell_apart(ice=film_of(falls, 2.5))
+    assert can_tell_apart(no_spin=buzzes) and not can_tell_apart(no_spin=buzzes, ice=buzzes)
+    assert not can_tell_apart(bouncy=bounces, all_at_once=bounces), "who could tell these two?"
     lower = film_of([*falls[:3], films.SEEN - 1, 0.0])
     assert films.measure_rise(lower) == 0.0, "a rise along the way down is not seen on paper"
 
@@ -274,7 +274,7 @@ def handed_back(tmp_path: Path, whole_sheet: Sheet) -> Path:
     return tmp_path / "out"
 
 
-def marked(out: Path, answers: str) -> Marking:
+def mark(out: Path, answers: str) -> Marking:
     table = out / "answers.csv"
     table.write_text(answers, encoding="utf-8")
     return mark_answers(table, out / "keys")
@@ -295,7 +295,7 @@ def test_answers_on_paper_are_marked_and_none_is_dropped_silently(
         "ada,9,3",
         f"ada,2,{key[1]}",
     ]
-    found = marked(handed_back, "\n".join(["Student,question,answer,points", *rows]))
+    found = mark(handed_back, "\n".join(["Student,question,answer,points", *rows]))
     points = [each.points for each in found.marks]
     assert points == [0, 2, None, 4, 2, 0]
     assert found.marks[0].note == wrong.why
@@ -309,13 +309,13 @@ def test_answers_on_paper_are_marked_and_none_is_dropped_silently(
 
 
 def test_what_a_person_marks_waits_for_one(handed_back: Path):
-    found = marked(handed_back, "student;question;answer;points\nada;5;x;\nada;6;y;4\n")
+    found = mark(handed_back, "student;question;answer;points\nada;5;x;\nada;6;y;4\n")
     assert [each.points for each in found.marks[4:]] == [None, None]
-    assert all("waits for a person: 0 to 3" in each.note for each in found.marks[4:])
+    assert all("needs manual marking: 0 to 3" in each.note for each in found.marks[4:])
 
 
 def test_who_is_not_in_the_table_is_named(handed_back: Path):
-    found = marked(handed_back, "student,question,answer\n")
+    found = mark(handed_back, "student,question,answer\n")
     assert found.notes == ["no answer of ada is in the table"]
 
 
@@ -332,7 +332,7 @@ def test_a_table_may_have_full_names(tmp_path: Path):
     for each in (*twins, sheet_of("s3", "Ben Öz", ONE), sheet_of("s4", "Cem Roe")):
         write_whole(msgspec.json.encode(each), tmp_path / "keys" / f"{each.student}.json")
     rows = ["ben öz,1,15", "Ann Lee,1,15", "Ann Lee (s2),1,15", "Cem Roe,1,3", "Dora,1,3"]
-    found = marked(tmp_path, "\n".join(["student,question,answer", *rows]))
+    found = mark(tmp_path, "\n".join(["student,question,answer", *rows]))
     assert [each.points for each in found.marks] == [0, 2, 2]
     assert found.notes == [
         "line 3: 'Ann Lee': write s1 or s2",
@@ -366,7 +366,7 @@ def test_the_points_of_a_class_go_into_its_gradebook(tmp_path: Path):
 
 
 def test_a_formula_in_an_answer_stays_a_text_in_a_spreadsheet(handed_back: Path):
-    found = marked(handed_back, "student,question,answer\nada,1,=1+1\nada,2,-3\n")
+    found = mark(handed_back, "student,question,answer\nada,1,=1+1\nada,2,-3\n")
     write_points(found, handed_back)
     lines = (handed_back / "points.csv").read_text().splitlines()
     assert ",'=1+1," in lines[1]
@@ -375,7 +375,7 @@ def test_a_formula_in_an_answer_stays_a_text_in_a_spreadsheet(handed_back: Path)
 
 def test_a_table_without_its_columns_is_refused(handed_back: Path):
     with pytest.raises(CannotGrade, match="no column question"):
-        marked(handed_back, "student,answer\nada,3\n")
+        mark(handed_back, "student,answer\nada,3\n")
 
 
 # ---------------------------------------------------------------- Moodle

@@ -116,10 +116,10 @@ def site(tmp_path_factory: pytest.TempPathFactory, expected_runs: bytes) -> Path
         return expected_runs if name == "runs" else make()
 
     work = tmp_path_factory.mktemp("tab")
-    return the_folder_in(build_tab(work, [], FULL, record, CFFI if CFFI.is_file() else None))
+    return find_folder(build_tab(work, [], FULL, record, CFFI if CFFI.is_file() else None))
 
 
-def the_folder_in(built: Path) -> Path:
+def find_folder(built: Path) -> Path:
     (folder,) = (path for path in built.iterdir() if path.is_dir())
     return folder
 
@@ -205,7 +205,7 @@ def tab(browser: Any, address: str) -> Iterator[Tab]:
     opened.context.close()
 
 
-def asked(has_pymunk: bool) -> dict[str, str]:
+def list_tasks(has_pymunk: bool) -> dict[str, str]:
     """Return the file of each task that the page can check."""
     files = {
         region.id: path.relative_to(KIT / "starter").as_posix()
@@ -225,7 +225,7 @@ def list_passed(zipped: Path) -> set[str]:
 
 @SOAK
 def test_the_whole_lab_is_done_on_the_page(tab: Tab, tmp_path: Path):
-    files = asked(CFFI.is_file())
+    files = list_tasks(CFFI.is_file())
     for id, name in files.items():
         tab.choose(id)
         tab.type_file(read_source(KIT / "solution" / name))
@@ -390,7 +390,7 @@ class FirefoxTab:
 
 @SOAK
 def test_the_lab_is_done_in_firefox_and_kept_offline(site: Path, tmp_path: Path):
-    files = asked(CFFI.is_file())
+    files = list_tasks(CFFI.is_file())
     with firefox(tmp_path / "firefox") as browser:
         with serve(site) as opened:
             tab = FirefoxTab(browser, opened)
@@ -495,7 +495,7 @@ def test_members_get_the_same_on_the_page(site: Path, tmp_path: Path):
     random.Random(1).shuffle(own)
     fit = (each for each in own if not needs_more(each, tmp_path / "needs" / each.name))
     chosen = [*itertools.islice(fit, SAMPLE)]
-    ids = sorted(asked(CFFI.is_file()))
+    ids = sorted(list_tasks(CFFI.is_file()))
     turns = zip(chosen, itertools.cycle(ids), strict=False)
     members = [(m, sorted(m.todos & {*ids}) or [turn]) for m, turn in turns]
     assert_same(site, tmp_path, write_members(members, tmp_path))
@@ -522,7 +522,7 @@ def test_a_few_members_get_the_same_without_pymunk(tmp_path: Path, monkeypatch: 
     def record(name: str, make: Callable[[], bytes]) -> bytes:
         return b"{}" if name == "runs" else make()
 
-    site = the_folder_in(build_tab(tmp_path / "site", [], FULL, record))
+    site = find_folder(build_tab(tmp_path / "site", [], FULL, record))
     members = [(member_named(name), [todo]) for name, todo in FEW.items()]
     assert_same(site, tmp_path, write_members(members, tmp_path))
 
@@ -566,12 +566,12 @@ def test_a_release_says_why_it_has_no_page(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setattr(tab_page, "CACHE", tmp_path / "cache")
     monkeypatch.setenv("PATH", str(tmp_path))
     (note,) = add_tab(tmp_path / "out")
-    assert note.startswith("left out the page for a browser: the page needs npm")
+    assert note.startswith("skipped the page for a browser: the page needs npm")
     npm = tmp_path / "npm"
     npm.write_text("#!/bin/sh\nexit 1\n")
     npm.chmod(0o755)
     (note,) = add_tab(tmp_path / "out")
-    assert note == "left out the page for a browser: npm ci --no-audit --no-fund failed"
+    assert note == "skipped the page for a browser: npm ci --no-audit --no-fund failed"
 
 
 def test_a_release_has_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

@@ -138,7 +138,9 @@ def test_another_change_in_a_file_says_nothing_of_its_todos():
 # ---------------------------------------------------------------- effects on checks
 
 
-def told(tree: Path, *todos: str, reference: Path | None = None) -> dict[str, list[dict[str, str]]]:
+def list_words(
+    tree: Path, *todos: str, reference: Path | None = None
+) -> dict[str, list[dict[str, str]]]:
     """Return the named lines of each failed check, by TODO."""
     options = Options(reference=reference, only=frozenset(todos), trusted=True)
     result = grade(tree, options, shared_worker())
@@ -148,7 +150,7 @@ def told(tree: Path, *todos: str, reference: Path | None = None) -> dict[str, li
     }
 
 
-def passed(tree: Path, todo: str, reference: Path | None = None) -> list[CheckResult]:
+def list_remarks(tree: Path, todo: str, reference: Path | None = None) -> list[CheckResult]:
     """Return the checks of a passed TODO that still have a remark."""
     options = Options(reference=reference, only=frozenset({todo}), trusted=True)
     (result,) = grade(tree, options, shared_worker()).todos
@@ -160,7 +162,7 @@ def test_a_todo_keeps_its_points_where_given_code_is_to_blame(hand_in):
     tree = hand_in("solution")
     change(tree, *DOUBLED)
     change(tree, CONSTANTS, "MAX_BALLS = 40", "MAX_BALLS = 50")  # this does nothing here
-    mended = passed(tree, "4")
+    mended = list_remarks(tree, "4")
     assert len(mended) >= 4
     for each in mended:
         assert "`c.jn += total`, was `c.jn = total`" in each.meaning
@@ -225,7 +227,7 @@ def test_an_instructor_reads_the_same(hand_in):
     tree = hand_in("solution")
     integrators(tree, RIGHT, "return x + v * dt, v - accel(x) * dt")
     words = "check --restore explicit_euler puts it back, and this passes"
-    mended = passed(tree, "8a", reference=shipped_reference())
+    mended = list_remarks(tree, "8a", reference=shipped_reference())
     assert mended and all(words in each.meaning for each in mended)
 
 
@@ -233,7 +235,7 @@ def test_a_mistake_beside_changed_given_code_is_told_as_well(hand_in):
     """The code to restore comes first, then the known mistake that remains."""
     tree = hand_in("solution")
     integrators(tree, CALLS, "return x + v, v + accel(x) * dt")
-    failed = told(tree, "8a")["8a"]
+    failed = list_words(tree, "8a")["8a"]
     first = "puts it back: do that first. x moves with the old"
     assert any(first in each["Meaning"] for each in failed)
     assert all("x moves with the old velocity" in each["Meaning"] for each in failed)
@@ -243,7 +245,7 @@ def test_given_code_that_has_nothing_to_do_with_it_is_not_named(hand_in):
     tree = hand_in("starter")
     change(tree, CONSTANTS, "MAX_BALLS = 40", "MAX_BALLS = 50")
     integrators(tree, "    return x, v", EULER)
-    failed = told(tree, "8a")["8a"]
+    failed = list_words(tree, "8a")["8a"]
     assert failed and not any("Given code" in each.get("Meaning", "") for each in failed)
     assert all(each["Look at"].endswith(", TODO") for each in failed)
 
@@ -285,7 +287,7 @@ def test_a_name_is_put_back_and_a_copy_is_kept(hand_in):
     assert (tree / "mini_engine" / "solver_old.py").read_bytes() == changed
     right = (KIT / "solution" / SOLVER).read_text(encoding="utf-8")
     assert (tree / SOLVER).read_text(encoding="utf-8") == right
-    assert "nothing to put back" in restore(tree, "solve_normal")
+    assert "nothing to restore" in restore(tree, "solve_normal")
     assert sorted(path.name for path in tree.rglob("*_old.py")) == ["solver_old.py"]
 
 
@@ -320,7 +322,7 @@ def test_what_cannot_be_put_back_is_said_and_nothing_is_written(hand_in):
     before = {path: path.read_bytes() for path in tree.rglob("*.py")}
     out = restore(tree, "nothing_of_the_kind")
     done = run_grader("check", tree, "--restore=nothing_of_the_kind")
-    assert done.exit_code == 2 and "nothing to put back" not in out
+    assert done.exit_code == 2 and "nothing to restore" not in out
     assert {path: path.read_bytes() for path in tree.rglob("*.py")} == before
 
 

@@ -31,8 +31,8 @@ from grader.text import clean
 NO_MARK = "This is no mark, and not 0 points."
 AGAIN = "Correct that and hand in again, or ask your instructor to look at it."
 BY_HAND = (
-    "No score was sent to Gradescope. Look at the submission, and give its points there by hand; "
-    "what Gradescope itself shows for it until then is nobody's mark."
+    "No score was sent to Gradescope. Review the submission, and enter its points there by hand; "
+    "until then, the score that Gradescope shows for it is not a mark."
 )
 
 

@@ -58,7 +58,7 @@ def fill_gradebook(
                 yield result
             elif student not in students:
                 yield (
-                    f"{student}: nobody of this name handed in or is in the gradebook: "
+                    f"{student}: no submission and no student in the gradebook has this name: "
                     "name a result's file after its student"
                 )
             else:
@@ -70,7 +70,7 @@ def fill_gradebook(
             {s.student.id for s in book.assignment_submissions(ASSIGNMENT)} - done
         ):
             if await_result(book, cells, student):
-                yield f"{student}: no result, so the engine waits for a person"
+                yield f"{student}: no result, so the engine needs manual grading"
 
 
 def has_submission(book: Any, api: ModuleType, student: str) -> bool:

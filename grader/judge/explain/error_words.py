@@ -199,7 +199,7 @@ def explain_undefined(match: Match, error: Error) -> str:
     if near:
         return f"Nothing is called {name} here. Is {near[0]} meant?"
     arguments = show_arguments(error)
-    return f"Nothing is called {name} here: is it misspelt, or defined nowhere?{arguments}"
+    return f"Nothing is called {name} here: is it misspelt, or not defined?{arguments}"
 
 
 def show_arguments(error: Error) -> str:
@@ -367,7 +367,7 @@ def explain_tuple(match: Match, error: Error) -> str:
 def explain_pair(match: Match, error: Error) -> str:
     """Explain an error of pymunk, which needs two numbers and got something else."""
     if "cpVect" in match[0]:
-        return "pymunk takes no Vector2 here: write the two numbers as a pair, (x, y)."
+        return "pymunk does not accept a Vector2 here: write the two numbers as a pair, (x, y)."
     lines = error.text.splitlines()
     for call in error.calls():
         for joint in (call, *call.args):
@@ -493,8 +493,8 @@ DIRECTION_NEEDED = (
     "A vector and a number cannot be added or compared: multiply the number by a vector that gives "
     "it a direction, or take a coordinate or a length."
 )
-NONE_BEFORE_DOT = "What stands before the dot is None: a function without return gives one."
-NONE_AMONG = "There is a None among the values: a function without return gives one."
+NONE_BEFORE_DOT = "The value before the dot is None: a function without return returns None."
+NONE_AMONG = "There is a None among the values: a function without return returns None."
 PARTS = "The parts of this vector cannot be changed: give the whole a new pair, (x, y)."
 CLAMP = "write max(low, min(number, high))"
 

@@ -33,7 +33,7 @@ CALLED_BACK = {  # what to do about an error of such a function, by a part of th
     "takes ": "pymunk gives it three things: (arbiter, space, data).",
     "missing ": "pymunk gives it three things: (arbiter, space, data).",
     "NoneType": "Its data is None: hand data to on_collision as well, data=data.",
-    "UnboundLocalError": "What it assigns is its own alone: count in data.",
+    "UnboundLocalError": "The variable that it assigns is local to it: count in data.",
 }
 UNFIT = (
     "ZeroDivisionError",

@@ -356,7 +356,7 @@ KINDS: tuple[tuple[str, Change], ...] = (  # each with its words about the line
     ("Without a part of", leave_out_term),
     ("With brackets elsewhere in", move_bracket),
     ("With the two sides of an operator exchanged in", swap_operands),
-    ("With another order of what stands in brackets in", swap_arguments),
+    ("With another order of the items in brackets in", swap_arguments),
     ("With another order of names in", swap_targets),
     ("With `and` and `or` exchanged in", change_and),
     ("With the opposite condition in", change_condition),

@@ -28,7 +28,7 @@ def find_refusal(isolation: Isolation, layers: list[str], trusted: bool) -> str:
     """
     if ONE_PROCESS in layers and not trusted:
         return (
-            "somebody else's code may not run inside the grader's own process, where it could "
+            "another person's code may not run inside the grader's own process, where it could "
             "change its marks. Grade it with `grade`, on a machine that can start processes."
         )
     has = f"(it has {', '.join(layers)})"
