@@ -1,4 +1,4 @@
-"""Test text for people: no table has a formula, whatever separator a spreadsheet uses."""
+"""Test text for people: no table has a formula, for any separator of a spreadsheet."""
 
 import csv
 import io

@@ -6,7 +6,7 @@ from typing import TypeVar
 from grader.judge.lab import Lab
 from grader.judge.numbers import without_minus_zero
 
-FLOAT_DIGITS = 17  # what a float has
+FLOAT_DIGITS = 17  # digits of a float
 Answer = TypeVar("Answer")
 
 

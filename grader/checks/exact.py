@@ -79,7 +79,7 @@ DAMPED_STEPS = [*STEP_SIZES, 1 / 24, 1 / 50, 1 / 118, 1 / 100, 1 / 1000, 0.1, 0.
 
 
 @recorded.oracle(RATES, DAMPED_STEPS)
-def damped(rate: float, seconds: float) -> float:
+def compute_share(rate: float, seconds: float) -> float:
     """Return the share of a speed that remains after some seconds at a rate per second."""
     return math.exp(-rate * seconds)
 
@@ -164,7 +164,7 @@ class Rod(NamedTuple):
 
 
 @recorded.oracle()
-def pushed(rod: Rod, impulse: float) -> tuple[Pair, Pair]:
+def push_ends(rod: Rod, impulse: float) -> tuple[Pair, Pair]:
     """Return the velocities of A and B after an impulse along the axis; above 0, it pushes them
     apart."""
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
@@ -175,7 +175,7 @@ def pushed(rod: Rod, impulse: float) -> tuple[Pair, Pair]:
 @recorded.oracle()
 def rod_solved(rod: Rod) -> tuple[Pair, Pair]:
     """Return the velocities of A and B after a pass over the rod."""
-    return pushed(rod, (rod.bias - rod.speed) / rod.k)
+    return push_ends(rod, (rod.bias - rod.speed) / rod.k)
 
 
 class Spring(NamedTuple):
@@ -195,7 +195,7 @@ def spring_applied(spring: Spring) -> tuple[Pair, Pair]:
     """Return the velocities of A and B after a step of the spring's force (Hooke's law)."""
     rod = spring.rod
     force = spring.stiffness * spring.stretch + spring.damping * rod.speed
-    return pushed(rod, -force * rod.dt)
+    return push_ends(rod, -force * rod.dt)
 
 
 class Discs(NamedTuple):

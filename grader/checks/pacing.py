@@ -45,7 +45,7 @@ def ever_longer_frames() -> list[int]:
 class Pace:
     """Holds the steps that a program ran in each frame."""
 
-    lengths: list[float]  # ms, as scripted, or longer where the program slept longer
+    lengths: list[float]  # ms, as scripted, or longer if the program slept longer
     steps: list[int]  # that ran after this frame and before the end of the next
     sizes: list[float]  # s, the different step sizes
     waiting: float  # ms that had passed before the first of these frames and were not simulated
@@ -142,7 +142,7 @@ def play_at(lab: Lab, asked: list[int], step_ms: float) -> tuple[Pace, float]:
     longer = (length for length, frame in both if length > max(frame, work) + ROUNDING)
     # A program that sleeps before its first steps may have all of that left.
     waiting = min(max(played.clock[0] - STEP_MS * played.steps[0], 0.0), LONGEST_WAIT)
-    if lab.opening is not None:  # what ran before may have left a part of a step
+    if lab.opening is not None:  # earlier frames may have left a part of a step
         waiting = max(waiting, STEP_MS)
     paced = Pace(lengths, played.steps[1 : count + 1], played.dts, waiting, played.paced)
     return paced, max(longer, default=0.0)

@@ -99,7 +99,7 @@ def test_contacts_are_those_of_the_grader(screen: Screen) -> None:
 def test_damping_is_that_of_the_grader(screen: Screen) -> None:
     inputs = [(rate, seconds) for rate in exact.RATES for seconds in exact.DAMPED_STEPS]
     found = compute(screen, "laws.damped", [list(each) for each in inputs])
-    assert found == pytest.approx([exact.damped(*each) for each in inputs])
+    assert found == pytest.approx([exact.compute_share(*each) for each in inputs])
 
 
 class Counted:

@@ -341,7 +341,7 @@ def test_the_script_shows_the_mistake_in_the_tree_as_it_is(
 
 
 def test_names_begin_at_one_and_agree_with_the_picture(pages: Path):
-    """A replay has the same names as its script, whatever the check has made before."""
+    """A replay has the same names as its script, for any earlier objects of the check."""
     bodies = 0
     for path in pages.glob("*.py"):
         made = re.findall(r"^(ball|box)(\d*) = Body", path.read_text("utf-8"), re.MULTILINE)

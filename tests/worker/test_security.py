@@ -339,7 +339,7 @@ def test_a_kit_among_the_packages_is_left_out_however_deep(tmp_path: Path):
     kit = tmp_path / "lib" / "python" / "packages" / "grader"
     for folder in (kit, kit.parent / "numpy", tmp_path / "lib" / "python" / "json"):
         folder.mkdir(parents=True)
-    left = set(confinement.all_but({kit}, tmp_path))
+    left = set(confinement.list_without({kit}, tmp_path))
     assert left == {kit.parent / "numpy", tmp_path / "lib" / "python" / "json"}
 
 

@@ -104,7 +104,7 @@ def want_new(
 def say(answer: Touch | None, digits: int = 3) -> str:
     if answer is None:
         return "None"
-    nx, ny, depth, px, py = answer  # plain numbers, where the answer was recorded
+    nx, ny, depth, px, py = answer  # plain numbers, if the answer was recorded
     normal = f"({nx:.{digits}f}, {ny:.{digits}f})"
     point = f"({px:.{digits - 1}f}, {py:.{digits - 1}f})"
     return f"normal {normal}, depth {depth:.{digits}f} px, point {point}"

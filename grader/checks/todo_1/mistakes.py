@@ -35,7 +35,7 @@ def is_on_the_edge(disc: Disc, rect: Rect) -> bool:
 
 
 def describe_place(disc: Disc, rect: Rect) -> dict[str, str]:
-    """Return where the circle is, in words."""
+    """Describe the position of the circle."""
     across, down = abs(disc.x - rect.x) - rect.hx, abs(disc.y - rect.y) - rect.hy
     inside, corner = is_inside(disc, rect), across > 0 and down > 0
     side = "left" if disc.x < rect.x else "right"

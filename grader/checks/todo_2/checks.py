@@ -176,7 +176,7 @@ def any_two_bodies_agree_with_the_formula(
 
 
 def a_sliding_ball_comes_to_roll_on_a_floor(lab: Lab) -> None:
-    """A ball set sliding on a floor comes to roll, whatever its size"""
+    """A ball of any size set sliding on a floor comes to roll"""
     floor = lab.box((600.0, 420.0), (1200.0, 20.0), friction=0.6)
     for radius, mass in ((10.0, 1.0), (20.0, 4.0), (40.0, 16.0)):
         want_to_roll(lab, floor, (0.0, 400.0 - radius), radius, mass, "floor")

@@ -74,15 +74,15 @@ def add_along(vel: Pair, axis: Pair, by: float) -> Pair:
     return vel[0] + by * axis[0], vel[1] + by * axis[1]
 
 
-known("only-pulls", velocities(lambda rod: exact.pushed(rod, min(0.0, right_impulse(rod)))))
-known("only-pushes", velocities(lambda rod: exact.pushed(rod, max(0.0, right_impulse(rod)))))
-known("ignores-the-bias", velocities(lambda rod: exact.pushed(rod, -rod.speed / rod.k)))
-known("ignores-the-speed", velocities(lambda rod: exact.pushed(rod, rod.bias / rod.k)))
+known("only-pulls", velocities(lambda rod: exact.push_ends(rod, min(0.0, right_impulse(rod)))))
+known("only-pushes", velocities(lambda rod: exact.push_ends(rod, max(0.0, right_impulse(rod)))))
+known("ignores-the-bias", velocities(lambda rod: exact.push_ends(rod, -rod.speed / rod.k)))
+known("ignores-the-speed", velocities(lambda rod: exact.push_ends(rod, rod.bias / rod.k)))
 
 
 def push_for_speed(rod: Rod, seen: Rod) -> Ends:
     """Return the velocities after the impulse for another rod, one end of which rests."""
-    return exact.pushed(rod, (rod.bias - seen.speed) / rod.k)
+    return exact.push_ends(rod, (rod.bias - seen.speed) / rod.k)
 
 
 known(
@@ -91,17 +91,25 @@ known(
 known(
     "speed-of-a-alone", velocities(lambda rod: push_for_speed(rod, rod._replace(vel_b=(0.0, 0.0))))
 )
-known("adds-the-speed", velocities(lambda rod: exact.pushed(rod, (rod.bias + rod.speed) / rod.k)))
-known("pushes-the-wrong-way", velocities(lambda rod: exact.pushed(rod, -right_impulse(rod))))
-known("multiplies-by-k", velocities(lambda rod: exact.pushed(rod, (rod.bias - rod.speed) * rod.k)))
-known("not-divided-by-k", velocities(lambda rod: exact.pushed(rod, rod.bias - rod.speed)))
+known(
+    "adds-the-speed", velocities(lambda rod: exact.push_ends(rod, (rod.bias + rod.speed) / rod.k))
+)
+known("pushes-the-wrong-way", velocities(lambda rod: exact.push_ends(rod, -right_impulse(rod))))
+known(
+    "multiplies-by-k", velocities(lambda rod: exact.push_ends(rod, (rod.bias - rod.speed) * rod.k))
+)
+known("not-divided-by-k", velocities(lambda rod: exact.push_ends(rod, rod.bias - rod.speed)))
 known(
     "bias-has-the-wrong-sign",
-    velocities(lambda rod: exact.pushed(rod, (-rod.bias - rod.speed) / rod.k)),
+    velocities(lambda rod: exact.push_ends(rod, (-rod.bias - rod.speed) / rod.k)),
 )
 known("impulse-is-not-applied", velocities(lambda rod: (rod.vel_a, rod.vel_b)))
-known("moves-only-a", velocities(lambda rod: (exact.pushed(rod, right_impulse(rod))[0], rod.vel_b)))
-known("moves-only-b", velocities(lambda rod: (rod.vel_a, exact.pushed(rod, right_impulse(rod))[1])))
+known(
+    "moves-only-a", velocities(lambda rod: (exact.push_ends(rod, right_impulse(rod))[0], rod.vel_b))
+)
+known(
+    "moves-only-b", velocities(lambda rod: (rod.vel_a, exact.push_ends(rod, right_impulse(rod))[1]))
+)
 known(
     "b-does-it-all",
     velocities(lambda rod: (rod.vel_a, add_along(rod.vel_b, rod.axis, rod.bias - rod.speed))),
@@ -114,7 +122,7 @@ def speed_of_lengths(rod: Rod) -> float:
 
 known(
     "speeds-by-their-lengths",
-    velocities(lambda rod: exact.pushed(rod, (rod.bias - speed_of_lengths(rod)) / rod.k)),
+    velocities(lambda rod: exact.push_ends(rod, (rod.bias - speed_of_lengths(rod)) / rod.k)),
 )
 
 
@@ -124,20 +132,20 @@ def length_error(rod: Rod) -> float:
 
 known(
     "length-error-for-the-bias",
-    velocities(lambda rod: exact.pushed(rod, (length_error(rod) - rod.speed) / rod.k)),
-    velocities(lambda rod: exact.pushed(rod, (-length_error(rod) - rod.speed) / rod.k)),
+    velocities(lambda rod: exact.push_ends(rod, (length_error(rod) - rod.speed) / rod.k)),
+    velocities(lambda rod: exact.push_ends(rod, (-length_error(rod) - rod.speed) / rod.k)),
 )
 
 
 def impulse_made_anew(rod: Rod) -> Ends:
     """Work the impulse out twice: the second time A has changed."""
-    a, _ = exact.pushed(rod, right_impulse(rod))
-    return a, exact.pushed(rod, right_impulse(rod._replace(vel_a=a)))[1]
+    a, _ = exact.push_ends(rod, right_impulse(rod))
+    return a, exact.push_ends(rod, right_impulse(rod._replace(vel_a=a)))[1]
 
 
 def impulse_made_anew_for_a(rod: Rod) -> Ends:
-    _, b = exact.pushed(rod, right_impulse(rod))
-    return exact.pushed(rod, right_impulse(rod._replace(vel_b=b)))[0], b
+    _, b = exact.push_ends(rod, right_impulse(rod))
+    return exact.push_ends(rod, right_impulse(rod._replace(vel_b=b)))[0], b
 
 
 known("impulse-made-anew", velocities(impulse_made_anew), velocities(impulse_made_anew_for_a))
@@ -145,7 +153,7 @@ known(
     "nothing-where-bias-is-0",
     velocities(
         lambda rod: (
-            exact.pushed(rod, right_impulse(rod))
+            exact.push_ends(rod, right_impulse(rod))
             if abs(math.hypot(*rod.offset) - rod.length) > 1e-9 * rod.length
             else (rod.vel_a, rod.vel_b)
         )
@@ -156,7 +164,7 @@ known(
 @known("velocity-changed-in-place")
 @velocities
 def velocity_changed_in_place(rod: Rod) -> Ends:
-    a, (x, y) = exact.pushed(rod, right_impulse(rod))
+    a, (x, y) = exact.push_ends(rod, right_impulse(rod))
     return a, (x - rod.vel_a[0], y - rod.vel_a[1])
 
 
@@ -164,14 +172,14 @@ def velocity_changed_in_place(rod: Rod) -> Ends:
 @velocities
 def pushes_both_the_same_way(rod: Rod) -> Ends:
     by = right_impulse(rod) * exact.inverse(rod.mass_a)
-    return add_along(rod.vel_a, rod.axis, by), exact.pushed(rod, right_impulse(rod))[1]
+    return add_along(rod.vel_a, rod.axis, by), exact.push_ends(rod, right_impulse(rod))[1]
 
 
 @known("static-end-first")
 @velocities
 def static_end_first(rod: Rod) -> Ends:
     if rod.mass_b:
-        return exact.pushed(rod, right_impulse(rod))
+        return exact.push_ends(rod, right_impulse(rod))
     by = right_impulse(rod) * exact.inverse(rod.mass_a)
     return add_along(rod.vel_a, rod.axis, by), rod.vel_b
 
@@ -184,13 +192,13 @@ def without_masses(rod: Rod) -> Ends:
 known("forgets-the-masses", velocities(without_masses))
 known(
     "forgets-the-mass-of-a",
-    velocities(lambda rod: (without_masses(rod)[0], exact.pushed(rod, right_impulse(rod))[1])),
+    velocities(lambda rod: (without_masses(rod)[0], exact.push_ends(rod, right_impulse(rod))[1])),
 )
 known(
     "forgets-the-mass-of-b",
-    velocities(lambda rod: (exact.pushed(rod, right_impulse(rod))[0], without_masses(rod)[1])),
+    velocities(lambda rod: (exact.push_ends(rod, right_impulse(rod))[0], without_masses(rod)[1])),
 )
-known("half-of-the-impulse", velocities(lambda rod: exact.pushed(rod, right_impulse(rod) / 2)))
+known("half-of-the-impulse", velocities(lambda rod: exact.push_ends(rod, right_impulse(rod) / 2)))
 
 
 @known("masses-crossed")
@@ -214,7 +222,7 @@ def axis_is_not_a_unit_vector(rod: Rod) -> Ends:
 @velocities
 def velocities_are_replaced(rod: Rod) -> Ends:
     still = rod._replace(vel_a=(0.0, 0.0), vel_b=(0.0, 0.0))
-    return exact.pushed(still, right_impulse(rod))
+    return exact.push_ends(still, right_impulse(rod))
 
 
 @known("shares-equally")
@@ -248,13 +256,13 @@ def moves_positions_instead(rod: Rod) -> Answer:
 @velocities
 def speed_in_every_direction(rod: Rod) -> Ends:
     (ax, ay), (bx, by) = rod.vel_a, rod.vel_b
-    return exact.pushed(rod, (rod.bias - math.hypot(bx - ax, by - ay)) / rod.k)
+    return exact.push_ends(rod, (rod.bias - math.hypot(bx - ax, by - ay)) / rod.k)
 
 
 def by_one_mass(rod: Rod, mass: float) -> Ends:
     if not mass:
         raise Undecided  # a division by 0
-    return exact.pushed(rod, (rod.bias - rod.speed) * mass)
+    return exact.push_ends(rod, (rod.bias - rod.speed) * mass)
 
 
 known(
@@ -264,5 +272,5 @@ known(
 )
 known(
     "distance-for-speed",
-    velocities(lambda rod: exact.pushed(rod, (rod.bias - math.hypot(*rod.offset)) / rod.k)),
+    velocities(lambda rod: exact.push_ends(rod, (rod.bias - math.hypot(*rod.offset)) / rod.k)),
 )

@@ -206,14 +206,14 @@ def want_about(lab: Lab, discs: Discs, closing: float, slip: float) -> None:
 
 
 def friction_stops_at_its_limit_both_ways(lab: Lab) -> None:
-    """Friction stops at its limit, whichever way a body slips and however fast"""
+    """Friction stops at its limit, in both directions and at any speed"""
     for slip in (FAST, -FAST):  # ask both ways first: a mistake in one way shows in the comparison
         rub(lab, ON_A_FLOOR, CLOSING, slip)
     for slip in (FAST, -FAST, 10 * FAST, -10 * FAST):
         want_about(lab, ON_A_FLOOR, CLOSING, slip)
         want_about(lab, ON_A_FLOOR, 2 * CLOSING, slip)
         want_about(lab, IN_THE_AIR, CLOSING, slip)
-        want_about(lab, ON_A_FLOOR, -CLOSING, slip)  # what parts does not rub
+        want_about(lab, ON_A_FLOOR, -CLOSING, slip)  # separating bodies do not rub
         for normal in ((1.0, 0.0), (-1.0, 0.0), (0.0, -1.0)):  # at walls and from below
             want_about(lab, ON_A_FLOOR._replace(normal=normal), CLOSING, slip)
 

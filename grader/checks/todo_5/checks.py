@@ -84,12 +84,12 @@ def are_close(answer: Iterable[float], right: Iterable[float], within: float) ->
 
 
 def one_second_keeps_the_same_share_at_every_step_size(lab: Lab) -> None:
-    """Damping per second, whatever the step"""
+    """Damping per second, for any step"""
     rate, motion = lab.about(0.5), (lab.about(SPEED), lab.about(SPIN))
     lab.ran(f"one ball, no gravity, linear_damping = {rate:g}, for one second")
     rates_per_second = (60, 120, 240)
     kept = {n: damp(lab, rate, rate, 1 / n, n, motion)[0] for n in rates_per_second}
-    right = exact.damped(rate, 1.0)
+    right = exact.compute_share(rate, 1.0)
     # A straight line instead of exp is near enough here, and not in the properties below.
     lab.want(
         are_close(kept.values(), [right] * 3, within=0.01),
@@ -116,7 +116,7 @@ def speed_and_spin_have_a_rate_of_their_own(lab: Lab) -> None:
 
 def want_shares(lab: Lab, got: Shares, rates: Pair, seconds: float) -> None:
     """Insist on about what exp says; a straight line is near enough where steps are short."""
-    right = exact.damped(rates[0], seconds), exact.damped(rates[1], seconds)
+    right = exact.compute_share(rates[0], seconds), exact.compute_share(rates[1], seconds)
     good = are_close(got, right, within=0.01)
     want_answer(lab, good, say_both, right, got, digits=2, expected="{} left")
 
@@ -168,7 +168,7 @@ def want_both(lab: Lab, damped: Damped, rates: Pair, dt: float, parts: int) -> N
     )
     once = damped.shares(linear, angular, dt, 1)
     often = damped.shares(linear, angular, dt / parts, parts)
-    right = exact.damped(linear, dt), exact.damped(angular, dt)
+    right = exact.compute_share(linear, dt), exact.compute_share(angular, dt)
     within = SINGLE * (1 + max(rates) * dt)  # the exponent is rounded as well
     good = are_close(once, right, within) and are_close(often, right, parts * within)
     want_answer(lab, good, say_twice, (right, right), (once, often), digits=2)
@@ -223,7 +223,7 @@ def damping_keeps_the_direction_and_leaves_statics_alone(
             lab.tell(world, "contacts.append", left)  # as if the step before had found one
             may = {world: "contacts", **changes}
             lab.tell(world, "step", step, changes=may, sees=[*may, still])
-            keep = exact.damped(linear, step), exact.damped(angular, step)
+            keep = exact.compute_share(linear, step), exact.compute_share(angular, step)
             times = 1 + max(linear, angular) * step  # the exponent is rounded as well
             meant = [step_moment(each, pull, keep, step) for each in meant]
             for ball, right in zip(balls, meant, strict=True):

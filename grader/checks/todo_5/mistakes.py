@@ -13,7 +13,7 @@ Factor = Callable[[float, float], float]  # share that one step keeps, from a ra
 
 
 def keep_shares(linear: float, angular: float, dt: float, steps: int) -> Shares:
-    return exact.damped(linear, dt * steps), exact.damped(angular, dt * steps)
+    return exact.compute_share(linear, dt * steps), exact.compute_share(angular, dt * steps)
 
 
 def describe_rates(linear: float, angular: float, dt: float, steps: int) -> dict[str, str]:
@@ -75,11 +75,12 @@ known("share-times-the-step", per_step(lambda rate, dt: 0.99 * dt))
 known("grows-instead-of-fading", per_step(lambda rate, dt: math.exp(rate * dt)))
 known("keeps-what-it-should-lose", per_step(lambda rate, dt: 1 - math.exp(-rate * dt)))
 known(
-    "spin-is-not-damped", lambda linear, angular, dt, steps: (exact.damped(linear, dt * steps), 1.0)
+    "spin-is-not-damped",
+    lambda linear, angular, dt, steps: (exact.compute_share(linear, dt * steps), 1.0),
 )
 known(
     "speed-is-not-damped",
-    lambda linear, angular, dt, steps: (1.0, exact.damped(angular, dt * steps)),
+    lambda linear, angular, dt, steps: (1.0, exact.compute_share(angular, dt * steps)),
 )
 known(
     "one-rate-for-both",

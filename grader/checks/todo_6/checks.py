@@ -1,4 +1,4 @@
-"""TODO 6 and TODO 7d: fixed steps, whatever the frames."""
+"""TODO 6 and TODO 7d: fixed steps for any frames."""
 
 import re
 
@@ -86,7 +86,7 @@ def explain_too_much(paces: dict[int, Pace]) -> str:
 
 
 def every_step_is_one_step_long(lab: Lab) -> None:
-    """Every step is STEP long, however long the frames are"""
+    """Every step is STEP long, for frames of any length"""
     frames = [lab.whole(5, 2), lab.whole(40, 9), lab.whole(21, 6), lab.whole(160, 40)]
     lab.ran(f"the lab scene with frames of {', '.join(map(str, frames))} ms")
     sizes = pace(lab, frames).sizes

@@ -121,7 +121,7 @@ class Ball(NamedTuple):
     mass: float
     moment: float
     surface: Pair  # friction and elasticity
-    pos: Pair  # where it was dropped
+    pos: Pair  # position of the drop
 
 
 def drop(lab: Lab, space: Thing, rng: Rng | Thing, pos: Pair, changes: Frame | None = None) -> Ball:
@@ -247,7 +247,7 @@ class Rod(NamedTuple):
     kind: str
     far_end: Pair | None
     bob_end: Pair | None
-    moves: bool  # whether the body at the far end moves
+    moves: bool  # the body at the far end moves
 
 
 def pendulum(lab: Lab) -> tuple[Thing, Thing, list[Rod]]:

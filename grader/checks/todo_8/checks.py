@@ -32,7 +32,7 @@ class Method(NamedTuple):
 
     name: str
     order: int
-    error: float  # px, by which it falls short of where it was let go
+    error: float  # px, distance from its start after 10 s
     energy_change: float  # %
 
 

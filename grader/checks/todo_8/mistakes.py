@@ -29,7 +29,7 @@ XV = {"x": [0], "v": [1]}
 
 
 def describe_step(x: float, v: float, dt: float, force: Force) -> dict[str, str]:
-    """Return where a step begins, in words."""
+    """Describe the start of a step."""
     return {
         "_speed": f"v is {'0' if not v else 'not 0'} at the start",
         "_force": f"{'no' if not polynomial(force)(x) else 'a'} force acts at the start",
@@ -472,7 +472,7 @@ for number, (before, reach) in enumerate(USUAL, 1):
             f"of the {PLACES[number]} sample, k{number + 1}, is that {REACHES[share]}; it belongs "
             f"{REACHES[reach]}."
             if source == before
-            else f"of the {PLACES[number]} sample, k{number + 1}, goes on from the "
+            else f"of the {PLACES[number]} sample, k{number + 1}, starts from the "
             f"{PLACES[source]}; it must use what the {PLACES[before]} one found."
         )
         other = (*USUAL[: number - 1], (source, share), *USUAL[number:])

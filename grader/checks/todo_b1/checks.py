@@ -31,7 +31,7 @@ CHEAP = "a sleeping pile costs almost no time"
 STEPS = (1 / 60, 1 / 120, 1 / 165, 1 / 480)  # s, steps in which gravity adds 2 to 16 px/s
 LESS = 10  # times as much work awake
 LAB_SCENE = 40.0  # s; a ball that rolls at 20 px/s still has 3 px/s then, as it loses 5 % a second
-FALLING_ASLEEP = "vel omega inv_mass inv_inertia"  # what may change in that moment
+FALLING_ASLEEP = "vel omega inv_mass inv_inertia"  # fields that may change at that moment
 
 
 def floor(lab: Lab, friction: float = 0.6) -> Thing:
@@ -373,7 +373,7 @@ def going_to_sleep_changes_nothing_else(lab: Lab) -> None:
 
 def a_sleeping_pile_costs_next_to_nothing(lab: Lab) -> None:
     """A sleeping pile costs almost no time"""
-    rows = ((3, 1), (2, 2))  # how many, and how many radii from the wall the first one is
+    rows = ((3, 1), (2, 2))  # number of balls, and radii from the wall to the first
     lab.ran("five balls that lie in two rows between walls")
     walls = [lab.box((x, -100.0), (20.0, 150.0), friction=0.6) for x in (-20.0, 6 * RADIUS + 20.0)]
     balls = [

@@ -14,27 +14,27 @@ truth("spring", exact.spring_applied)
 known = known_in("B2", "spring")
 
 
-def pulled(spring: Spring, force: float) -> Ends:
+def pull_ends(spring: Spring, force: float) -> Ends:
     """Return the velocities after a step of a force that draws the ends together, kg px/s²."""
-    return exact.pushed(spring.rod, -force * spring.rod.dt)
+    return exact.push_ends(spring.rod, -force * spring.rod.dt)
 
 
 def brake(spring: Spring) -> float:
     return spring.damping * spring.rod.speed
 
 
-known("pushes-when-stretched", lambda s: pulled(s, -s.stiffness * s.stretch - brake(s)))
-known("damping-drives", lambda s: pulled(s, s.stiffness * s.stretch - brake(s)))
-known("damping-is-forgotten", lambda s: pulled(s, s.stiffness * s.stretch))
+known("pushes-when-stretched", lambda s: pull_ends(s, -s.stiffness * s.stretch - brake(s)))
+known("damping-drives", lambda s: pull_ends(s, s.stiffness * s.stretch - brake(s)))
+known("damping-is-forgotten", lambda s: pull_ends(s, s.stiffness * s.stretch))
 known(
     "takes-the-distance-for-the-stretch",
-    lambda s: pulled(s, s.stiffness * (s.stretch + s.rod.length) + brake(s)),
+    lambda s: pull_ends(s, s.stiffness * (s.stretch + s.rod.length) + brake(s)),
 )
-known("stretch-the-other-way", lambda s: pulled(s, -s.stiffness * s.stretch + brake(s)))
-known("only-pulls", lambda s: pulled(s, max(0.0, s.stiffness * s.stretch + brake(s))))
+known("stretch-the-other-way", lambda s: pull_ends(s, -s.stiffness * s.stretch + brake(s)))
+known("only-pulls", lambda s: pull_ends(s, max(0.0, s.stiffness * s.stretch + brake(s))))
 known(
     "a-hundred-and-twentieth",
-    lambda s: exact.pushed(s.rod, -(s.stiffness * s.stretch + brake(s)) / 120),
+    lambda s: exact.push_ends(s.rod, -(s.stiffness * s.stretch + brake(s)) / 120),
 )
 
 
@@ -52,7 +52,7 @@ def damps_sideways_as_well(spring: Spring) -> Ends:
 
 known(
     "forgets-the-step",
-    lambda spring: exact.pushed(spring.rod, -spring.stiffness * spring.stretch - brake(spring)),
+    lambda spring: exact.push_ends(spring.rod, -spring.stiffness * spring.stretch - brake(spring)),
 )
 
 
@@ -77,9 +77,9 @@ def divides_by_the_inverse_mass(spring: Spring) -> Ends:
 
 known(
     "offset-for-the-axis",
-    lambda s: pulled(s, (s.stiffness * s.stretch + brake(s)) * math.hypot(*s.rod.offset)),
+    lambda s: pull_ends(s, (s.stiffness * s.stretch + brake(s)) * math.hypot(*s.rod.offset)),
 )
-known("pulls-when-squeezed", lambda s: pulled(s, s.stiffness * abs(s.stretch) + brake(s)))
+known("pulls-when-squeezed", lambda s: pull_ends(s, s.stiffness * abs(s.stretch) + brake(s)))
 
 
 def whole_speed(spring: Spring) -> float:
@@ -89,7 +89,7 @@ def whole_speed(spring: Spring) -> float:
 
 known(
     "damps-by-the-whole-speed",
-    lambda s: pulled(s, s.stiffness * s.stretch + s.damping * whole_speed(s)),
+    lambda s: pull_ends(s, s.stiffness * s.stretch + s.damping * whole_speed(s)),
 )
 known("moves-only-a", lambda spring: (exact.spring_applied(spring)[0], spring.rod.vel_b))
 known("moves-only-b", lambda spring: (spring.rod.vel_a, exact.spring_applied(spring)[1]))

@@ -24,7 +24,7 @@ class Course:
     balls: list[Thing]
     radii: list[float]  # px, of the balls
     box: Thing
-    data: Thing  # what count_hits returned
+    data: Thing  # the result of count_hits
     elasticity: float  # of a ball and a peg, multiplied as pymunk does
     speed: float  # px/s, of what is thrown
 
@@ -40,7 +40,7 @@ def course(lab: Lab) -> Course:
     lab.want(len(balls) > 1 and bool(boxes), "balls and boxes in the scene", "none")
     data = lab.thing(lab.get(space, "counter"), "a dictionary from count_hits")
     pegs = [each for each in static_shapes(found) if each.kind == "Circle"]
-    peg = min(pegs, key=lambda each: math.dist(middle(each), PEGS[0]))
+    peg = min(pegs, key=lambda each: math.dist(find_middle(each), PEGS[0]))
     product = peg.elasticity * balls[0].shapes[0].elasticity
     return Course(
         space,
@@ -57,7 +57,7 @@ def static_shapes(space: SpaceValue) -> list[ShapeValue]:
     return [shape for body in space.bodies if body.kind == "static" for shape in body.shapes]
 
 
-def middle(shape: ShapeValue) -> Pair:
+def find_middle(shape: ShapeValue) -> Pair:
     left, bottom, right, top = shape.box
     return (left + right) / 2, (bottom + top) / 2
 

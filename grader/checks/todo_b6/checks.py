@@ -40,13 +40,13 @@ def shift_drops_heavier_balls(lab: Lab) -> None:
     ]
     played = lab.play([17] * (len(clicks) + 5), clicks, physics=False)
     want_a_proper_end(lab, played, len(clicks) + 5)
-    balls = [dropped(lab, played, place) for place in places]
+    balls = [find_dropped(lab, played, place) for place in places]
     weights = [1 / (each.inv_mass * usual_mass(each)) for each in balls]
     lab.saw("heaviness", (), weights)
     for (keys, right), found in zip(CLICKS, weights, strict=True):
         lab.want(
             abs(found - right) < ROUNDING * right,
-            f"a ball {right} times as heavy as usual with {named(keys)}",
+            f"a ball {right} times as heavy as usual with {name_keys(keys)}",
             f"{found:.6g} times as heavy",
         )
     lab.want(
@@ -56,7 +56,7 @@ def shift_drops_heavier_balls(lab: Lab) -> None:
     )
 
 
-def named(keys: str) -> str:
+def name_keys(keys: str) -> str:
     return keys.replace("numlock", "num lock").replace("+", " and ") or "no key held"
 
 
@@ -70,7 +70,7 @@ def turning(ball: BodyValue) -> float:
     return ball.inv_mass / (ball.inv_inertia * ball.radius**2 / 2)
 
 
-def dropped(lab: Lab, played: Played, place: tuple[int, int]) -> BodyValue:
+def find_dropped(lab: Lab, played: Played, place: tuple[int, int]) -> BodyValue:
     """Return the ball that was dropped at a position."""
     for body in played.bodies:
         if isinstance(body, BodyValue) and tuple(body.pos) == place and body.inv_mass:

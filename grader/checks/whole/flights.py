@@ -68,24 +68,24 @@ def want_free_flights(lab: Lab, trail: Sequence[Sequence[float]]) -> None:
 
 def want_a_flight(lab: Lab, each: Moment, after: Sequence[Moment], number: int) -> None:
     """Insist that some ball flew to this position; the program may have sorted the bodies."""
-    if not any(flew(each, other) for other in near(each, after)):
+    if not any(flew(each, other) for other in find_near(each, after)):
         lab.want(
             False,
             f"a ball at ({each.x:.1f}, {each.y:.1f}) that touches nothing to fall: at "
             f"({each.vx:.1f}, {each.vy + GRAVITY * STEP:.1f}) px/s after step {number}",
-            next(map(say, near(each, after)), "no ball near there"),
+            next(map(say, find_near(each, after)), "no ball near there"),
         )
 
 
 def want_no_jump(lab: Lab, each: Moment, after: Sequence[Moment], number: int) -> None:
     """Insist that a body is near this one's last position, and that neither is impossibly fast."""
-    slow = (other for other in near(each, after, PUSHED) if other.speed <= FASTEST)
+    slow = (other for other in find_near(each, after, PUSHED) if other.speed <= FASTEST)
     if each.speed > FASTEST or not any(slow):
         lab.want(
             False,
             f"the body at ({each.x:.1f}, {each.y:.1f}) near there after step {number}, and no body "
             f"faster than {FASTEST:g} px/s",
-            next(map(say, near(each, after, PUSHED)), "no body near there"),
+            next(map(say, find_near(each, after, PUSHED)), "no body near there"),
         )
 
 
@@ -93,7 +93,7 @@ def say(each: Moment) -> str:
     return f"one at ({each.x:.1f}, {each.y:.1f}), at ({each.vx:.1f}, {each.vy:.1f}) px/s"
 
 
-def near(each: Moment, after: Sequence[Moment], within: float = NEAR) -> Iterator[Moment]:
+def find_near(each: Moment, after: Sequence[Moment], within: float = NEAR) -> Iterator[Moment]:
     """Yield the bodies that may be this one, a step earlier."""
     return (other for other in after if may_have_been(other, (each.x, each.y), within))
 

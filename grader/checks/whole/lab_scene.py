@@ -185,7 +185,7 @@ def shapes_of(body: SpaceBody) -> list[Part]:
 def as_box(bounds: Bounds) -> tuple[Pair, tuple[float, ...]] | None:
     """Return position and half extents of the box that a segment replaces, or None.
 
-    A segment may be thick and rounded if its surface is where the box has it.
+    A segment may be thick and rounded if its surface matches the box's.
     """
     for part, faces in FACES.items():
         if all(low <= bounds[side] <= high for side, (low, high) in faces.items()):

@@ -167,7 +167,7 @@ def want_gravity_then_damping(lab: Lab) -> None:
 
 
 def want_a_free_flight(lab: Lab) -> None:
-    """Insist that an undamped free body keeps its velocity, however large."""
+    """Insist that an undamped free body keeps any velocity."""
     vx, vy = lab.about(3000.0), lab.about(-4000.0)
     lab.ran(f"a disc at ({vx:g}, {vy:g}) px/s that meets nothing, one step")
     disc = lab.circle((0, 0), vel=(vx, vy))
@@ -247,7 +247,7 @@ def want_the_same_pile(lab: Lab) -> None:
 
 
 def want_a_rod_put_right(lab: Lab) -> None:
-    """Insist that a step takes away a fifth of a rod's error, however long the step is."""
+    """Insist that a step of any length corrects a fifth of a rod's error."""
     off = lab.about(10.0)  # px
     lab.ran(f"a disc on a rod {off:g} px too long, at rest, one step of 1/60 s")
     hook, disc = lab.circle((0, 0), mass=0), lab.circle((0, 100))

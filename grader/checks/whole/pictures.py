@@ -179,7 +179,7 @@ def want_a_cleared_window(lab: Lab, movers: Sequence[Mover], first: Picture, las
 
 def want_turning_spokes(lab: Lab, shown: list[Picture]) -> None:
     """Insist that most discs look different once they have turned."""
-    both = [pair for one, other in pairwise(shown) for pair in turned(one, other)]
+    both = [pair for one, other in pairwise(shown) for pair in find_turned(one, other)]
     lab.want(bool(both), "balls that turn", "none that has turned")
     seen = [pair for pair in both if all(map(is_plain, pair))]
     changed = sum(count_changes(*pair) > 0 for pair in seen)
@@ -190,7 +190,7 @@ def want_turning_spokes(lab: Lab, shown: list[Picture]) -> None:
     )
 
 
-def turned(one: Picture, other: Picture) -> Iterator[tuple[list[tuple[int, ...]], ...]]:
+def find_turned(one: Picture, other: Picture) -> Iterator[tuple[list[tuple[int, ...]], ...]]:
     """Return the rings of each ball that has turned from one picture to the other."""
     for before, after in zip(one.discs, other.discs, strict=True):
         if before.is_bob:  # its rod turns about it
