@@ -242,7 +242,7 @@ class MakeBody(Struct, frozen=True, tag="make_body"):
 class MakeWorld(Struct, frozen=True, tag="make_world"):
     """Make a world of the lesson's engine with bodies and joints.
 
-    `bonus`: a BonusWorld, where the submission has that class.
+    `bonus`: a BonusWorld, if the submission has that class.
     """
 
     ref: int  # its number from now on
@@ -256,7 +256,7 @@ class MakeWorld(Struct, frozen=True, tag="make_world"):
 
 
 class Simulate(Struct, frozen=True, tag="simulate"):
-    """Call `step(dt)` of an object `steps` times; record the watched bodies every so many steps."""
+    """Call `step(dt)` of an object `steps` times; record the watched bodies every `every` steps."""
 
     ref: int
     dt: float
@@ -297,7 +297,7 @@ class Play(Struct, frozen=True, tag="play"):
     frames: list[int]
     events: list[Event] = []
     physics: bool = True  # False: count steps without running them
-    trail_every: int = 0  # record all moving bodies every so many steps; 0: never
+    trail_every: int = 0  # steps between two records of all moving bodies; 0: never
     pictures: bool = False  # False: draw one pixel only
     photos: list[int] = []  # frames at whose end the window is photographed
     step_ms: float = 0.0  # duration of each step on the scripted clock
@@ -530,7 +530,7 @@ class ChannelTimeout(Exception):
 AT_ONCE = getattr(socket, "MSG_DONTWAIT", 0)  # do not block; not on Windows
 
 
-def packed(message: object) -> bytes:
+def pack_message(message: object) -> bytes:
     """Encode a message, with its length first."""
     body = msgspec.msgpack.encode(message)
     if len(body) > MAX_MESSAGE:
@@ -553,13 +553,13 @@ class Channel:
 
     def send(self, message: object) -> None:
         try:
-            self.sock.sendall(packed(message))
+            self.sock.sendall(pack_message(message))
         except OSError as error:
             raise ChannelClosed(str(error)) from error
 
     def post(self, message: object) -> None:
         """Prepare a message for `flush` to send."""
-        self.unsent = packed(message)
+        self.unsent = pack_message(message)
 
     def flush(self, seconds: float) -> bool:
         """Send the posted message for up to `seconds`; return whether all of it is sent."""

@@ -121,7 +121,7 @@ def format_csv(
 ) -> str:
     """Return the rows of a table as CSV, each text escaped.
 
-    No cell begins like a formula, whatever separator a spreadsheet uses.
+    No cell begins like a formula, for any separator of a spreadsheet.
     """
     separators = SEPARATORS + "," * (delimiter != ",")  # the writer quotes what has a delimiter
     out = io.StringIO(newline="")

@@ -37,8 +37,8 @@ A right member must get every point. Where it differs from the solution in one T
   programs as printed, `right/lesson-as-printed/`, and these before all others.
 - `right/NAME/` and `hostile/NAME/` hold files to add or replace, beside or without a NAME.toml. A
   mini_engine.py there replaces the package.
-- `hostile/8a.toml` holds attacks in TODO 8a: `code`, or `tries` where the answer is right unless
-  the attack raises OSError. They get 98 points, all but those of TODO 8a, or their `points`.
+- `hostile/8a.toml` holds attacks in TODO 8a: `code`, or `tries` if the answer is right unless the
+attack raises OSError. They get 98 points, all but those of TODO 8a, or their `points`.
   With the `numbers` of a system call on x86_64 and aarch64, `tries` can `call(number, ...)` it.
 - `bank.toml` has the marks of members without a TOML.
 - `ladders/TODO.toml` holds the rungs of a ladder, lowest first (see ladders.py).
@@ -73,7 +73,7 @@ Regions = Mapping[str, tuple[str, ...]]  # lines of code, by TODO
 
 CONSTANTS = "all-constants"  # the member that is made of the ladders' constants
 MOST_FOR_CONSTANTS = 3  # points of all TODOs together
-LESSON = "lesson-"  # how the names of the lesson's programs and their variants begin
+LESSON = "lesson-"  # prefix of the lesson's programs and their variants
 BESIDES = ("__pycache__", "notebooks", ".*", *LAID_IN)  # files of a tree that no mark depends on
 CLEAN = shutil.ignore_patterns(*BESIDES)
 TREES = ("solution", "starter")
@@ -127,7 +127,7 @@ class Entry(Variant, frozen=True):
     everywhere: str = ""  # code for every TODO
     transform: str = ""
     points: int | None = None  # exact points; None: all of them
-    single_file: bool = True  # whether a wrong member is graded as a single file as well
+    single_file: bool = True  # a wrong member is graded as a single file as well
     seconds: int = 120  # the longest time it may take; a limit on harm, not a score
 
     @property

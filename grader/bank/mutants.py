@@ -105,12 +105,12 @@ def find_difference(code: str, change: str) -> tuple[str, str]:
 
 
 def split_lines(code: str) -> list[str]:
-    """Split code into lines, and where one pair of brackets follows another."""
+    """Split code into lines, also between two pairs of brackets."""
     return re.split(r"\n|(?<=\)), (?=\()", code)
 
 
 def list_mutants(todos: Collection[str] = ()) -> list[Mutant]:
-    """List the mutants of these TODOs, or of all where none is named."""
+    """List the mutants of these TODOs, or of all if none is named."""
     named = [todo.id for todo in load_rubric().todos if todo.function]
     return [each for id in named if not todos or id in todos for each in mutants_of(id)]
 

@@ -101,7 +101,7 @@ def measure(
 
 
 def on_one_core() -> dict[str, Any]:
-    """Return how to start a command on one core, where the system can be told so."""
+    """Return the prefix that starts a command on one core, if the system allows it."""
     if not hasattr(os, "sched_setaffinity"):
         return {}
     return {"preexec_fn": partial(os.sched_setaffinity, 0, {min(os.sched_getaffinity(0))})}
@@ -149,7 +149,7 @@ def measure_save(tree: Path, watch: "subprocess.Popen[str]") -> float:
 
 
 def tabulate(found: dict[str, dict[str, list[float]]], title: str) -> Table:
-    """Return a row for each figure, with the ratios of the rounds where there are two kits."""
+    """Return a row for each figure, with the ratios of the rounds if there are two kits."""
     ours, *others = found
     table = Table("figure", *found, *(f"{ours} / {name}" for name in others), title=title)
     for figure, values in found[ours].items():

@@ -138,7 +138,7 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         return points
 
     def count_days_late(self, found: Work) -> int:
-        """Return days begun since the due date; 1 where the LMS marks work late without a time."""
+        """Return days begun since the due date; 1 if the LMS marks work late without a time."""
         due = self.find_due(found)
         if self.late is not None and due and found.handed_in:
             after = self.add_zone(found.handed_in) - due

@@ -2,7 +2,7 @@
 
 - `DIR/NAME.json`: the result of each submission, byte for byte what `--json` writes.
 - `DIR.class.jsonl`: the class book, a line for each submission. Each result adds its line at
-  once, so a run that was killed goes on where it stopped.
+  once, so a killed run continues where it stopped.
 - `DIR.class.csv`: the table, for people.
 - `DIR.earlier/NAME/`: the results that a later grade replaced.
 """
@@ -93,7 +93,7 @@ class Outcome(Struct, frozen=True):
 
     @property
     def mark(self) -> int | None:
-        """Return the points that count; None where it needs manual review."""
+        """Return the points that count; None if it needs manual review."""
         return self.final if self.by_hand or not self.trouble else None
 
     @property

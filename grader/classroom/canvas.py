@@ -1,6 +1,6 @@
 """Send the marks of a class to Canvas, each with a comment and the student's page.
 
-Only what Canvas lacks is sent, so a run that stopped goes on where it was. `canvas.json` in the
+Only what Canvas lacks is sent, so a stopped run continues. `canvas.json` in the
 folder of the class records what was sent: a person entered any other mark in Canvas.
 """
 

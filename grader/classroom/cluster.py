@@ -1,4 +1,4 @@
-"""Grade a class on a Dask cluster, where one machine is not enough.
+"""Grade a class on a Dask cluster, if one machine is not enough.
 
 A submission is sent to a worker with everything needed to grade it, so no disk is shared. All
 machines need the same version of the grader. If a worker is lost, Dask gives its work to another

@@ -49,7 +49,7 @@ class Entry:
     """
 
     outcome: Outcome
-    brief: Result | None = None  # what the page of the class shows
+    brief: Result | None = None  # shown on the page of the class
     path: Path | None = None  # of its result
 
     @property

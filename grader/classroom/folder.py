@@ -239,7 +239,7 @@ def remember_class(folder: Path, named: dict[str, object], other_course: bool) -
 
 
 def find_usual_files(folder: Path) -> dict[str, object]:
-    """Return the lines of a new class: existing files of the usual names, and a seed."""
+    """Return the settings of a new class: existing files with the usual names, and a seed."""
     usual = {"course": "course.toml", "roster": "roster.csv"}
     there = {name: file for name, file in usual.items() if (folder / file).is_file()}
     if (folder / "gradebook.db").is_file():

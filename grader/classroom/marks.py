@@ -55,7 +55,7 @@ Parts = dict[str, Part]
 def load_marking(path: Path | None, course: Course = FULL) -> Marking:
     """Read the settings; title and total default to the course's.
 
-    Without a file the engine is the only part. Raises Stop where the file is missing or invalid.
+    Without a file the engine is the only part. Raises Stop if the file is missing or invalid.
     """
     usual = {"title": course.title, "total": course.out_of or USUAL_TOTAL}
     if path is None:
@@ -137,7 +137,7 @@ class Scores:
 
     parts: dict[str, Parts]
     marking: Marking
-    so_far: bool = False  # parts that wait for a person count as 0
+    so_far: bool = False  # parts that need manual grading count as 0
     others_known: bool = False  # work without an owner belongs to no student of the class list
     of_sheets: bool = False  # another assignment, for each student alone
 

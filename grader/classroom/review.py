@@ -173,10 +173,10 @@ def respond(review: Review, request: Request) -> Response:
     """Answer a request; without the token the answer is 403."""
     if request.host not in (review.host, review.host.replace("127.0.0.1", "localhost")):
         return refuse(403, "This page is for this machine alone.")
-    if request.path == "/" and same(request.query.get("token", ""), review.token):
+    if request.path == "/" and is_same(request.query.get("token", ""), review.token):
         cookie = f"{name_cookie(review)}={review.token}; HttpOnly; SameSite=Strict; Path=/"
         return Response(303, "", {"Location": "/", "Set-Cookie": cookie})
-    if not same(request.cookie, review.token):
+    if not is_same(request.cookie, review.token):
         return refuse(403, "Open the address that `grader class review` printed.")
     if request.method == "POST":
         if request.origin != f"http://{request.host}":
@@ -197,7 +197,7 @@ def name_cookie(review: Review) -> str:
     return f"review-{review.host.rpartition(':')[2]}"
 
 
-def same(given: str, token: str) -> bool:
+def is_same(given: str, token: str) -> bool:
     return hmac.compare_digest(given.encode("utf-8", "replace"), token.encode())
 
 

@@ -47,7 +47,7 @@ def list_missing() -> list[str]:
 
 
 def require_checkout(command: str, instead: str = "") -> None:
-    """Stop where the grader is installed without the kit around it."""
+    """Stop if the grader is installed without the kit around it."""
     if missing := list_missing():
         raise Stop(
             f"`grader {command}` works on the whole kit, and {KIT} holds no {', '.join(missing)}: "

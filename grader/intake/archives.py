@@ -64,7 +64,7 @@ class Bounds:
         return True
 
     def take_archive(self, length: int) -> None:
-        """Take an archive as it was handed in; raises CannotTake where it is too large."""
+        """Take an archive as it was handed in; raises CannotTake if it is too large."""
         if length > self.packed:
             most = f"the maximum for a submission is {MAX_ZIP >> 20} MB"
             raise CannotTake(f"the archive has {length >> 20} MB: {most}")

@@ -1,7 +1,7 @@
 """Blackboard: a file for each upload, with assignment, user and attempt in its name, and a receipt.
 
-The receipt is the `.txt` of an attempt. It names the user, even where the user's name or the
-assignment's has an underscore in it.
+The receipt is the `.txt` of an attempt. It names the user, even if the user's name or the
+assignment's contains an underscore.
 """
 
 import re

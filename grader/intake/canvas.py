@@ -21,7 +21,7 @@ COLUMNS = (
 )
 POINTS_POSSIBLE = "Points Possible"  # the first cell of the second row
 TEST_STUDENT = "Student, Test"  # Canvas's own test student
-TRIAL = re.compile(r"studenttest_(LATE_)?\d+_.+")  # how names of its files begin
+TRIAL = re.compile(r"studenttest_(LATE_)?\d+_.+")  # prefix of its file names
 
 
 class Canvas(Lms):

@@ -40,7 +40,7 @@ from grader.judge.wall.outer import READING, Exceeded, Failed, Lost, call_within
 from grader.judge.wall.workplace import work_folder
 from grader.source.flaws import find_bad_bytes
 
-COPY = re.compile(r"-\d+(?=\.\w+$)")  # what an LMS adds to the name of a file handed in again
+COPY = re.compile(r"-\d+(?=\.\w+$)")  # suffix of an LMS for a file handed in again
 
 
 @contextmanager

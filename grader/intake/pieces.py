@@ -192,7 +192,7 @@ def arrange_rest(folder: Path, asked: Collection[str], left_out: set[PurePosixPa
 def find_candidates(paths: list[PurePosixPath]) -> list[Piece]:
     """Return all possible programs of the lab; files inside a package are part of it."""
     found: list[Piece] = []
-    taken: set[PurePosixPath] = set()  # where they lie
+    taken: set[PurePosixPath] = set()  # their folder
     folders: dict[PurePosixPath, list[PurePosixPath]] = {}
     for path in paths:
         for parent in path.parents:

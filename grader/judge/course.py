@@ -24,7 +24,9 @@ COURSE_FILE = "COURSE_FILE"  # the variable by which make passes a course to eve
 HANDED_OUT = CHECKS / "course.toml"  # in a student's copy, whose rubric has only its TODOs
 EXAMPLE = "2027-05-04T23:59:00+02:00"
 END_OF_DAY = time(23, 59, 59)  # the due time of a date without a time
-ANYWHERE = timezone(timedelta(hours=-12), "anywhere on Earth")  # where a day ends last
+ANYWHERE = timezone(
+    timedelta(hours=-12), "anywhere on Earth"
+)  # the time zone in which a day ends last
 
 
 Read = TypeVar("Read", bound=Struct)
@@ -269,7 +271,7 @@ MUST = {  # the rule for each value, by its position in the file; * is any key o
     "points": "must be a table: write [points] on a line and 4 = 12 below it",
     "points.*": "must be a whole number from 1 to 1000",
     "out_of": "must be a number above 0, as in out_of = 100",
-    "bonus": 'must be "apart", "left out", "fill up", or how many points count at most',
+    "bonus": 'must be "apart", "left out", "fill up", or the maximum number of points',
     "due": f"must be a date without quotes, as in due = {EXAMPLE}",
     "visible": f"must be a date without quotes, as in visible = {EXAMPLE}",
     "late": "must be a table: write [late] on a line and per_day = 10 below it",
@@ -362,8 +364,8 @@ def faults_between(course: Course) -> Iterator[str]:
         )
         if whole and all(check.guard for check in whole.checks):
             yield (
-                "todos: none of the checks of the whole program needs one of these TODOs, so it "
-                'would be given away: leave "whole" out'
+                "todos: none of the checks of the whole program needs one of these TODOs, so "
+                'its points would be free: leave "whole" out'
             )
     if course.late is not None:
         yield from course.late.find_faults(course.rubric.max_points)

@@ -92,7 +92,7 @@ class CheckLoop:
                 self.passed.add(key)
 
     def _judge(self, job: Job, known: bool, ahead: "Future[EarlyOutcome] | None") -> None:
-        """Judge a check, without running it where the program is `known` to have passed it."""
+        """Judge a check, without running it if the program is `known` to have passed it."""
         result = self._find_blocked(job)
         if result is None and known:
             result = make_result(job, "passed")

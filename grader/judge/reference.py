@@ -146,7 +146,7 @@ def names_read(code: CodeType) -> set[str]:
 
 
 def plain_imports(body: list[ast.stmt]) -> list[str]:
-    """Return the imports of libraries; the submission has the program's own names."""
+    """Return the imports of libraries; the program's own names come from the submission."""
     return [
         ast.unparse(node)
         for node in body

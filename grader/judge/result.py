@@ -40,7 +40,7 @@ class CheckResult(Struct, frozen=True):
     meaning: str = ""
     where: Where | None = None
     replay: str | None = None
-    printed: str | UnsetType = UNSET  # by the submission; only in checks of one's own work
+    printed: str | UnsetType = UNSET  # by the submission; only in checks of the user's own work
 
     @property
     def failed(self) -> bool:

@@ -69,9 +69,9 @@ class Runner:
     def run(self, job: Job) -> Outcome:
         """Run a check with the reference's code in the other TODOs, then the unchanged program.
 
-        The words about a failure come from the program as it is. Where the reference was sent, a
-        submission could have read it, and its answers could spell it out. A check that ran out of
-        time does not run again.
+        The words about a failure come from the program as it is. A submission could read a
+        reference that it was sent, and its answers could reveal it. A check that ran out of time
+        does not run again.
         """
         lab, example = self._attempt(job, Conditions(isolated=True))
         alone = lab

@@ -43,7 +43,7 @@ ENDLESS = f"it has more than {MAX_SEEN} files and folders, or {MAX_DEPTH} folder
 FULL = {errno.ENOSPC, errno.EDQUOT}  # faults of our disk, and not of the submission
 COPY = "TODO {id} is written in {copy}, which no program runs: the code belongs in {file}."
 SUPPLIED = "{file} is missing. The handed-out one was taken in its place."
-COMPILED = (".pyc", ".pyo", ".so", ".pyd", ".dll", ".dylib")  # code that nobody can read
+COMPILED = (".pyc", ".pyo", ".so", ".pyd", ".dll", ".dylib")  # unreadable code
 IGNORED = {"venv", "__pycache__", "__MACOSX", "node_modules", "build"}  # and hidden folders
 
 

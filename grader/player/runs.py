@@ -81,7 +81,7 @@ class Scene(Struct, frozen=True):
     expected_looks: dict[int, BodyLook]
     lines: list[LinePair]
     yours: list[PageMoment]
-    expected: list[PageMoment]  # shorter where the right run is not known
+    expected: list[PageMoment]  # shorter if the right run is not known
 
 
 class Parting(Struct, frozen=True):

@@ -57,7 +57,7 @@ class Step:
 
 @dataclass
 class Translator:
-    """Translates requests into Python and gives names to objects, anew in each scene."""
+    """Translates requests into Python and gives new names to objects in each scene."""
 
     module: str
     names: dict[int, str] = field(default_factory=dict)  # by the child's number

@@ -87,7 +87,7 @@ def damping(program: Program, draw: Draw) -> Case:
     return Case(
         f"A ball flies freely at {speed:g} px/s in a `World` without gravity, with "
         f"`linear_damping={rate:g}`.\nHow fast is it after {seconds:g} s?",
-        speed * exact.damped(rate, seconds),
+        speed * exact.compute_share(rate, seconds),
         measured,
         "px/s",
         f"Each second keeps the share exp(-{rate:g}): v exp(-{rate:g} · {seconds:g}), whatever "
@@ -96,9 +96,9 @@ def damping(program: Program, draw: Draw) -> Case:
             (speed * (1 - rate * seconds), "took the same speed away each second, not a share"),
             (speed * (1 - rate) ** seconds, "kept 1 - rate of each second instead of exp(-rate)"),
             (speed * (1 - rate * STEP), "damped one step alone"),
-            (speed * exact.damped(rate, 1.0), "damped for one second, whatever the time")
+            (speed * exact.compute_share(rate, 1.0), "damped for one second, whatever the time")
             if seconds != 1
-            else (speed * (1 - exact.damped(rate, 1.0)), "gave what is lost"),
+            else (speed * (1 - exact.compute_share(rate, 1.0)), "gave what is lost"),
         ],
     )
 

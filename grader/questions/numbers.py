@@ -30,7 +30,7 @@ class Case:
 
     text: str
     answer: float  # in closed form
-    measured: float  # what the student's program gave
+    measured: float  # the student's program's answer
     unit: str
     why: str
     wrong: Sequence[tuple[float, str]] = ()

@@ -19,7 +19,7 @@ USUAL_TOP, MOST_ABOVE, BOTTOM = 30.0, -120.0, 590.0  # px, size of a picture
 
 @dataclass(frozen=True)
 class Look:
-    """The shape of a body: a disc where it has a radius, else a box."""
+    """The shape of a body: a disc if it has a radius, else a box."""
 
     radius: float  # px
     half: tuple[float, float]

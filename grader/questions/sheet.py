@@ -13,7 +13,7 @@ from grader.questions.reasons import ask_reason, list_reason_todos
 from grader.text import clean
 
 SLOTS = (1, 3, 5, 2, 4, 6)  # contacts, time, integrators: a sheet begins with one of each
-Ask = tuple[str, Callable[[], Question]]  # what a question is called, and how it is made
+Ask = tuple[str, Callable[[], Question]]  # the name of a question, and its maker
 
 
 class Asks(Protocol):
@@ -63,11 +63,11 @@ def ask_some(asks: Iterator[Ask], count: int, dropped: list[str]) -> list[Questi
         try:
             found.append(ask())
         except Exception as error:
-            dropped.append(f"{name}: {why_not(error)}")
+            dropped.append(f"{name}: {explain_refusal(error)}")
     return found
 
 
-def why_not(error: Exception) -> str:
+def explain_refusal(error: Exception) -> str:
     """Say why a question is not asked; raise errors that the program did not cause."""
     match error:
         case CannotAsk():

@@ -271,11 +271,11 @@ def note_oracles() -> Iterator[dict[str, Answers]]:
 
 def note_answers(function: Any, notes: Answers) -> Any:
     @wraps(function)
-    def asked(*inputs: Any) -> Any:
+    def ask_and_note(*inputs: Any) -> Any:
         notes[key(inputs)] = function(*inputs)
         return notes[key(inputs)]
 
-    return asked
+    return ask_and_note
 
 
 def ask_model(model: misconceptions.Model, about: str, seen: list[Observation]) -> Answers:

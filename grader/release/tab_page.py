@@ -59,7 +59,7 @@ LOCK = "pyodide-lock.json"
 PLATFORMS = ("pyemscripten_2026_0_wasm32", "any")
 PYTHON = "3.14"
 AS_THEY_ARE = ("README.md", "style.css", "worker.js", "shared.js", "unpack.mjs")
-TEXTS = (".py", ".md")  # what a person may edit
+TEXTS = (".py", ".md")  # editable files
 UNUSED = re.compile(  # of the wheels; of cffi, pymunk loads the compiled part alone
     r"/tests?/|/testing/|pymunk/examples/|\.dist-info/(?!METADATA)|\.(pyi|c|h|pyc)$|"
     r"/cffi/|/hypothesis/extra/"

@@ -33,7 +33,7 @@ from grader.text import clean
 LINES = 16  # before the prompt
 USUAL = 13  # lines that the names of further failures may fill
 OBVIOUS = {"an answer", "code that Python accepts"}  # expected where Got is an error
-READING = "reading "  # how We ran begins for a file
+READING = "reading "  # start of We ran for a file
 MOST_REMARKS = 2  # on TODOs without code that counts
 WIDTH = 76  # columns of a TODO's own line, with the points at its end
 TASKS = "tasks.json"  # only in a release, which makes it from its pages

@@ -89,7 +89,7 @@ class RegionCode:
 
     @property
     def first_line(self) -> int:
-        """Return the number of the first line with code; 0 where there is none."""
+        """Return the number of the first line with code; 0 if there is none."""
         return self.before + self.body[0].lineno if self.body else 0
 
     def has_line(self, line: int) -> bool:

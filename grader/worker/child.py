@@ -120,7 +120,7 @@ def send(channel: Channel, answered: Answered) -> None:
 
 
 def perform(session: Session, request: Request) -> Reply:
-    """Perform a request. Raises ContractError, and whatever the submission raises."""
+    """Perform a request. Raises ContractError, and any exception of the submission."""
     subject = session.subject
     match request:
         case Import(module, pieces, watched, deal):

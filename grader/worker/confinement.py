@@ -21,7 +21,7 @@ from functools import cache
 from pathlib import Path
 
 from grader.protocol import ENVIRONMENT, ChildSetup, Limits
-from grader.worker.filter import packed, refuse_system_calls
+from grader.worker.filter import pack_filter, refuse_system_calls
 from grader.worker.root import (
     CLONE_NEWNS,
     MS_REC,
@@ -237,7 +237,7 @@ def become_own_user(setup: ChildSetup) -> list[str]:
 def prepare(setup: ChildSetup, without: Collection[str] = ()) -> None:
     """Compute in the warm process, once, what every forked child needs."""
     kinds_of_paths(tuple(setup.hidden))
-    packed()
+    pack_filter()
     if sys.platform.startswith("linux") and not {"own-root", "user-namespace"} & set(without):
         own_root(setup)
 
@@ -328,16 +328,16 @@ def readable_paths(hidden: tuple[str, ...]) -> list[Path]:
     folder. No path is a link.
     """
     kept_out = {Path(each).resolve() for each in hidden}
-    return sorted({each for root in libraries() for each in all_but(kept_out, root.resolve())})
+    return sorted({each for root in libraries() for each in list_without(kept_out, root.resolve())})
 
 
-def all_but(kept_out: set[Path], path: Path) -> Iterator[Path]:
+def list_without(kept_out: set[Path], path: Path) -> Iterator[Path]:
     """Yield the path, or if some of `kept_out` lie below it, the entries beside them."""
     if not any(each.is_relative_to(path) for each in kept_out):
         yield path
     elif path not in kept_out:
         for below in path.iterdir():
-            yield from all_but(kept_out, below)
+            yield from list_without(kept_out, below)
 
 
 @cache
@@ -364,7 +364,7 @@ def links_to_libraries() -> list[Path]:
 
 
 def landlock_version() -> int:
-    """Return the version of the kernel's Landlock; less than 1 where there is none."""
+    """Return the version of the kernel's Landlock; less than 1 if there is none."""
     version: int = libc().syscall(LANDLOCK_CREATE_RULESET, None, 0, LANDLOCK_CREATE_RULESET_VERSION)
     return version
 

@@ -19,7 +19,7 @@ def copy_submission(setup: ChildSetup, folder: str) -> list[str]:
     that the child only reads become links.
 
     It makes system calls itself, because every child copies every file. Each child reads the files
-    anew: what the warm process had read, a child of the next submission would find in its memory.
+    itself: data read by the warm process would be in the memory of the next submission's children.
     """
     found: list[str] = []
     waiting = [""]

@@ -244,7 +244,7 @@ def column_of(table: dict[str, Numbers], column: int) -> list[int]:
 
 
 @cache
-def packed() -> bytes:
+def pack_filter() -> bytes:
     """Return this machine's filter as the kernel reads it, with ANY_PID for the process.
 
     Returns nothing on other machines and for a Python of 32 bits. The warm process calls this once
@@ -259,9 +259,9 @@ def packed() -> bytes:
 def refuse_system_calls() -> list[str]:
     """Install the filter for good, for this thread and those it starts; return the layer.
 
-    Returns no layer where the kernel was built without filters.
+    Returns no layer if the kernel was built without filters.
     """
-    text = packed().replace(struct.pack("I", ANY_PID), struct.pack("I", os.getpid()))
+    text = pack_filter().replace(struct.pack("I", ANY_PID), struct.pack("I", os.getpid()))
     if not text:
         return []
     taken = Program(len(text) // 8, text)

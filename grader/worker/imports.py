@@ -1,4 +1,4 @@
-"""Limit what a submission may import: one rule, whatever is installed here.
+"""Limit a submission's imports by one rule, for any installed packages.
 
 It may import the standard library, the libraries of the assignment and its own files. Without the
 rule, marks would depend on the packages that an instructor has installed.

@@ -100,7 +100,7 @@ def watch_calls(_: FrameType, event: str, called: object) -> None:
 
 
 def seconds_elsewhere() -> float:
-    """Return the processor seconds of all other threads; 0 where the system does not count."""
+    """Return the processor seconds of all other threads; 0 if the system does not count."""
     if not WHOSE:
         return 0.0
     whole, own = (used.ru_utime + used.ru_stime for used in map(getrusage, WHOSE))

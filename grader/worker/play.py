@@ -282,7 +282,7 @@ def rod_lengths(world: Any) -> list[tuple[float, float]]:
 
 
 def simulate(subject: Subject, recorder: Recorder, request: Simulate) -> Simulated:
-    """Step a world; record the watched bodies, and contacts if wanted, every so many steps.
+    """Step a world; record the watched bodies, and contacts if wanted, every `every` steps.
 
     The watched bodies are read one by one: the world's own list may be wrong.
     """

@@ -81,7 +81,7 @@ class Recorder:
         self.every = math.ceil(states / self.recording.most) if self.recording else 1
 
     def record(self, time: float, steps: int) -> None:
-        """Record a state of a run, at `time` in s; one in so many, and the last, is a moment."""
+        """Record a state of a run, at `time` in s; every nth state, and the last, is a moment."""
         self.states += 1
         if self.recording and (self.states % self.every == 0 or self.states == self.total):
             self._add_moment(time, steps)

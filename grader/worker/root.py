@@ -118,7 +118,7 @@ LAID_OUT: dict[tuple[Path, ...], Root] = {}  # by the paths in it
 
 
 def shared_root(paths: tuple[Path, ...], links: tuple[Path, ...]) -> Root | None:
-    """Make the shared part in a new mount namespace; return None where that is not allowed.
+    """Make the shared part in a new mount namespace; return None if that is not allowed.
 
     Children inherit the part that the warm process made. If the warm process was not allowed to, a
     child with a user namespace is.

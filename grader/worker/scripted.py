@@ -20,7 +20,7 @@ import pygame
 from grader.protocol import Event
 
 START_MS = 1000.0  # time at the start: a program may not rely on 0
-GRACE_FRAMES = 5  # a program may run so many frames after QUIT
+GRACE_FRAMES = 5  # frames that a program may run after QUIT
 BUSY_READS = 500  # readings of the time in one frame before time moves by itself
 MODIFIERS = {
     "left shift": pygame.KMOD_LSHIFT,

@@ -1,7 +1,7 @@
 """Replace a function by another one, also where it is already imported or stored.
 
-Imports, default arguments and tables of functions all hold a function. So no name is bound anew:
-the function object itself gets other code, which calls the replacement.
+Imports, default arguments and tables of functions all hold a function. So no name is rebound: the
+function object itself gets other code, which calls the replacement.
 """
 
 import inspect

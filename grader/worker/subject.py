@@ -348,7 +348,7 @@ class Subject:
         )
 
     def _joint(self, joint: Constraint) -> SpaceJoint:
-        """Return a pymunk constraint; anchors in world coordinates, where it has any."""
+        """Return a pymunk constraint; anchors in world coordinates, if it has any."""
         anchor_a, anchor_b = (
             Vec(*body.local_to_world(getattr(joint, name))) if hasattr(joint, name) else None
             for body, name in ((joint.a, "anchor_a"), (joint.b, "anchor_b"))

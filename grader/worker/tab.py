@@ -31,7 +31,7 @@ from grader.protocol import (
     ChildSetup,
     InnerChannel,
     Ready,
-    packed,
+    pack_message,
 )
 from grader.worker import child
 from grader.worker.copies import compile_all, copy_submission
@@ -204,7 +204,7 @@ class TabChannel(InnerChannel):
         return True
 
     def receive(self, timeout: float | None = None) -> bytes:
-        """Return the next answer; raise ChannelClosed where a process would be gone."""
+        """Return the next answer; raise ChannelClosed if a process would have ended."""
         if not self.answers and self.setup.compiles:
             compile_all(self.setup)
         if not self.answers:
@@ -222,7 +222,7 @@ class TabChannel(InnerChannel):
     # ------------------------------------------------------------ the child's side
 
     def send(self, message: object) -> None:
-        self.answers.append(packed(message)[4:])
+        self.answers.append(pack_message(message)[4:])
 
     def _answer(self, asked: Asked) -> None:
         """Answer, unless a process would have ended meanwhile."""

@@ -36,7 +36,7 @@ def describe(value: Any) -> str:
 
 
 def field(thing: Any, name: str) -> Any:
-    """Return an attribute. Raises ContractError where it is missing."""
+    """Return an attribute. Raises ContractError if it is missing."""
     try:
         return getattr(thing, name)
     except AttributeError:

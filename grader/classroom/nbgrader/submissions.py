@@ -41,7 +41,7 @@ def collect_submissions(folder: Path, course: Path) -> Iterator[StudentFolder]:
     """Copy each student's folder to nbgrader's folder for it.
 
     No links and nothing hidden is copied. A notebook may lie in the folder `notebooks`, as in the
-    starter, beside the engine, or anywhere else. A submission that changed is autograded anew.
+    starter, beside the engine, or anywhere else. A changed submission is autograded again.
     """
     if not (course / "source" / ASSIGNMENT).is_dir():
         make = f"python -m grader nbgrader course {course}"

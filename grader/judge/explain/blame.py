@@ -97,7 +97,7 @@ class CauseSearch:
         [Sequence[GivenChange]], OpenChild
     ]  # children of the tree with these undone
     again: Callable[[Key, OpenChild], Lab]
-    spent: Callable[[], bool] = lambda: False  # whether the submission has used up its time
+    spent: Callable[[], bool] = lambda: False  # the submission has used up its time
     asked: int = 0  # runs with one change undone
     found: dict[Key, GivenCause] = field(default_factory=dict)
     answers: dict[Key, list[Observation]] = field(default_factory=dict)  # with all changes undone

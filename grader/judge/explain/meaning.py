@@ -29,7 +29,7 @@ ROUNDED = (
     "Right to four digits and more, but not to all: is a number rounded, or float32 used for it?"
 )
 PRINTED_ERROR = re.compile(r"\b(\w+(?:Error|Exception): [^|]*)$")
-CALLED_BACK = {  # what to do about an error of such a function, by a part of the error
+CALLED_BACK = {  # advice on an error of such a function, by a part of the error
     "takes ": "pymunk gives it three things: (arbiter, space, data).",
     "missing ": "pymunk gives it three things: (arbiter, space, data).",
     "NoneType": "Its data is None: hand data to on_collision as well, data=data.",
@@ -40,7 +40,7 @@ UNFIT = (
     "ValueError: Can't normalize",
 )  # a case was reached that must not occur
 LONGEST = 110  # letters of the text beside a line
-NEARLY, NOTHING = 5e-5, 1e-9  # relative error of a rounded number; error of one that is 0
+NEARLY, NOTHING = 5e-5, 1e-9  # relative error of a rounded number; absolute error of 0
 NUMBER = re.compile(r"(?<![\w.^])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 FINISH = "TODO {ids} must be right before this can be checked: finish {it} first."
 
@@ -86,7 +86,7 @@ class Failure:
     trespass: str = ""  # forbidden changes, in words
     given_cause: GivenCause | None = None
     earlier: Sequence[str] = ()  # TODOs in which the program fails first
-    start: Where | None = None  # where the program begins
+    start: Where | None = None  # file with the program's main
     hint: Callable[[], str] = lambda: ""  # about names, arguments and errors
     mend: Mend | None = None
 

@@ -154,7 +154,7 @@ def keep_simplest(ids: Collection[str]) -> list[str]:
 
 
 def predict(model: Model, inputs: tuple[Any, ...]) -> Any:
-    """Return a model's answer; raises Undecided also where it divides by 0 or overflows."""
+    """Return a model's answer; raises Undecided also if it divides by 0 or overflows."""
     try:
         return model(*inputs)
     except ArithmeticError:

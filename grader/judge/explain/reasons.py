@@ -242,7 +242,7 @@ class Reasons:
 
 
 def wait_for(todos: list[str], check: CheckResult) -> CheckResult:
-    """Return a failed check without the words that are about other TODOs, which come first."""
+    """Return a failed check without words about other TODOs, whose mistakes come first."""
     are = "is" if len(todos) == 1 else "are"
     got = f"your program fails before that: TODO {join_words(todos)} {are} not right yet"
     return structs.replace(check, expected="", got=got, meaning="")

@@ -214,7 +214,7 @@ def busy_seconds(pid: int) -> float | None:
     """Return the time for which a process has worked or waited for a processor, s; None if it is
     gone.
 
-    Where the system does not measure waiting, a process that is not asleep counts as always busy.
+    If the system does not measure waiting, a process that is not asleep counts as busy.
     """
     try:
         process = psutil.Process(pid)
@@ -499,7 +499,7 @@ class SpawnWorker:
 
 
 def reaped_seconds() -> float:
-    """Return the processor time of all our processes that have ended; 0 where it is unknown."""
+    """Return the processor time of all our processes that have ended; 0 if it is unknown."""
     try:
         import resource
     except ImportError:

@@ -307,7 +307,7 @@ def read_reply(
 class WatchedProcess:
     """A process for many calls, whose results such as a warm process can be used again.
 
-    It starts anew after a call that reached a limit. Its temporary files are removed with it.
+    It restarts after a call that reached a limit. Its temporary files are removed with it.
     """
 
     def __init__(self) -> None:

@@ -28,7 +28,7 @@ class Sandbox:
     isolation: Isolation
     hidden: list[str]  # folders that children cannot reach
     loads: list[str] = field(default_factory=list)  # libraries that are slow to load, by name
-    trusted: bool = False  # one's own work
+    trusted: bool = False  # the user's own work
     layers: list[str] = field(default_factory=list)  # of isolation around the last child
     bans: list[str] = field(default_factory=list)  # modules that children may not import, by name
     shown: list[str] = field(default_factory=list)  # folders that children need not copy
@@ -66,8 +66,8 @@ class Sandbox:
     def changed(self, texts: Mapping[str, str]) -> "Sandbox":
         """Return the sandbox of a copy of the tree, in which some files have another text.
 
-        Both share compiled files. A changed file is younger by more than a second, the unit in
-        which Python compares them.
+        Both share compiled files. A changed file gets a time over a second later, since Python
+        compares whole seconds.
         """
         tree = Path(tempfile.mkdtemp(dir=self.work)) / "tree"
         shutil.copytree(self.tree, tree)

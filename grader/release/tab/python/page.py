@@ -215,7 +215,7 @@ def check(only, columns):
 
 
 def replay(todo, check):
-    """Return the replay page of a failed check, or "" where there is none."""
+    """Return the replay page of a failed check, or "" if there is none."""
     return failed[todo, check]() if (todo, check) in failed else ""
 
 
@@ -225,7 +225,7 @@ def make_replay(run, todo, check, failing):
     try:
         replays = Replays(LAB, run.sandbox.open_child, None)
         made = replays.make_files(todo, check, failing)
-    except Exception:  # whatever the submission does
+    except Exception:  # any error of the submission
         return ""
     return made[0] if made else ""
 

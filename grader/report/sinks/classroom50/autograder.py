@@ -1,7 +1,7 @@
 """Grade one submission for Classroom 50, whose runner starts this in the student's checkout.
 
 It installs the grader from the files beside this one and imports nothing from the checkout. The
-exit status is 0 if the submission was graded, whatever its marks.
+exit status is 0 if the submission was graded, with any marks.
 """
 
 import json
