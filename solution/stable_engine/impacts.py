@@ -213,9 +213,7 @@ class Impacts:
         held = {c.a for c in self.touching if c.b.is_static}
         stopped = self.contacts.was_stopped
         self.free = {
-            body
-            for body in self.beside
-            if not (body in held or body.joint_count or stopped(body))
+            body for body in self.beside if not (body in held or body.joint_count or stopped(body))
         }
 
     def take_first(self) -> tuple[list[Contact], float]:
