@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from conftest import KIT
 from ruamel.yaml import YAML
+from whole_bank import bank
 
 import grader
 
@@ -70,3 +71,12 @@ def test_every_dependency_has_a_reason():
     named = set(re.findall(r"[\w-]+", " ".join(re.findall(r"^\| ([^|]+) \|", rows, re.M))))
     wanted = chain(PROJECT["dependencies"], *PROJECT["optional-dependencies"].values())
     assert {re.split("[<>=]", each)[0] for each in wanted} <= named
+
+
+def test_the_readme_counts_the_known_mistakes_and_the_bank():
+    readme = (KIT / "README.md").read_text(encoding="utf-8")
+    sentences = tomllib.loads((KIT / "grader/checks/mistakes.toml").read_text("utf-8"))
+    (mistakes,) = re.findall(r"more than (\d+) known mistakes", readme)
+    assert int(mistakes) <= sum(map(len, sentences.values()))
+    (size,) = re.findall(r"A bank of about ([\d,]+) wrong, right and hostile", readme)
+    assert int(size.replace(",", "")) == pytest.approx(len(bank()), rel=0.25)
