@@ -151,7 +151,7 @@ class Rod(NamedTuple):
         return self.mass_a * ax + self.mass_b * bx, self.mass_a * ay + self.mass_b * by
 
     @property
-    def turned(self) -> "Rod":
+    def with_swapped_ends(self) -> "Rod":
         """Return the same rod with its ends swapped."""
         x, y = self.offset
         ends = self.mass_b, self.mass_a, self.length, (-x, -y), self.vel_b, self.vel_a

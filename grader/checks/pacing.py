@@ -62,7 +62,7 @@ class Pace:
         return 1000 * max(self.sizes, default=STEP)
 
     @property
-    def done(self) -> float:
+    def simulated(self) -> float:
         """Return the simulated time, ms."""
         return sum(self.steps) * self.step
 

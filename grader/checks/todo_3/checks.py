@@ -278,7 +278,7 @@ def want_both_rods(lab: Lab, rod: Rod, other: Rod, turned: bool) -> None:
     lab.tell(second, "prepare", rod.dt)
     vel = {a: rod.vel_a, b: rod.vel_b, c: other.vel_b}
     far = math.hypot(x, y) + math.hypot(*other.offset)
-    last = (second, c, b, other.turned, far) if turned else (second, b, c, other, far)
+    last = (second, c, b, other.with_swapped_ends, far) if turned else (second, b, c, other, far)
     for _ in range(3):
         for each, first, end, meant, away in ((joint, a, b, rod, 0.0), last):
             now = meant._replace(vel_a=vel[first], vel_b=vel[end])

@@ -60,9 +60,12 @@ def as_much_is_simulated_at_30_60_and_144_frames_a_second(lab: Lab) -> None:
     paces = {rate: pace(lab, frames_at(rate, seconds), STEP_TAKES) for rate in (30, 60, 144)}
     # Up to one step, and up to the time that a program one frame behind has not read yet.
     lab.want(
-        all(-STEP_MS - p.waiting <= p.time - p.done <= STEP_MS + p.slack for p in paces.values()),
+        all(
+            -STEP_MS - p.waiting <= p.time - p.simulated <= STEP_MS + p.slack
+            for p in paces.values()
+        ),
         ", ".join(f"{each.time / 1000:.3f} s at {rate}" for rate, each in paces.items()),
-        ", ".join(f"{each.done / 1000:.3f} s at {rate}" for rate, each in paces.items()),
+        ", ".join(f"{each.simulated / 1000:.3f} s at {rate}" for rate, each in paces.items()),
         explain_too_much(paces),
     )
 
@@ -71,7 +74,7 @@ def explain_too_much(paces: dict[int, Pace]) -> str:
     """Explain, at each frame rate, the effect of simulating more time than passes."""
     if any(each.sizes and not are_fixed(each.sizes) for each in paces.values()):
         return OTHER_STEPS
-    shares = {rate: each.done / each.time for rate, each in paces.items()}
+    shares = {rate: each.simulated / each.time for rate, each in paces.items()}
     if max(shares.values()) <= 1.05:
         return ""
     if shares[30] > 1.05 * shares[144]:
@@ -206,7 +209,7 @@ def any_frames_lose_nothing_but_what_the_cap_cuts(
     slow = sum(length > most - STEP_MS for length in paced.lengths)  # may lose a remainder as well
     lab.want(
         max(paced.steps) <= MAX_STEPS
-        and -STEP_MS - paced.waiting <= cut - paced.done <= (1 + slow) * STEP_MS + paced.slack,
+        and -STEP_MS - paced.waiting <= cut - paced.simulated <= (1 + slow) * STEP_MS + paced.slack,
         f"{cut / STEP_MS:.0f} steps or up to {1 + slow} less, and at most {MAX_STEPS} a frame",
         f"{sum(paced.steps)} steps, and up to {max(paced.steps)} a frame",
     )

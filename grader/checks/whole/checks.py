@@ -226,13 +226,13 @@ def want_a_landing(lab: Lab, played: Played, radius: int) -> None:
 def want_events(lab: Lab, balls: list[Mover], dropped: Mover, place: Pair) -> None:
     """Insist on visible events: a ball bounces, pegs deflect balls, and a ball rolls."""
     lab.want(
-        dropped.rose > ROSE,
+        dropped.rise > ROSE,
         f"a ball dropped at {place} that bounces off the floor, by about 15 px",
-        f"it rises by {dropped.rose:.1f} px",
+        f"it rises by {dropped.rise:.1f} px",
     )
     aside = [ball for ball in balls if ball.went_aside > ASIDE]
     lab.want(len(aside) >= 2, "balls that the pegs deflect", f"{len(aside)} deflected")
-    farthest = max(ball.rolled for ball in balls)
+    farthest = max(ball.rolled_distance for ball in balls)
     lab.want(
         farthest > ROLLED,
         "a ball that rolls over the floor: its rim turns as fast as it moves",
@@ -453,7 +453,7 @@ def want_pymunk_events(lab: Lab, balls: list[Mover]) -> None:
     """Insist that pegs deflect balls, that a ball turns, and that all come to rest."""
     aside = [ball for ball in balls if ball.went_aside > ASIDE]
     lab.want(len(aside) >= 2, "balls that the pegs deflect", f"{len(aside)} deflected")
-    most = max(ball.turned for ball in balls)
+    most = max(ball.turned_angle for ball in balls)
     lab.want(most > 1.0, "balls that have rolled", f"none has turned by more than {most:.2f} rad")
     bouncing = max(abs(ball.trail[-1].vy) for ball in balls)
     lab.want(

@@ -59,7 +59,7 @@ class Mover:
         return max(abs(moment.x - self.trail[0].x) for moment in self.trail)
 
     @property
-    def rolled(self) -> float:
+    def rolled_distance(self) -> float:
         """Return how far it rolled over the floor, px."""
         return sum(
             abs(moment.vx) * STEP
@@ -68,12 +68,12 @@ class Mover:
         )
 
     @property
-    def turned(self) -> float:
+    def turned_angle(self) -> float:
         """Return by how much it turned, back and forth, rad."""
         return sum(abs(moment.omega) for moment in self.trail) * STEP
 
     @property
-    def rose(self) -> float:
+    def rise(self) -> float:
         """Return how high it rose after it first came down on the floor, px; 0 if it never did."""
         landed = next((n for n, m in enumerate(self.trail) if self.lies_near_floor(m)), None)
         if landed is None:
