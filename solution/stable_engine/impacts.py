@@ -63,17 +63,17 @@ class Impacts:
     def find(self) -> None:
         """Find what is due. A contact that has just begun counts as it was when it touched."""
         for c in self.touching:
-            self.look(c, c in self.begun)
+            self.look(c, self.flown.get(c.a, self.last_dt), c in self.begun)
 
-    def look(self, c: Contact, is_new: bool = False) -> None:
-        """Enter a pair that closes in fast."""
+    def look(self, c: Contact, since: float, is_new: bool = False) -> None:
+        """Enter a pair that closes in fast and has flown straight since so long (s) ago."""
         speed, ago = c.closing_speed(), 0.0
         if speed <= self.slow and not is_new:
             self.due.pop(c, None)
             return
         if c.gap < 0 or is_new:
             now = c.nx, c.ny, c.gap
-            ago = self.turn_back(c)
+            ago = self.turn_back(c, since)
             speed = c.closing_speed()
             if speed <= self.slow:
                 c.nx, c.ny, c.gap = now
@@ -81,14 +81,17 @@ class Impacts:
         if speed > self.slow:
             self.due[c] = Impact(ago, speed)
 
-    def turn_back(self, c: Contact) -> float:
+    def turn_back(self, c: Contact, since: float) -> float:
         """Turn a contact's normal to where it was when the two touched. Return how long (s) ago.
 
-        A ball that swings fast has not flown straight: its normal stays.
+        A ball that swings fast has not flown straight, nor one that an impact has just stopped
+        where it is: the normal stays. Nothing flies through a wall.
         """
-        if self.last_dt <= 0 or self.swings(c.a) or self.swings(c.b):
+        if since <= 0 or self.swings(c.a) or self.swings(c.b):
             return 0.0
-        ago, nx, ny = moment_of_touch(c.a, c.b, self.flown.get(c.a, self.last_dt))
+        ago, nx, ny = moment_of_touch(c.a, c.b, since)
+        if c.b.is_static and nx * c.nx + ny * c.ny <= 0:
+            return 0.0
         if ago > 0 and (nx, ny) != (c.nx, c.ny):
             c.nx, c.ny = nx, ny
             c.gap = -c.closing_speed() * ago
@@ -179,7 +182,7 @@ class Impacts:
             self.fly_on(hit, ago)
         for body in hit:
             reached[body] = ago
-        self.look_around(hit, ago > 0)
+        self.look_around(hit, ago)
 
     def fly_on(self, hit: list[Body], seconds: float) -> None:
         """Have balls fly straight on for a time, or back. A bullet stops before it meets a wall."""
@@ -196,12 +199,12 @@ class Impacts:
             body.y += body.vy * share * seconds
             body.angle += body.w * share * seconds
 
-    def look_around(self, hit: list[Body], moved: bool) -> None:
-        """Look anew at all contacts of balls that were hit."""
+    def look_around(self, hit: list[Body], ago: float) -> None:
+        """Look anew at all contacts of balls that were hit, and put elsewhere if it was long ago."""
         for c in dict.fromkeys([c for body in hit for c in self.beside[body]]):
-            if moved:
+            if ago > 0:
                 c.nx, c.ny, c.gap = collide(c.a, c.b)
-            self.look(c)
+            self.look(c, ago)
 
     def link(self) -> None:
         """Find the contacts of each ball, and the balls that can be put elsewhere."""
@@ -241,7 +244,7 @@ class Impacts:
             c.nx, c.ny, c.gap = collide(c.a, c.b)
         self.resolve(slow, settle, [], TURNS)
         self.fly_on(hit, ago)
-        self.look_around(hit, True)
+        self.look_around(hit, ago)
 
     def island_of(self, body: Body, reached: dict[Body, float]) -> list[Contact]:
         """Return the contacts that lead from a ball on. Takes their balls off the reached."""
