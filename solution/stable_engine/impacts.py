@@ -200,7 +200,7 @@ class Impacts:
             body.angle += body.w * share * seconds
 
     def look_around(self, hit: list[Body], ago: float) -> None:
-        """Look anew at all contacts of balls that were hit, and put elsewhere if it was long ago."""
+        """Look anew at all contacts of balls that were hit, and moved if that was some time ago."""
         for c in dict.fromkeys([c for body in hit for c in self.beside[body]]):
             if ago > 0:
                 c.nx, c.ny, c.gap = collide(c.a, c.b)
