@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from grader.intake.single import grade
     from grader.judge.course import Course, WrongCourse, read_course
-    from grader.judge.grade import Options, shipped_reference
     from grader.judge.result import Result
     from grader.judge.submission import CannotGrade
+    from grader.judge.task import Options, shipped_reference
 
 __version__ = "0.1.0"
 __all__ = [
@@ -37,12 +37,12 @@ __all__ = [
 MODULES = {
     "CannotGrade": "grader.judge.submission",
     "Course": "grader.judge.course",
-    "Options": "grader.judge.grade",
+    "Options": "grader.judge.task",
     "Result": "grader.judge.result",
     "WrongCourse": "grader.judge.course",
     "grade": "grader.intake.single",
     "read_course": "grader.judge.course",
-    "shipped_reference": "grader.judge.grade",
+    "shipped_reference": "grader.judge.task",
 }
 
 

@@ -18,9 +18,10 @@ from page_readers import chromium
 from grader.bank.sync import list_students_files
 from grader.bank.verify import shared_worker
 from grader.judge.course import FULL
-from grader.judge.grade import Options, grade, open_tree, shipped_reference
+from grader.judge.grade import grade, open_tree
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import Rubric, load_rubric
+from grader.judge.task import Options, shipped_reference
 from grader.player import replay
 from grader.questions.program import open_program
 from grader.release import practice

@@ -34,10 +34,11 @@ from grader.bank.members import (
     read_wrong,
     solution_code,
 )
-from grader.judge.grade import KIT, Options, grading
+from grader.judge.grade import grading
 from grader.judge.result import CheckResult, Result
 from grader.judge.rubric import drop_hidden, load_rubric
 from grader.judge.submission import handed_out
+from grader.judge.task import KIT, Options
 from grader.judge.wall.children import Worker
 from grader.source.regions import python_files, read_source, regions_in
 

@@ -61,9 +61,9 @@ from msgspec.structs import replace as replace_in
 
 from grader.bank.sync import LAID_IN
 from grader.judge.course import FULL, Course
-from grader.judge.grade import KIT
 from grader.judge.result import Result, is_bonus
 from grader.judge.rubric import load_rubric
+from grader.judge.task import KIT
 from grader.source.regions import Region, python_files, read_source, regions_in, replace_regions
 
 Kind = Literal["wrong", "right", "hostile", "ladder"]

@@ -25,10 +25,11 @@ from grader.bank.slips import SCOPES, Scope, make_slips
 from grader.bank.verify import collect, run_in_processes, shared_worker
 from grader.judge.explain import misconceptions
 from grader.judge.explain.misconceptions import Undecided
-from grader.judge.grade import KIT, Options, grading, shipped_reference
+from grader.judge.grade import grading
 from grader.judge.lab import Observation
 from grader.judge.result import CheckResult, Result
 from grader.judge.rubric import Rubric, load_rubric
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.source.definitions import function_named, statements
 from grader.source.operators import make_changes, names_in, normalize
 from grader.source.regions import Region, python_files, read_source, regions_in

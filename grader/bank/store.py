@@ -17,8 +17,8 @@ from msgspec import Struct
 from grader.bank.halfway import Halfway
 from grader.bank.members import BESIDES, Member
 from grader.judge.fingerprint import fingerprint
-from grader.judge.grade import KIT
 from grader.judge.result import Result
+from grader.judge.task import KIT
 from grader.report.files import write_whole
 
 UNREAD = ("README.md", "Makefile", "requirements.txt")  # files of a tree that no mark depends on

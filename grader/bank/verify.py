@@ -27,10 +27,11 @@ from grader.bank.sync import sync
 from grader.bank.traces import watch_traces
 from grader.errors import Stop
 from grader.judge.course import FULL, Course
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.passed import PASSED, PassedPrograms
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall.children import WarmWorker, Worker, count_cores, start_worker
 from grader.judge.wall.processes import begin_process
 from grader.report.progress import Counter

@@ -21,7 +21,7 @@ from rich.console import Console
 from rich.table import Table
 
 from grader.bank.members import members
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 
 
 class Tested(NamedTuple):

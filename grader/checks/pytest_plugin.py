@@ -11,9 +11,10 @@ import pytest
 
 from grader.judge.drawing import kept_examples
 from grader.judge.failures import Broke, NotYet
-from grader.judge.grade import Grading, Options, grading, shipped_reference
+from grader.judge.grade import Grading, grading
 from grader.judge.jobs import load_checks
 from grader.judge.rubric import CHECKS, Check, Todo, load_rubric
+from grader.judge.task import Options, shipped_reference
 
 GRADING = pytest.StashKey[Grading]()
 

@@ -24,7 +24,7 @@ from grader.classroom.fingerprint import pack_reference
 from grader.errors import Stop
 from grader.intake.found import Package
 from grader.judge.fingerprint import fingerprint
-from grader.judge.grade import Options
+from grader.judge.task import Options
 
 CONNECT_SECONDS = 20
 ONE_AT_A_TIME = threading.Lock()  # a process has one worker for all its threads

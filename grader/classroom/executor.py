@@ -13,7 +13,8 @@ from typing import Protocol, Self
 
 from grader.errors import Stop
 from grader.intake.found import Package
-from grader.judge.grade import Options, grade
+from grader.judge.grade import grade
+from grader.judge.task import Options
 from grader.judge.wall.children import Worker, count_cores, start_worker
 from grader.judge.wall.outer import GRADING, Failed, Lost, WatchedProcess
 from grader.judge.wall.workplace import work_folder

@@ -7,9 +7,9 @@ import msgspec
 
 from grader.intake.found import Package
 from grader.judge.fingerprint import fingerprint
-from grader.judge.grade import Options
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import module_of
+from grader.judge.task import Options
 from grader.source.regions import python_files
 
 

@@ -21,8 +21,8 @@ from grader.intake.names import list_names
 from grader.intake.roster import ClassList
 from grader.intake.systems import find_file, read_class_list
 from grader.judge.course import Course
-from grader.judge.grade import Options
 from grader.judge.result import is_bonus
+from grader.judge.task import Options
 from grader.judge.wall.outer import Exceeded, Failed, Lost
 from grader.text import printable
 

@@ -28,7 +28,7 @@ from grader.intake.found import CannotTake, Package, Work
 from grader.intake.listing import open_class
 from grader.intake.packing import pack
 from grader.intake.roster import ClassList
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.judge.wall.outer import READING, Allowance, Exceeded, Failed, Lost, call_within
 from grader.player.page import fill_template
 from grader.report.files import write_whole

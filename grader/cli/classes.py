@@ -18,7 +18,7 @@ from grader.cli.shared import (
     require_folder_target,
 )
 from grader.errors import Stop
-from grader.judge.grade import Options, shipped_reference
+from grader.judge.task import Options, shipped_reference
 from grader.judge.wall.children import count_cores
 from grader.text import plural
 

@@ -28,7 +28,7 @@ from grader.cli.shared import (
 )
 from grader.errors import Stop
 from grader.judge.course import WrongCourse, read_course
-from grader.judge.grade import KIT, Options, shipped_reference
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.text import clean, join_words
 
 if TYPE_CHECKING:

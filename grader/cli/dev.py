@@ -15,8 +15,8 @@ from grader.cli.shared import (
     require_folder_target,
 )
 from grader.judge.course import read_course
-from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric
+from grader.judge.task import KIT
 
 FRESH = "Grade every member of the bank, also those that build/verify holds a result of."
 

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from grader.judge.grade import Options
 from grader.judge.result import Result
+from grader.judge.task import Options
 from grader.judge.wall.children import Worker
 from grader.player.page import fill_template
 from grader.questions.films import make_film

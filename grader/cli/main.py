@@ -33,8 +33,8 @@ from grader.cli.shared import (
 )
 from grader.errors import Stop
 from grader.judge.course import read_course
-from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.result import Result
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall.children import count_cores
 from grader.judge.wall.outer import MOST_MEMORY, WHOLE, go_on_within
 from grader.report.files import write_json

@@ -17,7 +17,7 @@ from grader.cli.shared import (
 )
 from grader.errors import Stop
 from grader.judge.course import read_course
-from grader.judge.grade import Options, shipped_reference
+from grader.judge.task import Options, shipped_reference
 from grader.judge.wall.outer import WHOLE
 from grader.text import plural
 

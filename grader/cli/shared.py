@@ -12,8 +12,9 @@ from rich.console import Console
 
 from grader.errors import Stop
 from grader.judge.course import COURSE_FILE, FULL, Course
-from grader.judge.grade import KIT, Options, grade
+from grader.judge.grade import grade
 from grader.judge.result import Result
+from grader.judge.task import KIT, Options
 from grader.judge.wall.isolation import Isolation
 from grader.text import printable
 

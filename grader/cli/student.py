@@ -20,9 +20,9 @@ from grader.cli.shared import (
 )
 from grader.errors import Stop
 from grader.judge.course import Course, read_course
-from grader.judge.grade import Options
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
+from grader.judge.task import Options
 from grader.judge.wall.children import count_cores
 from grader.judge.wording import command, hidden_points_note, total
 from grader.report.progress import CheckProgress

@@ -15,10 +15,11 @@ import watchfiles
 from rich.console import Console
 
 from grader.errors import Stop
-from grader.judge.grade import Options, grade
+from grader.judge.grade import grade
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import module_of, plain_files
+from grader.judge.task import Options
 from grader.judge.wall.children import Worker, start_worker
 from grader.player.replay import grade_with_replays
 from grader.report.progress import CheckProgress

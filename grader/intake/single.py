@@ -5,8 +5,8 @@ from pathlib import Path
 
 from grader.intake.packing import open_submission
 from grader.judge import grade as judge
-from grader.judge.grade import DEFAULT_OPTIONS, Options
 from grader.judge.result import Result
+from grader.judge.task import DEFAULT_OPTIONS, Options
 from grader.judge.wall.children import Worker
 
 

@@ -1,88 +1,34 @@
 """Grade one submission, from a path to a Result."""
 
-import os
-import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from msgspec import structs
 
-from grader.judge.course import FULL, Course
 from grader.judge.explain.blame import CauseSearch, GivenCause, find_changes, undo
 from grader.judge.explain.misconceptions import Mistake
 from grader.judge.explain.names import Names
 from grader.judge.failures import Failing
 from grader.judge.jobs import Key
-from grader.judge.lab import Lab, Observation
-from grader.judge.passed import PassedPrograms
+from grader.judge.lab import Observation
 from grader.judge.reference import Reference
 from grader.judge.result import MAX_FILE, CheckResult, Result, TodoResult, state_of
-from grader.judge.rubric import Check, Rubric, Todo, load_rubric
-from grader.judge.submission import Submission, attempt, handed_out, take_in
+from grader.judge.rubric import Rubric, Todo, load_rubric
+from grader.judge.submission import attempt, take_in
+from grader.judge.task import DEFAULT_OPTIONS, Options, Task, load_stubs, sandbox_for
 from grader.judge.wall.children import Child, Worker, start_worker
-from grader.judge.wall.isolation import Isolation, load_everything
-from grader.judge.wall.sandbox import Sandbox
+from grader.judge.wall.isolation import load_everything
 from grader.judge.wall.workplace import work_folder
 from grader.protocol import cut
 from grader.source.given import GivenChange
-from grader.source.regions import python_files, shape_of
 from grader.text import defuse
 
 if TYPE_CHECKING:
     from grader.judge.explain.reasons import Reasons
     from grader.judge.loop import CheckLoop
-
-KIT = Path(__file__).parents[2]
-
-
-@dataclass(frozen=True)
-class Options:
-    """Options of a grade; the defaults are those of a student's copy, which has no reference.
-
-    `reference`: a complete tree, whose functions replace a submission's unfinished ones;
-    `shipped_reference()` is the one of `make grade`. With None, checks that need an unfinished TODO
-    wait for it.
-    `course`: the TODOs and their points; by default all of them.
-    `isolation`: "auto" confines as well as this machine can, and refuses to grade if files would be
-    open to writing; "strict" also if some can be read or the network is open; "none" confines
-    nothing.
-    `trusted`: it is the user's own work, graded with the isolation available.
-    `mends`: name the line in which one change makes a failed check pass, which takes seconds; only
-    for `trusted` work. `only`: the ids of the TODOs to grade, such as "4" or "7a"; empty for all.
-    `seed`: an instructor's secret, which changes the examples and numbers of the checks. `spawn`:
-    start a new process for each child, as on platforms without fork. It changes no mark.
-    `progress`: called with each check as it ends. An exception in it ends the grade. `jobs`: how
-    many checks run at a time. It changes no mark. `passed`: programs that have passed and need not
-    run again; only for `trusted` work.
-    """
-
-    reference: Path | None = None
-    isolation: Isolation = "auto"
-    only: frozenset[str] = frozenset()
-    seed: int | None = None
-    spawn: bool = False
-    progress: Callable[[CheckResult], None] | None = None
-    trusted: bool = False
-    mends: bool = False
-    course: Course = FULL
-    passed: PassedPrograms | None = None
-    jobs: int = 1
-
-    def wants(self, todo: Todo) -> bool:
-        return not self.only or todo.id in self.only
-
-
-DEFAULT_OPTIONS = Options()
-
-
-def shipped_reference() -> Path | None:
-    """Return the solution beside the grader; None in a copy without one."""
-    folder = KIT / "solution"
-    return folder if (folder / "mini_engine").is_dir() else None
 
 
 def grade(
@@ -132,59 +78,10 @@ def open_tree(tree: Path) -> Iterator[Callable[[int], Child]]:
             worker.close()
 
 
-def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) -> Sandbox:
-    """Return the sandbox of a tree, which cannot reach the grader and the reference."""
-    hidden = [str(KIT / "grader"), str(options.reference or KIT / "solution")]
-    return Sandbox(
-        tree.folder,
-        work,
-        worker,
-        options.isolation,
-        hidden,
-        loads=["numpy"] if tree.uses_numpy else [],
-        trusted=options.trusted,
-        shown=as_in_reference(tree.folder, options.reference),
-    )
-
-
-def as_in_reference(tree: Path, reference: Path | None) -> list[str]:
-    """Return the handed-out folders of a tree that hold no program, such as engines to import.
-
-    Children need no copy of them, since their files are exactly those of the reference.
-    """
-    if reference is None or os.name != "posix":  # Windows may not allow a link
-        return []
-    programs = {todo.module for todo in load_rubric().todos}
-    folders = [each.name for each in sorted(tree.iterdir()) if each.is_dir()]
-    return [
-        name
-        for name in folders
-        if name not in programs and has_same_files(tree / name, reference / name)
-    ]
-
-
-def has_same_files(folder: Path, other: Path) -> bool:
-    """Return whether a folder holds the same Python files as another, and nothing else."""
-    files = {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
-    return files == {p.relative_to(other): p.read_bytes() for p in python_files(other)}
-
-
-@cache
-def load_stubs() -> dict[str, str]:
-    """Return the shapes of the stubs' regions, and of the functions around them."""
-    return {name: shape_of(source) for name, source in handed_out().stubs.items()}
-
-
 @dataclass
-class Grading:
+class Grading(Task):
     """One run of the checks against one submission."""
 
-    options: Options
-    rubric: Rubric
-    reference: Reference
-    submission: Submission
-    sandbox: Sandbox
-    surveys_all: bool = False  # run each check to its end, to collect all that it may ask
     loop: "CheckLoop" = field(init=False)  # once it runs
 
     def run(self) -> Result:
@@ -280,37 +177,6 @@ class Grading:
         if {each.id for each in rest} <= guards or any(r.state != "passed" for r in rest):
             return results  # nothing of its own is right
         return [pass_for_others(*pair) for pair in zip(spoilt, results, strict=True)]
-
-    def was_replaced(self, todo: str) -> bool:
-        """Return whether a right version of a TODO replaced it."""
-        return bool(self.reference.pieces) and todo in self.submission.functions
-
-    @cached_property
-    def names(self) -> Names:
-        return Names(self.submission)
-
-    def new_lab(self, todo: Todo, check: Check) -> Lab:
-        """Return a lab for one check, with the reference's code in the other TODOs."""
-        module = check.module or todo.module
-        pieces = self.reference.for_the_others(todo, module, self.rubric, self.submission)
-        return Lab(module, lambda: self.sandbox.open_child(check.cpu_seconds), pieces)
-
-    def open_right(self, cpu_seconds: int) -> Child:
-        """Return a child of the reference itself, to see what should happen."""
-        return self.right_sandbox.open_child(cpu_seconds)
-
-    @cached_property
-    def right_sandbox(self) -> Sandbox:
-        """Return the sandbox of the reference, taken in when it is first needed."""
-        folder = self.right_submission.folder
-        return sandbox_for(self.right_submission, folder.parent, self.sandbox.worker, self.options)
-
-    @cached_property
-    def right_submission(self) -> Submission:
-        """Return the reference, taken in like a submission."""
-        assert self.options.reference is not None
-        work = Path(tempfile.mkdtemp(dir=self.sandbox.work))  # an unguessable name
-        return take_in(self.options.reference, work / "tree", self.rubric, {})
 
 
 def make_todo_result(

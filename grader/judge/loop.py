@@ -6,7 +6,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from itertools import groupby
 from queue import SimpleQueue
-from typing import TYPE_CHECKING
 
 from grader.judge.budget import Budget
 from grader.judge.failures import Broke, NotYet
@@ -17,11 +16,9 @@ from grader.judge.result import CheckResult
 from grader.judge.rubric import Todo
 from grader.judge.running import Opener, Outcome, Runner
 from grader.judge.submission import CannotGrade
+from grader.judge.task import Task
 from grader.judge.verdict import make_result, refuse, word_failure
 from grader.source.flaws import Flaw
-
-if TYPE_CHECKING:
-    from grader.judge.grade import Grading
 
 IMPORT_CPU = 10  # s of processor time, to import a program
 
@@ -38,7 +35,7 @@ class EarlyOutcome:
 class CheckLoop:
     """The checks of one grade, and the outcome of each."""
 
-    def __init__(self, grading: "Grading") -> None:
+    def __init__(self, grading: Task) -> None:
         options = grading.options
         self.grading, self.submission, self.rubric = grading, grading.submission, grading.rubric
         self.budget = Budget()

@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from hypothesis.errors import Flaky
 from msgspec import UNSET, structs
@@ -16,12 +16,10 @@ from grader.judge.jobs import Job
 from grader.judge.lab import Lab, Observation
 from grader.judge.result import CheckResult, in_bounds
 from grader.judge.rubric import Todo
+from grader.judge.task import Task
 from grader.judge.verdict import last_lines, make_result, word_failure
 from grader.judge.wall.children import Child
 from grader.protocol import Piece
-
-if TYPE_CHECKING:
-    from grader.judge.grade import Grading
 
 DIGITS = re.compile(r"[-\d.e]+")  # differences between two examples of one question
 COST = {"unit": 0, "scene": 1, "property": 2}  # kinds of checks, the longest last
@@ -61,7 +59,7 @@ class Outcome:
 class Runner:
     """Runs checks of one submission in the children of one worker, and charges its budget."""
 
-    grading: "Grading"
+    grading: Task
     open_child: Opener
     budget: Budget
     replaceable: frozenset[str] = frozenset()  # TODOs that have right versions in the whole

@@ -14,9 +14,10 @@ import msgspec
 
 from grader.judge.budget import Budget, for_words
 from grader.judge.failures import Failing
-from grader.judge.grade import Options, grading
+from grader.judge.grade import grading
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import CHECKS, Rubric
+from grader.judge.task import Options
 from grader.judge.wall.children import Worker
 from grader.judge.wording import list_reasons
 from grader.player.page import make_page

@@ -15,9 +15,9 @@ from grader.intake.listing import open_class
 from grader.intake.names import make_portable
 from grader.intake.packing import open_submission, pack
 from grader.intake.roster import ClassList
-from grader.judge.grade import Options
 from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
+from grader.judge.task import Options
 from grader.judge.wall.children import Worker, start_worker
 from grader.judge.wall.outer import GRADING, Exceeded, Failed, Lost, WatchedProcess
 from grader.judge.wall.workplace import work_folder

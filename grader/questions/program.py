@@ -12,11 +12,12 @@ from functools import cached_property
 from pathlib import Path
 
 from grader.judge.course import Course
-from grader.judge.grade import Options, grading
+from grader.judge.grade import grading
 from grader.judge.lab import Lab
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission
+from grader.judge.task import Options
 from grader.judge.wall.children import Worker
 from grader.judge.wall.sandbox import Sandbox
 from grader.player.replay import MAX_DEATHS

@@ -28,9 +28,10 @@ from grader.bank.verify import check_kit, count_unproven
 from grader.errors import Stop
 from grader.judge.course import COURSE_FILE, FULL, Course
 from grader.judge.fingerprint import fingerprint
-from grader.judge.grade import KIT, open_tree
+from grader.judge.grade import open_tree
 from grader.judge.result import Result
 from grader.judge.rubric import drop_hidden
+from grader.judge.task import KIT
 from grader.player.replay import record_expected
 from grader.release.handed_out import FOR_CI, make_students_tree, write_tree
 from grader.release.leaks import find_leaks, find_secrets

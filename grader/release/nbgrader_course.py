@@ -9,7 +9,7 @@ from grader.bank.sync import is_laid_in
 from grader.classroom.nbgrader.submissions import ASSIGNMENT, NOTEBOOKS
 from grader.errors import Stop
 from grader.judge.course import FULL, Course
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.release.handed_out import make_students_tree, write_tree
 from grader.release.notebooks import make_notebooks
 from grader.source.regions import regions_in

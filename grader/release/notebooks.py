@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from grader.judge.course import Course
-from grader.judge.grade import KIT
 from grader.judge.rubric import Rubric
+from grader.judge.task import KIT
 from grader.text import plural
 
 Cell = dict[str, Any]

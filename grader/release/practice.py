@@ -3,7 +3,7 @@
 import msgspec
 
 from grader.judge.course import Course
-from grader.judge.grade import KIT, Options, shipped_reference
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.questions.cases import MAKERS
 from grader.questions.practice import Cases, Practice
 from grader.questions.program import CannotAsk, Program, open_program

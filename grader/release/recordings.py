@@ -12,7 +12,7 @@ import msgspec
 from grader.bank.members import members
 from grader.bank.store import hash_contents, hash_lines, hash_surroundings, make_key
 from grader.judge.course import Course
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.report.files import write_whole
 
 FOLDER = KIT / "build" / "recorded"

@@ -22,10 +22,11 @@ from grader.bank.verify import run_in_processes, shared_worker
 from grader.checks import exact
 from grader.judge.course import FULL, Course
 from grader.judge.explain import misconceptions
-from grader.judge.grade import KIT, Options, grading
+from grader.judge.grade import grading
 from grader.judge.lab import Observation
 from grader.judge.recorded import Answers, RecordedAnswers, RecordedMistake, key, oracles
 from grader.judge.rubric import CHECKS, Check, Rubric, drop_hidden, load_rubric
+from grader.judge.task import KIT, Options
 from grader.judge.wall.children import Worker, start_worker
 from grader.questions.practice import FILE as PRACTICE
 from grader.release.handed_out import make_students_tree

@@ -22,7 +22,7 @@ from markdown_it import MarkdownIt
 from grader.bank.store import hash_contents, hash_lines
 from grader.errors import Stop
 from grader.judge.course import FULL, Course
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.player.page import list_sources, read_player
 from grader.release.build import (
     NAME,

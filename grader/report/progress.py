@@ -6,8 +6,8 @@ from typing import Self
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from grader.judge.grade import Options
 from grader.judge.result import CheckResult
+from grader.judge.task import Options
 from grader.judge.wording import place_of
 from grader.report.terminal import is_endless, say
 from grader.text import clean

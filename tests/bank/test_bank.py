@@ -9,7 +9,7 @@ from whole_bank import bank, grade_briefly
 
 from grader.bank.members import Member, change_files, change_text
 from grader.bank.verify import check_kit, grade_member
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.judge.rubric import load_rubric
 from grader.source.regions import python_files, read_source, regions_in
 

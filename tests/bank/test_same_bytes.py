@@ -14,7 +14,8 @@ from whole_bank import bank
 
 from grader.bank.members import Member
 from grader.bank.verify import list_trees, shared_worker
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.passed import PassedPrograms
 from grader.report.files import as_json
 

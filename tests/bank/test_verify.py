@@ -30,7 +30,7 @@ from grader.bank.verify import (
     judge_members,
     summarize,
 )
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.judge.result import Result, TodoResult
 
 RIGHT = Result(1, "ann", 100, 100, 16, [], [])

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from greedy import make_greedy
 
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.protocol import Limits
 
 MOST_CPU = 120.0  # s, of one submission: see grader/judge/budget.py
@@ -37,7 +37,8 @@ while True:
 ONE = """
 import sys
 from pathlib import Path
-from grader.judge.grade import Options, grade, shipped_reference
+from grader.judge.grade import grade
+from grader.judge.task import Options, shipped_reference
 print(grade(Path(sys.argv[1]), Options(shipped_reference(), trusted=True)).points)
 """
 

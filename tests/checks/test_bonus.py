@@ -16,9 +16,10 @@ from grader.classroom.book import make_outcome
 from grader.classroom.dashboard import Entry, count_rates
 from grader.classroom.grading import tabulate_class, tabulate_rates
 from grader.judge.course import FULL
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wording import total
 from grader.release.notebooks import make_engine_notebook
 from grader.report.files import as_json

@@ -9,8 +9,8 @@ from one_worker import child_opener
 
 from grader.bank.members import lay_over
 from grader.checks.whole import checks
-from grader.judge.grade import KIT
 from grader.judge.lab import Lab
+from grader.judge.task import KIT
 
 LESSON = KIT / "tests" / "bank" / "right" / "lesson-as-printed"
 SCENES: dict[str, list[Callable[[Lab], None]]] = {

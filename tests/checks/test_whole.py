@@ -8,8 +8,9 @@ import msgspec
 import pytest
 
 from grader.bank.members import patch
-from grader.judge.grade import KIT, Options, grading
+from grader.judge.grade import grading
 from grader.judge.rubric import Rubric, Todo, load_rubric
+from grader.judge.task import KIT, Options
 from grader.judge.wall.children import Worker, start_worker
 
 WHOLE = next(todo for todo in load_rubric().todos if todo.id == "whole")

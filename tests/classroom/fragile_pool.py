@@ -7,8 +7,8 @@ import time
 
 from grader.classroom.executor import Answer, Pool
 from grader.intake.found import Package
-from grader.judge.grade import Options
 from grader.judge.result import Result, TodoResult
+from grader.judge.task import Options
 from grader.judge.wall.outer import Allowance
 from grader.report.files import as_json
 

@@ -33,7 +33,8 @@ from grader.intake.found import Intake, Package, Work
 from grader.intake.listing import open_class
 from grader.intake.packing import pack
 from grader.judge.fingerprint import DECIDING, deciding_files
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.report import progress
 from grader.report.files import as_json
 

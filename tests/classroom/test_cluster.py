@@ -23,8 +23,9 @@ from grader.classroom.grading import ClassOptions, run_class
 from grader.errors import Stop
 from grader.intake.found import Package
 from grader.judge import fingerprint
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.rubric import load_rubric
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.report.files import as_json
 
 distributed = pytest.importorskip("distributed", reason="needs the extra `cluster`")

@@ -16,8 +16,8 @@ from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers
 from grader.classroom.book import Book, Outcome, make_outcome
 from grader.classroom.dashboard import read_class, write_dashboard
 from grader.errors import Stop
-from grader.judge.grade import Options, shipped_reference
 from grader.judge.result import CheckResult, Result, State, TodoResult
+from grader.judge.task import Options, shipped_reference
 from grader.report.files import as_json
 
 STATES: list[State] = ["passed", "not yet", "not started", "error"]

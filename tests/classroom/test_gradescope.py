@@ -21,8 +21,8 @@ from samples import sample
 from grader.classroom.gradescope import write_autograder
 from grader.classroom.gradescope.autograder import Settings
 from grader.errors import Stop
-from grader.judge.grade import KIT
 from grader.judge.result import CheckResult, Result, TodoResult
+from grader.judge.task import KIT
 from grader.report.sinks.gradescope import write_gradescope
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="Gradescope's machines run Linux")

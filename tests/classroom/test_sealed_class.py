@@ -18,7 +18,7 @@ from grader.classroom.grading import ClassOptions, run_class
 from grader.classroom.similarity import Prints, find_pairs
 from grader.errors import Stop
 from grader.intake import archives, listing
-from grader.judge.grade import KIT, Options, shipped_reference
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall.outer import Allowance, Exceeded
 
 pytestmark = pytest.mark.skipif(

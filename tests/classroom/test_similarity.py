@@ -29,7 +29,7 @@ from grader.classroom.similarity import (
 )
 from grader.intake.found import Package, Work
 from grader.intake.packing import pack
-from grader.judge.grade import KIT, Options
+from grader.judge.task import KIT, Options
 
 WHOLE = [  # members of the bank, each written independently
     "whole-functional-style",

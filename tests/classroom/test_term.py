@@ -12,7 +12,7 @@ import typer
 from command_line import run_grader
 
 from grader.cli.main import make_app
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 
 PAGES = sorted((KIT / "handouts" / "instructor").rglob("*.md"))
 PAGE = (KIT / "handouts" / "instructor" / "term.md").read_text(encoding="utf-8")

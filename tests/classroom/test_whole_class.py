@@ -24,8 +24,8 @@ from grader.classroom.grading import ClassOptions, run_class
 from grader.intake import archives, repack
 from grader.intake.systems import BY_NAME, read_class_list
 from grader.judge.course import Course
-from grader.judge.grade import Options
 from grader.judge.result import CheckResult, Result, TodoResult
+from grader.judge.task import Options
 from grader.report.files import read_result
 
 QUIET = Console(quiet=True)

@@ -19,8 +19,8 @@ from ruamel.yaml import YAML
 
 from grader.bank.members import make_mistake
 from grader.cli.main import Output, finish
-from grader.judge.grade import KIT
 from grader.judge.result import Result, is_bonus
+from grader.judge.task import KIT
 from grader.release.build import build
 from grader.report.ci import is_free_folder
 from grader.source.regions import python_files

@@ -17,7 +17,7 @@ from command_line import run_grader, start_grader
 from grader.cli import dev
 from grader.cli import main as cli
 from grader.cli import shared as commands
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 
 
 def unwrapped(words: str) -> str:

@@ -17,7 +17,7 @@ from grader.cli.guide import Guide, Quit, Running
 from grader.cli.keys import read_key, read_windows_key
 from grader.cli.student import load_hints
 from grader.judge.course import FULL
-from grader.judge.grade import KIT, Options
+from grader.judge.task import KIT, Options
 from grader.judge.wall.children import WarmWorker, start_worker
 from grader.release.handouts import make_handouts, make_tasks
 

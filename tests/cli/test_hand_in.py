@@ -17,7 +17,7 @@ from grader.errors import Stop
 from grader.intake.found import Work
 from grader.intake.packing import pack
 from grader.judge.course import FULL
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 
 
 @pytest.fixture

@@ -18,9 +18,9 @@ from command_line import run_grader, start_grader
 from rich.console import Console
 from samples import sample
 
-from grader.judge.grade import KIT, Options
 from grader.judge.result import CheckResult
 from grader.judge.rubric import load_rubric
+from grader.judge.task import KIT, Options
 from grader.judge.wording import command
 from grader.report.progress import CheckProgress
 from grader.source.definitions import statements

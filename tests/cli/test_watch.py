@@ -16,8 +16,9 @@ from samples import sample
 
 import grader.cli.watch
 from grader.cli.watch import SavedAgain, Watch, list_folders, read_sources, wait_for_saves
-from grader.judge.grade import KIT, Options, grade
+from grader.judge.grade import grade
 from grader.judge.rubric import load_rubric
+from grader.judge.task import KIT, Options
 from grader.judge.wall.children import WarmWorker, start_worker
 from grader.report.files import as_json
 from grader.source.regions import regions_in, replace_regions

@@ -18,7 +18,7 @@ from grader.bank import mutants, verify
 from grader.classroom import executor, grading
 from grader.classroom.grading import ClassOptions, run_class
 from grader.judge import grade
-from grader.judge.grade import Options
+from grader.judge.task import Options
 from grader.questions import making
 
 WRONG = """

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 from grader.classroom import folder
 from grader.cli.main import make_app
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 
 OTHERS = ("MAKELEVEL", "NO_COLOR", "FORCE_COLOR", "PYTHONIOENCODING", "GITHUB_")  # of this process
 

@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 
 from grader.bank.members import fill_every_todo
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 
 
 def make_greedy(folder: Path, code: str) -> None:

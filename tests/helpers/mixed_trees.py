@@ -4,7 +4,7 @@ import shutil
 from collections.abc import Collection
 from pathlib import Path
 
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.source.regions import python_files, regions_in, replace_regions
 
 

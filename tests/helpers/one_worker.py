@@ -5,8 +5,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from grader.bank.verify import shared_worker
-from grader.judge.grade import Options, sandbox_for, take_in, work_folder
+from grader.judge.grade import take_in, work_folder
 from grader.judge.rubric import load_rubric
+from grader.judge.task import Options, sandbox_for
 from grader.judge.wall.children import Child
 
 

@@ -6,8 +6,8 @@ from contextlib import AbstractContextManager
 
 from grader.classroom.executor import Answer
 from grader.intake.found import Package
-from grader.judge.grade import Options
 from grader.judge.result import CheckResult, Result, TodoResult
+from grader.judge.task import Options
 from grader.report.files import as_json
 
 FULL = 20

@@ -7,9 +7,9 @@ from msgspec.structs import replace as replace_in
 
 from grader.bank.members import Member, members
 from grader.bank.verify import Verdict, grade_member
-from grader.judge.grade import KIT
 from grader.judge.result import is_bonus
 from grader.judge.rubric import load_rubric
+from grader.judge.task import KIT
 
 
 @cache

@@ -19,8 +19,8 @@ from grader.intake import archives, repack
 from grader.intake.found import CannotTake, Package, Work
 from grader.intake.listing import open_class
 from grader.intake.packing import read_package
-from grader.judge.grade import KIT
 from grader.judge.submission import MAX_BYTES, plain_files
+from grader.judge.task import KIT
 
 PROGRAM: packed.Files = {
     "mini_engine/__init__.py": "from mini_engine.solver import *\n",

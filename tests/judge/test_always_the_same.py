@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 from whole_bank import bank
 
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.report.files import as_json
 
 pytestmark = pytest.mark.soak

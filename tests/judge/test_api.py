@@ -9,8 +9,8 @@ import pytest
 from mixed_trees import mix_trees
 
 import grader
-from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric
+from grader.judge.task import KIT
 
 
 def run(code: str, folder: Path) -> "subprocess.CompletedProcess[str]":

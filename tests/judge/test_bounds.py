@@ -17,10 +17,10 @@ from whole_bank import bank
 
 from grader.bank.verify import shared_worker
 from grader.judge.explain.names import LONGEST, MOST, Names
-from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.result import MAX_JSON, CheckResult, Result, TodoResult, Where
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, find_todos
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall.children import Child, ChildEnded
 from grader.player.replay import grade_with_replays
 from grader.protocol import (
@@ -260,7 +260,8 @@ import resource, sys
 import msgspec
 from pathlib import Path
 from grader.bank.verify import shared_worker
-from grader.judge.grade import Options, grade, shipped_reference
+from grader.judge.grade import grade
+from grader.judge.task import Options, shipped_reference
 from grader.judge.result import MAX_JSON
 only = frozenset(sys.argv[1].split(","))
 for tree in map(Path, sys.argv[2:]):

@@ -24,8 +24,9 @@ from grader.judge.budget import (
     WORDS_REST,
     Budget,
 )
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.rubric import load_rubric
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall import children
 from grader.judge.wall.children import REST_SECONDS, busy_seconds
 from grader.player.replay import grade_with_replays

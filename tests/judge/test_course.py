@@ -33,9 +33,10 @@ from grader.cli.hand_in import PROGRAMS
 from grader.errors import Stop
 from grader.intake.found import Intake, Work
 from grader.judge.course import FULL, Course, Late, WrongCourse, read_course, spread_points
-from grader.judge.grade import Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import load_rubric
+from grader.judge.task import Options, shipped_reference
 from grader.judge.wording import withhold_reasons
 from grader.release.build import build, build_wrong_members
 from grader.release.handed_out import make_students_tree, write_tree

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import strategies as st
 
 from grader.judge.drawing import EXAMPLES, between, given, kept_examples
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 
 ALL_EXAMPLES = """
 import sys

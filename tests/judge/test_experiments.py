@@ -7,7 +7,8 @@ import pytest
 from rich.console import Console
 
 from grader.bank.verify import shared_worker
-from grader.judge.grade import Options, grade, shipped_reference
+from grader.judge.grade import grade
+from grader.judge.task import Options, shipped_reference
 from grader.report.sinks.markdown import write_markdown
 from grader.report.terminal import Printer
 

@@ -19,10 +19,11 @@ from grader.bank.members import Entry, Member
 from grader.bank.mutants import regions_of
 from grader.bank.verify import shared_worker
 from grader.judge import running
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import CannotGrade
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.report.files import as_json
 from grader.source.regions import python_files, read_source, regions_in
 

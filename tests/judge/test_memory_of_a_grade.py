@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 from greedy import make_greedy
 
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 
 GROUPS = Path("/sys/fs/cgroup")
 UNIFIED = (GROUPS / "cgroup.controllers").exists()  # version 2 of control groups

@@ -12,7 +12,7 @@ import pytest
 from command_line import run_grader
 
 from grader.intake.listing import open_class
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.judge.wall import children
 from grader.judge.wall.children import ChildEnded, WarmWorker, start_worker
 from grader.judge.wall.workplace import PREFIX, lock_folder, remove_leftovers, work_folder

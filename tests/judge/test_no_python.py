@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 
 from grader.bank.verify import shared_worker
-from grader.judge.grade import KIT, Options, grade, load_stubs, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, take_in
+from grader.judge.task import KIT, Options, load_stubs, shipped_reference
 from grader.source.flaws import find_bad_bytes, find_flaw
 from grader.source.regions import number_lines, read_source, regions_in
 from grader.source.repair import MAX_REPAIR, HandedOut, Repairer

@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from grader.bank.verify import shared_worker
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.result import Result
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.source.regions import read_source, replace_regions
 
 BRANCHES = ["if x == 0:\n        return x, v"]

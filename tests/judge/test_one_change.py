@@ -10,8 +10,9 @@ from whole_bank import bank
 from grader.bank.members import Member
 from grader.bank.verify import shared_worker
 from grader.judge.explain.one_change import KINDS, Mend, find_mend, make_variants, put_into
-from grader.judge.grade import Options, grade
+from grader.judge.grade import grade
 from grader.judge.result import TodoResult
+from grader.judge.task import Options
 from grader.source.regions import read_source, regions_in
 
 SOLVER = "mini_engine/solver.py"

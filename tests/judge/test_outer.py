@@ -12,7 +12,7 @@ import pytest
 
 from grader.intake import packing
 from grader.intake.found import CannotTake, Work
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.judge.wall import outer
 from grader.judge.wall.outer import Allowance, Exceeded, Failed, Lost, call_within
 

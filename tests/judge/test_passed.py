@@ -8,11 +8,12 @@ import pytest
 
 from grader.bank.members import members
 from grader.bank.verify import grade_member, shared_worker
-from grader.judge.grade import KIT, Options, grade, load_stubs, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.passed import PassedPrograms, program_key
 from grader.judge.reference import Reference
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import take_in
+from grader.judge.task import KIT, Options, load_stubs, shipped_reference
 from grader.source.regions import replace_regions
 
 SOAK = pytest.mark.soak

@@ -9,9 +9,10 @@ from whole_bank import bank
 
 from grader.bank.members import Member
 from grader.bank.verify import shared_worker
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.lab import Lab
 from grader.judge.result import Result
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall.children import Child, ChildEnded
 from grader.protocol import Answered, Import, Record, Request
 

@@ -9,8 +9,9 @@ import pytest
 
 from grader.bank.verify import shared_worker
 from grader.judge.budget import Budget
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.result import CheckResult
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.source.regions import replace_regions
 
 WRONG = "        keep_vel = keep_omega = 1 - self.linear_damping * dt"

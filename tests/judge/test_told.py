@@ -9,11 +9,12 @@ import pytest
 
 from grader.bank.verify import shared_worker
 from grader.judge.failures import Broke, NotYet
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.reference import Reference
 from grader.judge.rubric import Todo, load_rubric
 from grader.judge.running import fails_elsewhere
 from grader.judge.submission import Submission, load_given
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.player.replay import grade_with_replays
 from grader.protocol import CodeLine, Raised
 from grader.report.files import as_json

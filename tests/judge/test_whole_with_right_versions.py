@@ -5,8 +5,9 @@ from pathlib import Path
 import pytest
 
 from grader.bank.verify import shared_worker
-from grader.judge.grade import Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.result import Result, TodoResult
+from grader.judge.task import Options, shipped_reference
 from grader.source.regions import read_source, replace_regions
 
 WORLD, SOLVER = "mini_engine/world.py", "mini_engine/solver.py"

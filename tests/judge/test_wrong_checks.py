@@ -8,9 +8,10 @@ from conftest import KIT
 
 from grader.bank.verify import shared_worker
 from grader.judge import jobs
-from grader.judge.grade import Options, grading, shipped_reference
+from grader.judge.grade import grading
 from grader.judge.rubric import Check, Rubric, Todo
 from grader.judge.submission import CannotGrade
+from grader.judge.task import Options, shipped_reference
 
 HEAD = '''from grader.judge.lab import Lab
 

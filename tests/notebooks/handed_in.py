@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 
 SOURCE = KIT / "solution" / "notebooks"
 RELEASED = KIT / "starter" / "notebooks"

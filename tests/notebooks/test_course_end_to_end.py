@@ -26,7 +26,8 @@ from handed_in import (
 
 from grader.classroom.marks import ENGINE
 from grader.classroom.nbgrader.submissions import ASSIGNMENT, collect_submissions
-from grader.judge.grade import Options, grade, shipped_reference
+from grader.judge.grade import grade
+from grader.judge.task import Options, shipped_reference
 from grader.release import nbgrader_course as courses
 
 pytestmark = pytest.mark.soak

@@ -24,8 +24,8 @@ from handed_in import (
 )
 from samples import sample
 
-from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric
+from grader.judge.task import KIT
 from grader.release.notebooks import PRACTICE, add_practice, make_engine_notebook, tidy
 
 RUNNER = Path(__file__).with_name("run_cells.py")

@@ -11,7 +11,7 @@ import pytest
 from handed_in import NAMES
 
 from grader.classroom.nbgrader.submissions import ASSIGNMENT
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.release import build as releases
 
 pytestmark = [

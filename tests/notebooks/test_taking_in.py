@@ -11,7 +11,7 @@ from grader.bank.sync import list_students_files
 from grader.classroom.nbgrader.submissions import ASSIGNMENT, collect_submissions
 from grader.errors import Stop
 from grader.judge.course import Course
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.release import nbgrader_course as courses
 from grader.release.nbgrader_course import find_newest_release, make_course
 from grader.source.regions import python_files, regions_in

@@ -25,9 +25,10 @@ from grader.checks.todo_4 import checks as todo_4
 from grader.checks.todo_8 import checks as todo_8
 from grader.checks.whole import checks as whole
 from grader.judge.failures import Failing
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall.children import ChildEnded
 from grader.player.page import make_page
 from grader.player.pairing import pair_runs

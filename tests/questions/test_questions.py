@@ -23,9 +23,9 @@ from grader.bank.members import Member
 from grader.bank.verify import shared_worker
 from grader.judge.course import Asked, WrongCourse, read_course
 from grader.judge.failures import Broke
-from grader.judge.grade import Options, shipped_reference
 from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
+from grader.judge.task import Options, shipped_reference
 from grader.questions import films, making
 from grader.questions import sheet as sheets
 from grader.questions.cases import MAKERS

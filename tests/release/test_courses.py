@@ -10,8 +10,8 @@ import pytest
 from command_line import run_grader
 
 from grader.judge.course import Course, faults_between
-from grader.judge.grade import KIT
 from grader.judge.rubric import drop_hidden, load_rubric
+from grader.judge.task import KIT
 from grader.release import build as releases
 from grader.release.build import Refused, prove_cut
 from grader.release.handed_out import make_students_tree

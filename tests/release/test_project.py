@@ -3,7 +3,7 @@
 import re
 import tomllib
 
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.release.project import make_project
 
 REQUIREMENTS = """\

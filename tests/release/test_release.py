@@ -27,9 +27,10 @@ from grader.checks import exact
 from grader.judge import recorded
 from grader.judge.course import FULL, Course
 from grader.judge.explain import misconceptions
-from grader.judge.grade import KIT, Options, grade
+from grader.judge.grade import grade
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import CHECKS, Rubric, drop_hidden, load_rubric
+from grader.judge.task import KIT, Options
 from grader.release import build as releases
 from grader.release import students_copy
 from grader.release.build import (

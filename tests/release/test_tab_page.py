@@ -29,9 +29,9 @@ from whole_bank import bank, member_named
 from grader.bank.members import Member
 from grader.errors import Stop
 from grader.judge.course import FULL
-from grader.judge.grade import KIT
 from grader.judge.result import Result, TodoResult
 from grader.judge.rubric import Rubric, drop_hidden
+from grader.judge.task import KIT
 from grader.release import students_copy, tab_page
 from grader.release.build import Refused, make_command
 from grader.release.handed_out import make_students_tree
@@ -79,7 +79,8 @@ BY_PROCESSES = """
 import json, shutil, sys
 from pathlib import Path
 from grader.judge.wall.children import start_worker
-from grader.judge.grade import Options, grade
+from grader.judge.grade import grade
+from grader.judge.task import Options
 from grader.report.files import as_json
 folder, work, handed_out = map(Path, sys.argv[1:])
 worker = start_worker()

@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 from test_release import make
 
-from grader.judge.grade import KIT
 from grader.judge.rubric import drop_hidden, load_rubric
+from grader.judge.task import KIT
 from grader.release import build as releases
 from grader.release.pages import write_pages
 from grader.source.regions import regions_in, replace_regions

@@ -14,8 +14,8 @@ import ci_readers
 import pytest
 
 from grader.bank.members import make_mistake
-from grader.judge.grade import KIT
 from grader.judge.rubric import drop_hidden, load_rubric
+from grader.judge.task import KIT
 from grader.release.students_copy import list_hidden_checks
 from grader.report.sinks.classroom50 import BUNDLE, write_bundle
 

@@ -8,9 +8,9 @@ from conftest import HandIn
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from grader.judge.grade import KIT, load_stubs
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, take_in
+from grader.judge.task import KIT, load_stubs
 from grader.source.definitions import MAX_CALLED, MAX_HOPS, MAX_NAME, MAX_TRIED, Program, source_of
 from grader.source.regions import read_source
 

@@ -11,9 +11,10 @@ from grader.bank.verify import shared_worker
 from grader.cli.restore import find_changes
 from grader.judge.explain.blame import MOST_ASKED, CauseSearch
 from grader.judge.failures import NotYet
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.result import CheckResult
 from grader.judge.submission import load_given
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wording import list_reasons
 from grader.source.definitions import statements
 from grader.source.given import (

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from grader.judge.grade import KIT, Options, sandbox_for
 from grader.judge.submission import Submission
+from grader.judge.task import KIT, Options, sandbox_for
 from grader.judge.wall.children import Child, ChildEnded, start_worker
 from grader.judge.wall.sandbox import Sandbox
 from grader.protocol import Call, Import, Returned

@@ -12,8 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.submission import CannotGrade
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall.children import WarmWorker
 from grader.judge.wall.isolation import KEEPS_FILES, find_refusal
 from grader.protocol import ChildSetup

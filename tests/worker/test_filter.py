@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.judge.wall.children import Child, start_worker
 from grader.protocol import Call, ChildSetup, Import, Limits, Raised, Returned
 from grader.worker import filter as wall

@@ -10,9 +10,10 @@ from conftest import HandIn
 from grader.bank.verify import shared_worker
 from grader.judge.explain.meaning import Evidence, Failure, explain
 from grader.judge.failures import REMEMBERS
-from grader.judge.grade import Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.result import CheckResult
 from grader.judge.rubric import load_rubric
+from grader.judge.task import Options, shipped_reference
 from grader.source.definitions import Program
 from grader.worker.memory import Memory
 

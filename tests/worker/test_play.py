@@ -12,8 +12,8 @@ from one_worker import child_opener
 from grader.bank.members import lay_over
 from grader.checks.pacing import STEP_TAKES, frames_at, pace
 from grader.judge.failures import NotYet
-from grader.judge.grade import KIT
 from grader.judge.lab import STEP, Lab
+from grader.judge.task import KIT
 from grader.protocol import Event, Played
 
 LabOf = Callable[..., Lab]

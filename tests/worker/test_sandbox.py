@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.judge.grade import Options, as_in_reference, sandbox_for, take_in, work_folder
+from grader.judge.grade import take_in, work_folder
 from grader.judge.rubric import load_rubric
+from grader.judge.task import Options, as_in_reference, sandbox_for
 from grader.judge.wall.children import start_worker
 from grader.protocol import Call, Import, Items, Raised, Returned
 

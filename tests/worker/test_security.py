@@ -17,7 +17,7 @@ import msgspec
 import pytest
 from whole_bank import bank
 
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.judge.wall.children import Child, WarmWorker, Worker, start_worker
 from grader.judge.wall.isolation import list_unconfined
 from grader.protocol import Call, ChildSetup, Import, Limits, Raised, Returned

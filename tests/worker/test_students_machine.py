@@ -9,8 +9,9 @@ import pytest
 from conftest import HandIn
 
 from grader.bank.verify import shared_worker
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.result import CheckResult, Result
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.source.regions import read_source
 from grader.worker.imports import LIBRARIES, RULE
 

@@ -15,9 +15,10 @@ from conftest import KIT, HandIn
 from whole_bank import bank, member_named
 
 from grader.bank.verify import shared_worker
-from grader.judge.grade import Options, grade
+from grader.judge.grade import grade
 from grader.judge.result import CheckResult, Result
 from grader.judge.submission import CannotGrade
+from grader.judge.task import Options
 from grader.judge.wall.inline import InlineWorker
 from grader.judge.wall.isolation import ONE_PROCESS, find_refusal
 from grader.source.regions import read_source

@@ -15,8 +15,8 @@ import pytest
 from test_security import SWITCHES, expected_layers
 
 from grader.bank.members import attacks, put_regions
-from grader.judge.grade import KIT, Options, sandbox_for
 from grader.judge.submission import Submission
+from grader.judge.task import KIT, Options, sandbox_for
 from grader.judge.wall.children import Worker, start_worker
 from grader.protocol import Import, Integrate, Items, Returned, Vec
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import psutil
 import pytest
 
-from grader.judge.grade import KIT, Options, sandbox_for
 from grader.judge.submission import Submission
+from grader.judge.task import KIT, Options, sandbox_for
 from grader.judge.wall import children
 from grader.judge.wall.children import Child, ChildEnded, SpawnWorker, WarmWorker, start_worker
 from grader.protocol import (

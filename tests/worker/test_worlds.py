@@ -17,7 +17,7 @@ import pytest
 from test_security import expected_layers
 from whole_bank import bank
 
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 
 pytestmark = [
     pytest.mark.soak,  # 10 minutes of processor time for each world

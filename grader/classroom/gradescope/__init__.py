@@ -14,7 +14,7 @@ import msgspec
 
 from grader.classroom.gradescope.autograder import Settings
 from grader.errors import Stop
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 from grader.report.files import PLAIN, SCRIPT, put_in, write_whole
 from grader.source.regions import python_files
 

@@ -17,8 +17,9 @@ from grader.errors import Stop
 from grader.intake.found import CannotTake, Work
 from grader.intake.packing import pack
 from grader.judge.course import FULL, Course
-from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.grade import grade
 from grader.judge.submission import CannotGrade
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall.isolation import Isolation
 from grader.judge.wall.outer import WHOLE, call_within
 from grader.judge.wall.workplace import work_folder

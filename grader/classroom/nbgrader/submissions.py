@@ -18,9 +18,9 @@ from grader.errors import Stop
 from grader.intake.found import Intake, Work
 from grader.intake.listing import open_class
 from grader.intake.packing import lay_out, open_found
-from grader.judge.grade import KIT, Options
 from grader.judge.plain import copy_plain, open_plain, size_of
 from grader.judge.submission import explain_unreadable, plain_files
+from grader.judge.task import KIT, Options
 from grader.judge.wall.outer import READING, call_alone
 
 ASSIGNMENT = "physics-engine"

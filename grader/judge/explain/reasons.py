@@ -7,7 +7,6 @@ results have no reasons.
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
 
 from msgspec import structs
 
@@ -24,6 +23,7 @@ from grader.judge.result import CheckResult, Where
 from grader.judge.rubric import Todo
 from grader.judge.running import Outcome
 from grader.judge.submission import attempt, handed_out
+from grader.judge.task import Task
 from grader.source.given import GivenChange
 from grader.source.regions import read_source
 from grader.source.suspects import (
@@ -36,18 +36,13 @@ from grader.source.suspects import (
 )
 from grader.text import join_words
 
-if TYPE_CHECKING:
-    from grader.judge.grade import Grading
-
 MEND_SECONDS = 2.5  # of processor time, for one TODO
 
 
 class Reasons:
     """The reasons of all failed checks of one grade."""
 
-    def __init__(
-        self, grading: "Grading", loop: CheckLoop, causes: Mapping[Key, GivenCause]
-    ) -> None:
+    def __init__(self, grading: Task, loop: CheckLoop, causes: Mapping[Key, GivenCause]) -> None:
         self.grading, self.loop, self.causes = grading, loop, causes
         self.submission = grading.submission
         self.bad_lines = self._find_bad_lines()

@@ -24,7 +24,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from grader.judge.grade import KIT
+from grader.judge.task import KIT
 
 HERE = Path(__file__).parent
 CHECKS = (HERE / "checks.py").read_text(encoding="utf-8")

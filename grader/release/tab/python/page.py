@@ -167,7 +167,8 @@ failed = {}  # by the ids of a TODO and a check: how to make its replay
 
 def grade_lab(only):
     """Grade these TODOs of the lab, or all; keep what a replay of a failure needs."""
-    from grader.judge.grade import Options, grading
+    from grader.judge.grade import grading
+    from grader.judge.task import Options
     from grader.judge.wall.inline import InlineWorker
     from grader.worker.tab import TabChannel
 
