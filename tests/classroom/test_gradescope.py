@@ -223,7 +223,7 @@ def test_what_cannot_be_graded_has_the_reason_and_no_score(top: Path, name: str,
     reason = told_without_a_score(top, run(top))
     assert reason.startswith("This could not be graded: ") and "hand in again" in reason
     log = (top / "log").read_text()
-    assert "cannot grade: " in log and "give its points there by hand" in log
+    assert "cannot grade: " in log and "enter its points there by hand" in log
 
 
 def test_a_fault_of_the_grader_is_no_mark_that_looks_like_one(top: Path):

@@ -123,7 +123,7 @@ def test_waiting_says_for_what(hand_in):
     fill_in(tree, "pymunk_scene.py", _7a="    space.gravity = 0, 980")
     out = check(tree, "whole", options=("--all",))
     assert re.search(r"^WAITING +whole", out, re.MULTILINE)
-    assert "less than 1 px off: waiting for TODO 3, 5, 6" in " ".join(out.split())
+    assert "within 1 px: waiting for TODO 3, 5, 6" in " ".join(out.split())
     assert "the line below it says what" in out
 
 
