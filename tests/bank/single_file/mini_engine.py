@@ -9,6 +9,7 @@ from pygame import Vector2
 WIDTH, HEIGHT = 900, 600  # px
 STEP = 1 / 120  # s
 MAX_STEPS = 8
+MAX_FRAME = MAX_STEPS * STEP  # as the wrong members of TODO 6 call it
 ITERATIONS = 8
 BETA = 0.2
 SLOP = 0.5  # px
