@@ -90,24 +90,31 @@ def ask_at_equal_time(row, contestant, substeps, first):
     return error, substeps
 
 
-def ask_all(row, contestants):
-    """Return what each engine that has what the row needs comes to, in both modes."""
+def ask_all(row, contestants, untimed=()):
+    """Return what each engine that has what the row needs comes to, in both modes.
+
+    Those named in untimed are asked at equal substeps alone.
+    """
     cells = {}
     for one in contestants:
         if not set(one.lacks) & set(row.needs):
             substeps = one.its_own or SUBSTEPS
             first = ask(row, one, substeps)
-            error, fitting = ask_at_equal_time(row, one, substeps, first)
-            cells[one.name] = {"substeps": first[0], "time": error, "fitting": fitting}
+            cells[one.name] = {"substeps": first[0]}
+            if one.name not in untimed:
+                error, fitting = ask_at_equal_time(row, one, substeps, first)
+                cells[one.name] |= {"time": error, "fitting": fitting}
     return cells
 
 
-def run(rows, contestants):
-    """Return the cells of all rows by their titles."""
+def run(rows, contestants, recorded=None):
+    """Return the cells of all rows by their titles, in the modes that were recorded, if any."""
     found, progress = {}, Progress(len(rows))
     for row in rows:
         progress.step(1, row.title)
-        found[row.title] = ask_all(row, contestants)
+        texts = (recorded or {}).get(row.title, {})
+        untimed = [name for name, text in texts.items() if "/" not in text]
+        found[row.title] = ask_all(row, contestants, untimed)
     progress.end()
     return found
 
@@ -118,12 +125,9 @@ def renew(rows, contestants, recorded):
     An engine is asked in the modes in which it was recorded. New rows are asked of these engines
     alone. Returns the engines too, those recorded included.
     """
-    asked, cells = run(rows, contestants), recorded["rows"]
+    cells = recorded["rows"]
+    asked = run(rows, contestants, cells)
     found = {title: {**read_cells(cells.get(title, {})), **new} for title, new in asked.items()}
-    for title, new in asked.items():
-        for name in set(new) & set(cells.get(title, {})):
-            if "/" not in cells[title][name]:
-                found[title][name] = {"substeps": new[name]["substeps"]}
     words = {key.removesuffix(": name"): words for key, words in recorded[PAGE].items()
              if key.endswith(": name")}  # fmt: skip
     names = {one.name for one in contestants}
