@@ -18,7 +18,7 @@ from grader.intake.packing import pack, read_first_name
 from grader.intake.places import cut_suffix, has_program, is_archive, list_folder
 from grader.intake.roster import CALLED, ClassList, find_student
 from grader.intake.systems import ANY_OTHER, SYSTEMS
-from grader.judge.wall.outer import Allowance, Exceeded, Failed, Lost, call_within
+from grader.judge.wall.outer import Allowance, Exceeded, Failed, Lost, call_each_within, call_within
 from grader.judge.wall.workplace import work_folder
 
 SIDE_FILES = {"adjustments.toml", "roster.csv"}.union(*(each.side_files for each in SYSTEMS))
@@ -27,6 +27,7 @@ UNREAD = {".zst", ".lz", ".lzma", ".z", ".lzh", ".arj", ".ace", ".cab", ".iso", 
 
 UNPACKING = Allowance("unpacking the class", cpu=1200)
 LISTING = Allowance("listing the class", cpu=120)
+NAMING = Allowance("reading its name", cpu=5)
 
 
 @contextmanager
@@ -64,21 +65,47 @@ def list_class(folder: Path, people: ClassList) -> Intake:
 
 
 def read_names(folder: Path, people: ClassList) -> Intake:
-    """Return the owner of each file and folder, by names and the lists of an export."""
+    """Return the owner of each file and folder, by names and the lists of an export.
 
+    A name that reaches a limit needs manual review; the rest of the class goes on.
+    """
+    paths = list_folder(folder)
+    try:
+        return read_within_limits(folder, paths, people)
+    except (Exceeded, Failed, Lost):
+        odd = find_odd_names(paths, people)
+    try:
+        intake = read_within_limits(folder, [each for each in paths if each not in odd], people)
+    except (Exceeded, Failed, Lost) as error:
+        raise Stop(f"{folder}: {error}") from error
+    for path, words in odd.items():
+        name = make_portable(path.name)
+        intake.refuse(name, f"its name cannot be read: {words}", Work(name, (path,)))
+    return intake
+
+
+def read_within_limits(folder: Path, paths: list[Path], people: ClassList) -> Intake:
     def read() -> bytes:
         intake = Intake()
         intake.found += find_export(folder).read_export(folder, people, intake)
         taken = {source for each in intake.found for source in each.sources}
-        left = [path for path in list_folder(folder) if path not in taken]
+        left = [path for path in paths if path not in taken]
         intake.found += list_uploads(left, people, intake)
         return pickle.dumps(intake)
 
-    try:
-        intake: Intake = pickle.loads(call_within(LISTING, bytes, read, (Stop,)))
-    except (Exceeded, Failed, Lost) as error:
-        raise Stop(f"{folder}: {error}") from error
+    intake: Intake = pickle.loads(call_within(LISTING, bytes, read, (Stop,)))
     return intake
+
+
+def find_odd_names(paths: list[Path], people: ClassList) -> dict[Path, str]:
+    """Return the files and folders whose name alone reaches a limit, each with the reason."""
+
+    def read(path: Path) -> None:
+        list(list_uploads([path], people, Intake()))
+
+    answers = call_each_within(NAMING, None, [partial(read, each) for each in paths])
+    pairs = zip(paths, answers, strict=True)
+    return {path: str(answer) for path, answer in pairs if isinstance(answer, Exception)}
 
 
 def find_export(folder: Path) -> Lms:

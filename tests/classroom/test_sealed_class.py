@@ -142,6 +142,22 @@ def test_an_export_that_cannot_be_listed_is_said(tmp_path: Path, monkeypatch: py
         list(listing.open_class(tmp_path / "class").__enter__().found)
 
 
+def test_an_odd_name_needs_review_and_the_others_are_listed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    write_honest(tmp_path / "class")
+    (tmp_path / "class" / "odd").mkdir()
+    monkeypatch.setattr(listing, "LISTING", LITTLE)
+    monkeypatch.setattr(listing, "NAMING", replace(LITTLE, what="reading its name"))
+    monkeypatch.setattr(
+        listing.SYSTEMS[0], "match", lambda at: loop() if at.name == "odd" else None
+    )
+    with listing.open_class(tmp_path / "class") as intake:
+        assert len(intake.found) == 3
+    reason = "its name cannot be read: needs manual review: reading its name takes more"
+    assert intake.troubles["odd"].startswith(reason)
+
+
 def test_a_class_that_unpacks_without_end_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     with zipfile.ZipFile(tmp_path / "class.zip", "w") as archive:
         archive.writestr("anna/integrators.py", "x = 1\n")
