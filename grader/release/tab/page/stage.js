@@ -91,18 +91,6 @@ export class Stage {
     this.paint(colour, width);
   }
 
-  ellipse(x, y, w, h, colour, width) {
-    this.arc(x, y, w, h, 0, 2 * Math.PI, colour, width);
-  }
-
-  arc(x, y, w, h, start, stop, colour, width) {
-    const inset = width / 2;
-    this.pen.beginPath();
-    this.pen.ellipse(x + w / 2, y + h / 2, Math.max(w / 2 - inset, 0), Math.max(h / 2 - inset, 0),
-      0, -start, -stop, true);
-    this.paint(colour, width);
-  }
-
   line(x, y, toX, toY, colour, width) {
     this.pen.beginPath();
     this.pen.moveTo(x, y);
@@ -125,25 +113,19 @@ export class Stage {
   }
 
   at(x, y, commands) {
-    this.inside(() => this.pen.translate(x, y), commands);
-  }
-
-  within(x, y, w, h, commands) {
-    this.inside(() => {
-      this.pen.beginPath();
-      this.pen.rect(x, y, w, h);
-      this.pen.clip();
-    }, commands);
-  }
-
-  faded(share, commands) {
-    this.inside(() => (this.pen.globalAlpha *= share), commands);
-  }
-
-  inside(set, commands) {
     this.pen.save();
-    set();
+    this.pen.translate(x, y);
     this.draw(commands);
     this.pen.restore();
   }
+
+  within(x, y, w, h, commands) {
+    this.pen.save();
+    this.pen.beginPath();
+    this.pen.rect(x, y, w, h);
+    this.pen.clip();
+    this.draw(commands);
+    this.pen.restore();
+  }
+
 }

@@ -21,15 +21,12 @@ The draw commands are tuples; lengths in px, colours as #RRGGBB or #RRGGBBAA, a 
 
     ("rect", x, y, w, h, colour, width)         with a radius of the corners behind it, if any
     ("circle", x, y, radius, colour, width)     a width lies inside the radius
-    ("ellipse", x, y, w, h, colour, width)      in this rectangle
-    ("arc", x, y, w, h, start, stop, colour, width)  angles in rad, anticlockwise from the right
     ("line", x, y, to_x, to_y, colour, width)
     ("poly", [x, y, x, y, ...], colour, 0)
     ("text", x, y, text, colour, size)          (x, y) is left and top; pygame's font of 26 px is as
                                                 wide as a bold 18 px of Arial or Helvetica
     ("at", x, y, commands)                      commands moved by (x, y)
     ("within", x, y, w, h, commands)            commands clipped to this rectangle
-    ("faded", share, commands)                  commands, as opaque as share says, from 0 to 1
 
 The first command of a window fills it: ("rect", 0, 0, width, height, colour, 0).
 """
@@ -67,12 +64,3 @@ def quit():
 def get_init():
     """Return whether pygame has been started."""
     return display.get_init()
-
-
-def get_sdl_version():
-    """Return zeros: there is no SDL."""
-    return 0, 0, 0
-
-
-def register_quit(function):
-    """Do nothing: the page ends programs."""

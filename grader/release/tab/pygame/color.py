@@ -1,6 +1,6 @@
 """Color, and the conversion of pygame's colours to those of a canvas."""
 
-from .naming import Named, full_name, refuse
+from .naming import Named, full_name
 
 INVALID = (
     "invalid color (color sequence must have size 3 or 4, "
@@ -68,16 +68,6 @@ class Color(metaclass=Named):
     def __repr__(self):
         return f"Color({self.r}, {self.g}, {self.b}, {self.a})"
 
-    def __reduce__(self):
-        return Color, tuple(self)
-
-    def lerp(self, other, share):
-        """Return the colour at a share, from 0 to 1, of the way to another."""
-        if not 0 <= share <= 1:
-            raise ValueError("Argument 2 must be in range [0, 1]")
-        pairs = zip(self, read_color(other), strict=True)
-        return Color(*(int(one * (1 - share) + two * share + 0.5) for one, two in pairs))
-
 
 def read_color(*values):
     """Return (r, g, b, a) of any colour that pygame accepts; raise ValueError or TypeError."""
@@ -93,8 +83,7 @@ def read_color(*values):
             raise ValueError("invalid color argument")
         return tuple(value.to_bytes(4, "big"))
     if not hasattr(value, "__getitem__") or not hasattr(value, "__len__"):
-        found = f"{full_name(value):>128}"  # as wide as pygame has it
-        raise TypeError(f"unable to interpret object of type '{found}' as a color")
+        raise TypeError(f"unable to interpret object of type '{full_name(value)}' as a color")
     return check_channels(value)
 
 

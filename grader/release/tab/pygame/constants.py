@@ -56,14 +56,5 @@ KEYS |= {f"K_{name}": 1 << 30 | number for name, (number, _) in OTHERS.items()}
 globals().update(KEYS)
 K_UNKNOWN = 0
 
-event_names = {
-    NOEVENT: "NoEvent", QUIT: "Quit", KEYDOWN: "KeyDown", KEYUP: "KeyUp",
-    TEXTEDITING: "TextEditing", TEXTINPUT: "TextInput", MOUSEMOTION: "MouseMotion",
-    MOUSEBUTTONDOWN: "MouseButtonDown", MOUSEBUTTONUP: "MouseButtonUp", MOUSEWHEEL: "MouseWheel",
-    ACTIVEEVENT: "ActiveEvent", VIDEORESIZE: "VideoResize", VIDEOEXPOSE: "VideoExpose",
-    WINDOWSHOWN: "WindowShown", WINDOWRESIZED: "WindowResized", WINDOWENTER: "WindowEnter",
-    WINDOWLEAVE: "WindowLeave", WINDOWFOCUSGAINED: "WindowFocusGained",
-    WINDOWFOCUSLOST: "WindowFocusLost", WINDOWCLOSE: "WindowClose",
-}  # fmt: skip
 __all__ = [name for name in dir() if name.isupper() and name[0] != "_"] + list(KEYS)
 __all__ = sorted({*__all__} - {"SIGNS", "CONTROLS", "OTHERS", "KEYS"})

@@ -3,12 +3,9 @@
 from time import perf_counter
 
 from .errors import error
-from .math import is_number
-from .naming import refuse
-from .rect import to_int
 from .state import State as state
 from .state import need_window
-from .surface import Surface
+from .surface import Surface, read_size
 from .time import rest
 
 DESKTOP = (1024, 768)  # px, what set_mode takes where no size is given
@@ -24,7 +21,7 @@ def quit():
     state.on, state.surface = False, None
     state.keys.clear()
     state.buttons.clear()
-    state.mods, state.mouse, state.moved = 0, (0, 0), (0, 0)
+    state.mods, state.mouse = 0, (0, 0)
 
 
 def get_init():
@@ -34,11 +31,7 @@ def get_init():
 
 def set_mode(size=(0, 0), flags=0, depth=0, display=0, vsync=0):
     """Open a window of this size in px; return its surface."""
-    if not hasattr(size, "__getitem__") or len(size) != 2 or not all(map(is_number, size)):
-        raise TypeError("size must be two numbers")
-    width, height = map(to_int, size)
-    if width < 0 or height < 0:
-        raise error("Cannot set negative sized display mode")
+    width, height = read_size(size)
     init()
     size = (width or DESKTOP[0], height or DESKTOP[1])
     if state.surface is None:
@@ -77,9 +70,3 @@ def set_caption(title, icontitle=None):
 
 def set_icon(surface):
     """Do nothing: a page has no window icon."""
-
-
-def get_window_size():
-    """Return the size of the window in px."""
-    need_window()
-    return state.surface.get_size() if state.surface else (0, 0)

@@ -2,7 +2,7 @@
 
 from . import constants as c
 from .errors import error
-from .naming import Named, full_name, refuse
+from .naming import Named, full_name
 from .state import State, need_window
 
 pump_hook = None  # the page's: called by get, poll, peek and pump; posts what has come
@@ -29,31 +29,13 @@ class Event(metaclass=Named):
         self.__dict__.update(values)
         self.__dict__["type"] = type
 
-    @property
-    def dict(self):
-        """Return the attributes by name."""
-        return {name: value for name, value in vars(self).items() if name != "type"}
-
-    def __getattr__(self, name):
-        raise AttributeError(f"{full_name(self)!r} object has no attribute {name!r}")
-
     def __eq__(self, other):
         return isinstance(other, Event) and vars(self) == vars(other)
 
     __hash__ = None
 
-    def __bool__(self):
-        return self.type != c.NOEVENT
-
     def __repr__(self):
-        return f"<Event({self.type}-{event_name(self.type)} {self.dict})>"
-
-
-def event_name(type):
-    """Return the name of an event type."""
-    if c.USEREVENT <= type < c.NUMEVENTS:
-        return "UserEvent"
-    return c.event_names.get(type, "Unknown")
+        return f"<Event({vars(self)})>"
 
 
 def pump():
@@ -96,9 +78,8 @@ def update_state(event):
             down = event.type == c.MOUSEBUTTONDOWN
             (State.buttons.add if down else State.buttons.discard)(values.get("button"))
     if "pos" in values:
-        x, y = values["pos"] = tuple(map(int, values["pos"]))
-        State.moved = State.moved[0] + x - State.mouse[0], State.moved[1] + y - State.mouse[1]
-        State.mouse = x, y
+        values["pos"] = tuple(map(int, values["pos"]))
+        State.mouse = values["pos"]
 
 
 def make_filter(types):

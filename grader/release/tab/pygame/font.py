@@ -4,7 +4,7 @@ from os import getcwd
 
 from .constants import SRCALPHA
 from .errors import error
-from .naming import Named, full_name, refuse
+from .naming import Named, full_name
 from .state import State
 from .surface import Surface
 
@@ -26,7 +26,7 @@ class Font(metaclass=Named):
             raise error("font not initialized")
         if not isinstance(size, int):
             raise TypeError(f"{full_name(size)!r} object cannot be interpreted as an integer")
-        if isinstance(name, str) and name != get_default_font():
+        if isinstance(name, str):
             raise FileNotFoundError(f"No file '{name}' found in working directory '{getcwd()}'.")
         self._size = max(size, 1)
 
@@ -34,39 +34,24 @@ class Font(metaclass=Named):
         """Return a surface with a text on it."""
         if color is None:
             raise TypeError("function missing required argument 'color' (pos 3)")
-        text = self._read(text)
-        lines = text.split("\n")
-        size = max(self.size(line)[0] for line in lines)
-        height = len(lines) * self.get_linesize() if text else self.get_height()
-        made = Surface((size, height), SRCALPHA)
+        if not isinstance(text, str | None):
+            raise TypeError("text must be a string")
+        text = text or ""
+        made = Surface(self.size(text), SRCALPHA)
         css = made.css(color)
         if bgcolor is not None:
             made.fill(bgcolor)
-        for number, line in enumerate(lines):
-            made.ops.append(
-                ("text", 0.0, float(number * self.get_linesize()), line, css, self._size)
-            )
+        made.ops.append(("text", 0.0, 0.0, text, css, self._size))
         return made
-
-    def _read(self, text):
-        if isinstance(text, bytes):
-            return text.decode()
-        if not isinstance(text, str | None):
-            raise TypeError("text must be a unicode or bytes")
-        return text or ""
 
     def size(self, text):
         """Return (width, height) of a text in px."""
-        wide = sum(WIDTHS.get(letter, AVERAGE) for letter in self._read(text))
+        wide = sum(WIDTHS.get(letter, AVERAGE) for letter in text)
         return round(wide * self._size / 1000), self.get_height()
 
     def get_height(self):
         """Return the height of a line's letters in px."""
         return int(self._size * 0.69)
-
-    def get_linesize(self):
-        """Return the distance between two lines in px."""
-        return round(self._size * 0.747)
 
 
 def SysFont(name, size, bold=False, italic=False):  # noqa: N802 (its name in pygame)
@@ -87,17 +72,3 @@ def quit():
 def get_init():
     """Return whether the fonts have been started."""
     return State.fonts
-
-
-def get_default_font():
-    """Return the file that pygame's default font is in."""
-    return "freesansbold.ttf"
-
-
-def get_fonts():
-    """Return the names of families: none can be chosen here."""
-    return []
-
-
-def match_font(*_, **__):
-    """Return None: no family can be chosen here."""

@@ -1,7 +1,7 @@
 """Keys: names, codes and which are down."""
 
 from .constants import key_names
-from .naming import Named, refuse
+from .naming import Named
 from .state import State, need_window
 
 CODES = {name: code for code, name in reversed(key_names.items())}

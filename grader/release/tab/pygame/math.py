@@ -1,26 +1,16 @@
-"""Vector2 in Python, equal to that of pygame-ce to the last bit, and a few functions of numbers.
+"""Vector2 in Python, equal to that of pygame-ce to the last bit.
 
 A vector is made and read thousands of times in each frame, so the methods of the lab take the short
-way first: both are Vector2, or the factor is a float. Everything else is sorted out in `read_pair`.
+way first: both are Vector2, or the factor is a float. `to_vector` reads everything else.
 """
 
-from math import acos, atan2, copysign, cos, degrees, fabs, floor, fmod, pi, radians, sin, sqrt, tau
+from math import atan2, cos, degrees, fabs, fmod, pi, radians, sin, sqrt, tau
 
-from .naming import Named, explain, full_name, refuse
+from .naming import Named, explain, full_name
 
 NOT_GIVEN = object()
 EPSILON = 1e-6
 QUARTER = pi / 2
-NEEDS_A_PAIR = (
-    "Vector2 must be set with 2 real numbers, a sequence of 2 real numbers, "
-    "or another Vector2 instance"
-)
-NO_ORDER = "This operation is not supported by vectors"
-ZERO_LENGTH = "Can't normalize Vector of length zero"
-ABSENT = {  # attributes of Vector2
-    *("angle", "angle_rad", "elementwise", "epsilon", "is_normalized", "move_towards"),
-    *("move_towards_ip", "slerp", "smoothstep"),
-}
 INFINITY, NAN = float("inf"), float("nan")
 
 
@@ -29,6 +19,13 @@ def is_number(value):
     return isinstance(value, (int, float)) or (
         hasattr(value, "__float__") or hasattr(value, "__index__")
     )
+
+
+def to_float(value):
+    """Return a real number as a float; raise TypeError for anything else."""
+    if not is_number(value):
+        raise TypeError(f"must be real number, not {full_name(value)}")
+    return float(value)
 
 
 def read_pair(value):
@@ -43,38 +40,20 @@ def read_pair(value):
     return (float(x), float(y)) if is_number(x) and is_number(y) else None
 
 
-def need_pair(value, error, message):
-    """Return a sequence of two real numbers as two floats, or raise the error."""
+def to_vector(value):
+    """Return a sequence of two real numbers as a Vector2, or None for anything else."""
     pair = read_pair(value)
-    if pair is None:
-        raise error(message)
-    return pair
+    return None if pair is None else Vector2(*pair)
 
 
-def need_sequence(value):
-    """Return two floats; raise the errors of pygame's distances."""
-    if not hasattr(value, "__getitem__") or not hasattr(value, "__len__"):
-        raise TypeError("A sequence was expected")
-    if len(value) != 2:
-        raise ValueError("Vector and sequence must be the same size")
-    return to_float(value[0]), to_float(value[1])
-
-
-def to_float(value):
-    """Return a real number as a float; raise TypeError for anything else."""
-    if not is_number(value):
-        raise TypeError(f"must be real number, not {full_name(value)}")
-    return float(value)
-
-
-def read_number(value):
-    """Return a number as a float, or None for anything else."""
-    if not is_number(value):
-        return None
-    try:
-        return float(value)
-    except OverflowError:
-        return None
+def need_vector(value):
+    """Return a sequence of two real numbers as a Vector2; raise TypeError for anything else."""
+    if type(value) is Vector2:
+        return value
+    vector = to_vector(value)
+    if vector is None:
+        raise TypeError(f"a Vector2 or a pair of numbers was expected, not {full_name(value)}")
+    return vector
 
 
 def turn(x, y, angle):
@@ -83,26 +62,14 @@ def turn(x, y, angle):
     if angle < 0:
         angle += tau
     if fmod(angle + EPSILON, QUARTER) < 2 * EPSILON:
-        match int((angle + EPSILON) / QUARTER):
-            case 1:
-                return -y, x
-            case 2:
-                return -x, -y
-            case 3:
-                return y, -x
-        return x, y
+        quarters = int((angle + EPSILON) / QUARTER) % 4
+        return ((x, y), (-y, x), (-x, -y), (y, -x))[quarters]
     s, c = sin(angle), cos(angle)
     return c * x - s * y, s * x + c * y
 
 
 class Vector2(metaclass=Named):
-    """Vector2() -> Vector2(0, 0)
-    Vector2(int) -> Vector2
-    Vector2(float) -> Vector2
-    Vector2(Vector2) -> Vector2
-    Vector2(x, y) -> Vector2
-    Vector2((x, y)) -> Vector2
-    a 2-Dimensional Vector"""
+    """A vector in the plane: Vector2(x, y), Vector2((x, y)), Vector2(number) or Vector2()."""
 
     __slots__ = ("_x", "_y")
     __hash__ = None
@@ -115,7 +82,17 @@ class Vector2(metaclass=Named):
             self._x = x
             self._y = y
         else:
-            self._x, self._y = read_coordinates(x, y)
+            self.update(x, y)
+
+    def update(self, x=0.0, y=NOT_GIVEN):
+        """Set both numbers from the arguments of Vector2()."""
+        if y is NOT_GIVEN:
+            pair = (float(x), float(x)) if is_number(x) else read_pair(x)
+        else:
+            pair = (float(x), float(y)) if is_number(x) and is_number(y) else None
+        if pair is None:
+            raise ValueError("Vector2 must be set with 2 real numbers or another Vector2")
+        self._x, self._y = pair
 
     # ------------------------------------------------------------ the two numbers
 
@@ -137,35 +114,13 @@ class Vector2(metaclass=Named):
     def y(self, value):
         self._y = value if type(value) is float else to_float(value)
 
-    def __getattr__(self, name):
-        if name in ABSENT:
-            refuse("pygame.Vector2", name)
-        if len(name) < 2 or set(name) - {"x", "y"}:
-            raise AttributeError(f"{full_name(self)!r} object has no attribute {name!r}")
-        if len(name) == 3:
-            refuse("pygame", "Vector3")
-        numbers = tuple(self._x if letter == "x" else self._y for letter in name)
-        return Vector2(*numbers) if len(name) == 2 else numbers
-
     def __getitem__(self, index):
-        if isinstance(index, slice):
-            return [self._x, self._y][index]
-        if not hasattr(index, "__index__"):
-            raise TypeError(f"vector indices must be integers, not {type(index).__name__}")
-        try:
-            return (self._x, self._y)[index]
-        except IndexError:
-            raise IndexError("subscript out of range.") from None
+        return [self._x, self._y][index]
 
     def __setitem__(self, index, value):
-        if not hasattr(index, "__index__"):
-            raise TypeError(f"list indices must be integers, not {type(index).__name__}")
-        elif index in (0, -2):
-            self.x = value
-        elif index in (1, -1):
-            self.y = value
-        else:
-            raise IndexError("subscript out of range.")
+        numbers = [self._x, self._y]
+        numbers[index] = value
+        self.update(numbers)
 
     def __len__(self):
         return 2
@@ -182,24 +137,19 @@ class Vector2(metaclass=Named):
     def __str__(self):
         return f"[{self._x:g}, {self._y:g}]"
 
-    def __copy__(self):
+    def copy(self):
+        """Return a vector with the same numbers."""
         return Vector2(self._x, self._y)
 
-    copy = __copy__
+    __copy__ = copy
+    xy = property(copy, update)
+    yx = property(lambda self: Vector2(self._y, self._x))
 
     def __deepcopy__(self, memo):
-        return self.__copy__()
+        return self.copy()
 
     def __reduce__(self):
         return Vector2, (self._x, self._y)
-
-    def update(self, x=0.0, y=NOT_GIVEN):
-        """Set both numbers from the arguments of Vector2()."""
-        self._x, self._y = read_coordinates(x, y)
-
-    xy = property(__copy__, update)
-
-    # ------------------------------------------------------------ comparisons
 
     def __eq__(self, other):
         pair = read_pair(other)
@@ -207,140 +157,108 @@ class Vector2(metaclass=Named):
             return False
         return fabs(self._x - pair[0]) < EPSILON and fabs(self._y - pair[1]) < EPSILON
 
-    def __lt__(self, other):
-        if read_pair(other) is None:
-            return NotImplemented
-        raise TypeError(NO_ORDER)
-
-    __le__ = __gt__ = __ge__ = __lt__
-
     # ------------------------------------------------------------ operators
 
     def __add__(self, other):
-        if type(other) is Vector2:
-            return Vector2(self._x + other._x, self._y + other._y)
-        pair = read_pair(other)
-        if pair is None:
+        if type(other) is not Vector2 and (other := to_vector(other)) is None:
             return NotImplemented
-        return Vector2(self._x + pair[0], self._y + pair[1])
+        return Vector2(self._x + other._x, self._y + other._y)
 
     __radd__ = __add__
 
     def __iadd__(self, other):
-        if type(other) is Vector2:
-            self._x += other._x
-            self._y += other._y
-            return self
-        pair = read_pair(other)
-        if pair is None:
+        if type(other) is not Vector2 and (other := to_vector(other)) is None:
             return NotImplemented
-        self._x += pair[0]
-        self._y += pair[1]
+        self._x += other._x
+        self._y += other._y
         return self
 
     def __sub__(self, other):
-        if type(other) is Vector2:
-            return Vector2(self._x - other._x, self._y - other._y)
-        pair = read_pair(other)
-        if pair is None:
+        if type(other) is not Vector2 and (other := to_vector(other)) is None:
             return NotImplemented
-        return Vector2(self._x - pair[0], self._y - pair[1])
+        return Vector2(self._x - other._x, self._y - other._y)
 
     def __rsub__(self, other):
-        pair = read_pair(other)
-        if pair is None:
-            return NotImplemented
-        return Vector2(pair[0] - self._x, pair[1] - self._y)
+        other = to_vector(other)
+        return NotImplemented if other is None else other - self
 
     def __isub__(self, other):
-        if type(other) is Vector2:
-            self._x -= other._x
-            self._y -= other._y
-            return self
-        pair = read_pair(other)
-        if pair is None:
+        if type(other) is not Vector2 and (other := to_vector(other)) is None:
             return NotImplemented
-        self._x -= pair[0]
-        self._y -= pair[1]
+        self._x -= other._x
+        self._y -= other._y
         return self
 
     def __mul__(self, other):
         if type(other) is float:
             return Vector2(self._x * other, self._y * other)
-        pair = read_pair(other)
-        if pair is not None:
-            return 0.0 + self._x * pair[0] + self._y * pair[1]
-        number = read_number(other)
-        if number is None:
-            return NotImplemented
-        return Vector2(self._x * number, self._y * number)
+        if is_number(other):
+            return self * float(other)
+        other = to_vector(other)
+        return NotImplemented if other is None else self.dot(other)
 
     __rmul__ = __mul__
 
+    def __imul__(self, other):
+        return self._become(self * other) if is_number(other) else NotImplemented
+
     def __truediv__(self, other):
-        number = read_number(other)
-        if number is None:
+        if not is_number(other):
             return NotImplemented
-        if not number:
-            raise ZeroDivisionError("division by zero")
-        number = 1.0 / number  # as pygame: its last bit differs from that of a division
-        return Vector2(self._x * number, self._y * number)
+        share = 1.0 / float(other)  # as pygame: its last bit differs from that of a division
+        return Vector2(self._x * share, self._y * share)
+
+    def __itruediv__(self, other):
+        return self._become(self / other) if is_number(other) else NotImplemented
+
+    def _become(self, other):
+        self._x, self._y = other._x, other._y
+        return self
 
     def __floordiv__(self, other):
-        number = read_number(other)
-        if number is None:
-            return NotImplemented
-        return Vector2(floor_division(self._x, number), floor_division(self._y, number))
+        raise TypeError(explain("// with pygame.Vector2"))
+
+    def __round__(self, digits=None):
+        raise TypeError(explain("round() of a pygame.Vector2"))
 
     def __neg__(self):
         return Vector2(-self._x, -self._y)
 
     def __pos__(self):
-        return Vector2(self._x, self._y)
-
-    def __round__(self, digits=None):
-        if digits is None:
-            return Vector2(round_half_up(self._x), round_half_up(self._y))
-        power = (
-            10.0 ** int(digits.__index__()) if hasattr(digits, "__index__") else round(0.0, digits)
-        )
-        return Vector2(
-            round_half_up(self._x * power) / power, round_half_up(self._y * power) / power
-        )
+        return self.copy()
 
     # ------------------------------------------------------------ products and lengths
 
     def dot(self, other):
         """Return the dot product."""
-        if type(other) is Vector2:
-            return 0.0 + self._x * other._x + self._y * other._y
-        x, y = need_pair(other, TypeError, "Cannot perform dot product with this type.")
-        return 0.0 + self._x * x + self._y * y
+        other = need_vector(other)
+        return 0.0 + self._x * other._x + self._y * other._y
 
     def cross(self, other):
         """Return the cross product, a number."""
-        message = "Incompatible vector argument: cannot calculate cross product"
-        x, y = need_pair(other, TypeError, message)
-        return self._x * y - self._y * x
-
-    def length(self):
-        """Return the length."""
-        return sqrt(self._x * self._x + self._y * self._y)
-
-    magnitude = length
+        other = need_vector(other)
+        return self._x * other._y - self._y * other._x
 
     def length_squared(self):
         """Return the square of the length."""
         return self._x * self._x + self._y * self._y
 
-    magnitude_squared = length_squared
+    def length(self):
+        """Return the length."""
+        return sqrt(self._x * self._x + self._y * self._y)
+
+    magnitude, magnitude_squared = length, length_squared
 
     def normalize(self):
         """Return a vector of length 1 in the same direction."""
-        length = sqrt(self._x * self._x + self._y * self._y)
+        length = self.length()
         if not length:
-            raise ValueError(ZERO_LENGTH)
+            raise ValueError("Can't normalize Vector of length zero")
         return Vector2(self._x / length, self._y / length)
+
+    def normalize_ip(self):
+        """Set the length to 1."""
+        self._become(self.normalize())
 
     def scale_to_length(self, length):
         """Set the length."""
@@ -350,151 +268,67 @@ class Vector2(metaclass=Named):
         self._x *= length / old
         self._y *= length / old
 
-    def clamp_magnitude(self, *limits):
-        """Return a vector whose length is within one or two limits."""
-        if not 1 <= len(limits) <= 2:
-            raise TypeError("Vector clamp function must take one or two floats")
-        *low, high = map(to_float, limits)
-        low = low[0] if low else 0.0
-        if low > high:
-            raise ValueError("Argument min_length cannot exceed max_length")
-        if low < 0 or high < 0:
-            raise ValueError("Arguments to Vector clamp must be non-negative")
-        length = self.length()
-        if not length:
-            if low > 0:
-                raise ValueError(
-                    "Cannot clamp a vector with zero length with a min_length greater than 0"
-                )
-            return Vector2(self._x, self._y)
-        share = high / length if length > high else low / length if length < low else 1.0
-        return Vector2(self._x * share, self._y * share)
-
     def distance_to(self, other):
         """Return the distance to a point."""
-        x, y = need_sequence(other)
-        x, y = x - self._x, y - self._y
-        return sqrt(x * x + y * y)
+        return (need_vector(other) - self).length()
 
     def distance_squared_to(self, other):
         """Return the square of the distance to a point."""
-        x, y = need_sequence(other)
-        x, y = x - self._x, y - self._y
-        return x * x + y * y
+        return (need_vector(other) - self).length_squared()
 
     # ------------------------------------------------------------ directions
-
-    def rotate(self, angle):
-        """Return the vector turned by an angle in degrees."""
-        return Vector2(*turn(self._x, self._y, radians(to_float(angle))))
 
     def rotate_rad(self, angle):
         """Return the vector turned by an angle in rad."""
         return Vector2(*turn(self._x, self._y, to_float(angle)))
 
+    def rotate(self, angle):
+        """Return the vector turned by an angle in degrees."""
+        return self.rotate_rad(radians(to_float(angle)))
+
+    def rotate_ip(self, angle):
+        """Turn the vector by an angle in degrees."""
+        self._become(self.rotate(angle))
+
+    def rotate_rad_ip(self, angle):
+        """Turn the vector by an angle in rad."""
+        self._become(self.rotate_rad(angle))
+
     def angle_to(self, other):
         """Return the angle to another vector in degrees."""
-        message = "Incompatible vector argument: cannot calculate angle to"
-        x, y = need_pair(other, TypeError, message)
-        return degrees(atan2(y, x) - atan2(self._y, self._x))
+        other = need_vector(other)
+        return degrees(atan2(other._y, other._x) - atan2(self._y, self._x))
 
     def as_polar(self):
         """Return (length, direction in degrees)."""
         return self.length(), degrees(atan2(self._y, self._x))
 
-    def from_polar(self, polar):
-        """Set both numbers, from (length, direction in degrees)."""
-        length, angle = need_pair(polar, TypeError, "Expected a sequence of two numbers")
-        angle = radians(angle)
-        self._x, self._y = length * cos(angle), length * sin(angle)
-
     def reflect(self, normal):
         """Return the vector after a bounce from a surface with this normal."""
-        x, y = need_pair(normal, ValueError, "Sequence has the wrong length.")
-        length = x * x + y * y
+        normal = need_vector(normal)
+        length = normal.length_squared()
         if length < EPSILON:
             raise ValueError("Normal must not be of length zero.")
-        if length != 1:
-            length = sqrt(length)
-            x, y = x / length, y / length
+        x, y = normal if length == 1 else normal.normalize()
         along = 0.0 + self._x * x + self._y * y
         return Vector2(self._x - 2 * x * along, self._y - 2 * y * along)
 
     def project(self, other):
         """Return the part of the vector along another one."""
-        x, y = need_pair(other, TypeError, "Expected Vector as argument 1")
-        length = x * x + y * y
+        other = need_vector(other)
+        length = other.length_squared()
         if length < EPSILON:
             raise ValueError("Cannot project onto a vector with zero length")
-        share = (0.0 + self._x * x + self._y * y) / length
-        return Vector2(x * share, y * share)
-
-    # ------------------------------------------------------------ on the way to another vector
+        share = self.dot(other) / length
+        return Vector2(other._x * share, other._y * share)
 
     def lerp(self, other, share):
         """Return the point at a share, from 0 to 1, of the way to another."""
-        x, y = need_pair(other, TypeError, "Expected Vector as argument 1")
-        share = to_float(share)
+        other, share = need_vector(other), to_float(share)
         if not 0 <= share <= 1:
             raise ValueError("Argument 2 must be in range [0, 1]")
         rest = 1 - share
-        return Vector2(self._x * rest + x * share, self._y * rest + y * share)
-
-
-def make_in_place(method):
-    """Return a method that sets its vector to the result of another method."""
-
-    def change(self, *args):
-        self._x, self._y = method(self, *args)
-
-    return change
-
-
-def make_operator(operate):
-    """Return an operator such as *= from one such as *."""
-
-    def change(self, other):
-        if isinstance(result := operate(self, other), Vector2):
-            self._x, self._y = result
-            return self
-        return NotImplemented
-
-    return change
-
-
-for each in ("normalize", "clamp_magnitude", "rotate", "rotate_rad", "reflect"):
-    setattr(Vector2, f"{each}_ip", make_in_place(getattr(Vector2, each)))
-Vector2.rotate_ip_rad = Vector2.rotate_rad_ip
-for each in ("mul", "truediv", "floordiv"):
-    setattr(Vector2, f"__i{each}__", make_operator(getattr(Vector2, f"__{each}__")))
-
-
-def read_coordinates(x, y):
-    """Return two floats from the arguments of Vector2()."""
-    pair = None
-    if y is NOT_GIVEN or not is_number(x):
-        pair = (float(x), float(x)) if is_number(x) else read_pair(x)
-    elif is_number(y):
-        pair = float(x), float(y)
-    if pair is None:
-        raise ValueError(NEEDS_A_PAIR)
-    return pair
-
-
-def floor_division(x, number):
-    """Return a whole quotient as a float, rounded down."""
-    if not number:
-        raise ZeroDivisionError("division by zero")
-    quotient = x * (1.0 / number)
-    return copysign(floor(quotient), quotient) if fabs(quotient) < INFINITY else quotient
-
-
-def round_half_up(x):
-    """Return a number rounded to a whole one; halves are rounded away from 0."""
-    if not fabs(x) < 2.0**52:
-        return x
-    whole = float(floor(fabs(x) + 0.5))
-    return -whole if x < 0 or str(x)[0] == "-" else whole
+        return Vector2(self._x * rest + other._x * share, self._y * rest + other._y * share)
 
 
 # ---------------------------------------------------------------- functions of numbers
@@ -502,14 +336,11 @@ def round_half_up(x):
 
 def clamp(value, low, high):
     """Return a value limited to low and high."""
-    if not all(map(is_number, (value, low, high))):
-        raise TypeError("clamp requires 3 numeric arguments")
     return low if value < low else high if value > high else value
 
 
 def lerp(a, b, share, do_clamp=True, /):
     """Return the number at a share of the way from a to b."""
-    a, b, share = to_float(a), to_float(b), to_float(share)
     if do_clamp:
         share = min(max(share, 0.0), 1.0)
-    return a + (b - a) * share
+    return float(a + (b - a) * share)

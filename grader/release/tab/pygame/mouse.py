@@ -1,6 +1,5 @@
 """The mouse: where it is, and which buttons are down."""
 
-from .naming import refuse
 from .state import State, need_window
 
 
@@ -15,13 +14,6 @@ def set_pos(*place):
     need_window()
     x, y = place if len(place) == 2 else place[0]
     State.mouse = int(x), int(y)
-
-
-def get_rel():
-    """Return the pointer's motion since the last call, in px."""
-    need_window()
-    moved, State.moved = State.moved, (0, 0)
-    return moved
 
 
 def get_pressed(num_buttons=3):

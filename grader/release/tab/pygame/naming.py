@@ -24,6 +24,9 @@ class Named(type):
             FULL_NAME.__set__(made, f"{made.__module__}.{name}")
         return made
 
+    def __getattr__(cls, name):
+        refuse(FULL_NAME.__get__(cls), name)
+
 
 def refuse_attribute(value, name):
     """Raise AttributeError for an attribute that this page's pygame lacks."""

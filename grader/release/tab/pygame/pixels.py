@@ -16,7 +16,7 @@ class Pixels:
     def __init__(self, width, height):
         self.width, self.height = width, height
         self.bytes = bytearray(4 * width * height)
-        self.at, self.share = (0, 0), 1.0  # where commands have their (0, 0), and how opaque
+        self.at = (0, 0)  # where commands have their (0, 0)
         self.clip = (0, 0, width, height)  # left, top, right, bottom
 
     def paint(self, commands):
@@ -37,13 +37,13 @@ class Pixels:
         if begin >= end or not top <= y < bottom:
             return
         start, end = 4 * (y * self.width + begin), 4 * (y * self.width + end)
-        if color[3] == 255 and self.share == 1.0:
+        if color[3] == 255:
             self.bytes[start:end] = color * ((end - start) // 4)
         else:
             self._blend(start, end, color)
 
     def _blend(self, start, end, color):
-        share = color[3] / 255 * self.share
+        share = color[3] / 255
         for at in range(start, end, 4):
             below = self.bytes[at : at + 4]
             rest = below[3] / 255 * (1 - share)
@@ -68,16 +68,10 @@ class Pixels:
         self._rect(x + w - width, y + width, width, h - 2 * width, css, 0)
 
     def _circle(self, x, y, radius, css, width):
-        self._oval(x, y, radius, radius, css, width)
-
-    def _ellipse(self, x, y, w, h, css, width):
-        self._oval(x + w / 2, y + h / 2, w / 2, h / 2, css, width)
-
-    def _oval(self, x, y, wide, high, css, width):
         color = read_css(css)
-        for row in range(floor(y - high), floor(y + high) + 1):
-            outer = half_chord(row + 0.5 - y, wide, high)
-            inner = half_chord(row + 0.5 - y, wide - width, high - width) if width else 0.0
+        for row in range(floor(y - radius), floor(y + radius) + 1):
+            outer = half_chord(row + 0.5 - y, radius)
+            inner = half_chord(row + 0.5 - y, radius - width) if width else 0.0
             if inner:
                 self._span(row, round(x - outer), round(x - inner), color)
                 self._span(row, round(x + inner), round(x + outer), color)
@@ -129,16 +123,6 @@ class Pixels:
             for begin, end in zip(crossed[::2], crossed[1::2], strict=True):
                 self._span(row, round(begin), round(end), color)
 
-    def _arc(self, x, y, w, h, start, stop, css, width):
-        from math import cos, pi, sin  # rarely asked for
-
-        steps = max(int((w + h) * abs(stop - start) / pi), 8)
-        wide, high = (w - width) / 2, (h - width) / 2
-        turns = [start + (stop - start) * number / steps for number in range(steps + 1)]
-        points = [(x + w / 2 + wide * cos(a), y + h / 2 - high * sin(a)) for a in turns]
-        for one, other in zip(points, points[1:], strict=False):
-            self._line(*one, *other, css, width)
-
     def _text(self, x, y, text, css, size):
         """Draw a bar for each letter, with gaps that differ from letter to letter."""
         color, wide = read_css(css), max(int(size * 0.38), 2)
@@ -166,16 +150,10 @@ class Pixels:
         self.paint(commands)
         self.clip = before
 
-    def _faded(self, share, commands):
-        before = self.share
-        self.share = before * share
-        self.paint(commands)
-        self.share = before
 
-
-def half_chord(above, wide, high):
-    """Return half the width of an ellipse at a distance from its middle; 0 outside."""
-    return wide * sqrt(1 - (above / high) ** 2) if abs(above) < high else 0.0
+def half_chord(above, radius):
+    """Return half the width of a circle at a distance from its middle; 0 outside."""
+    return radius * sqrt(1 - (above / radius) ** 2) if abs(above) < radius else 0.0
 
 
 def read_css(css):

@@ -1,7 +1,7 @@
 """Rect: a rectangle of whole numbers."""
 
 from .math import is_number, read_pair
-from .naming import Named, full_name, refuse
+from .naming import Named, full_name
 
 STYLE = "Argument must be rect style object"
 
@@ -110,11 +110,6 @@ class Rect(metaclass=Named):
         except IndexError:
             raise IndexError("Invalid rect Index") from None
 
-    def __setitem__(self, index, value):
-        numbers = list(self)
-        numbers[index] = to_int(value)
-        self._x, self._y, self._w, self._h = numbers
-
     def __bool__(self):
         return self._w != 0 and self._h != 0
 
@@ -128,13 +123,6 @@ class Rect(metaclass=Named):
         return type(self)(self._x, self._y, self._w, self._h)
 
     copy = __copy__
-
-    def __reduce__(self):
-        return type(self), tuple(self)
-
-    def update(self, *values):
-        """Set all four numbers."""
-        self._x, self._y, self._w, self._h = read_rect(*values)
 
     def move(self, *by):
         """Return a copy, moved."""
@@ -154,10 +142,6 @@ class Rect(metaclass=Named):
         if wide < 0 or high < 0:
             return type(self)(self._x, self._y, 0, 0)
         return type(self)(left, top, wide, high)
-
-    def move_ip(self, *by):
-        """Move."""
-        self.update(self.move(*by))
 
     def collidepoint(self, *point):
         """Return whether a point is inside, or on the left or top edge."""

@@ -14,7 +14,7 @@ class State:
     sink = None  # called with the window's Surface when a picture is shown; None shows nothing
     ticked = False  # a Clock has ticked since the last picture
     keys, mods = set(), 0  # keys held down, modifiers
-    mouse, moved, buttons = (0, 0), (0, 0), set()
+    mouse, buttons = (0, 0), set()
 
 
 def need_window():

@@ -4,12 +4,11 @@ from .color import Color, css, opaque_css
 from .constants import SRCALPHA
 from .errors import error
 from .math import is_number
-from .naming import Named, full_name, refuse
+from .naming import Named, full_name
 from .pixels import Pixels
 from .rect import Rect, read_rect, to_int
 
 MOST = 20_000  # commands since the last fill; the oldest are forgotten
-BAD_PLACE = "invalid destination position for blit"
 
 
 class Nowhere(list):
@@ -25,11 +24,11 @@ NOWHERE = Nowhere()
 class Surface(metaclass=Named):
     """A picture. Its pixels are computed when they are asked for."""
 
-    __slots__ = ("_alpha", "_clip", "_drawn", "_flags", "_height", "_into", "_width", "css", "ops")
+    __slots__ = ("_clip", "_drawn", "_flags", "_height", "_into", "_width", "css", "ops")
 
     def __init__(self, size, flags=0, depth=0, masks=None):
         self._width, self._height = read_size(size)
-        self._flags, self._alpha = int(getattr(flags, "_flags", flags)) & SRCALPHA, 255
+        self._flags = int(getattr(flags, "_flags", flags)) & SRCALPHA
         self.css = css if self._flags else opaque_css
         self.ops = []
         self._into, self._clip = self.ops, None
@@ -38,8 +37,7 @@ class Surface(metaclass=Named):
         self._drawn = None, 0  # pixels, and how many commands they are of
 
     def __repr__(self):
-        more = ", global_alpha=255" if self._flags else ""
-        return f"<Surface({self._width}x{self._height}x32{more})>"
+        return f"<Surface({self._width}x{self._height}x32)>"
 
     # ------------------------------------------------------------ sizes
 
@@ -65,14 +63,8 @@ class Surface(metaclass=Named):
         """Return a rectangle of this size, placed by names such as center."""
         rect = Rect(0, 0, self._width, self._height)
         for name, value in places.items():
-            if not hasattr(Rect, name):
-                getattr(rect, name)  # raises
             setattr(rect, name, value)
         return rect
-
-    def get_flags(self):
-        """Return SRCALPHA for a surface with transparency, else 0."""
-        return self._flags
 
     # ------------------------------------------------------------ drawing
 
@@ -100,10 +92,8 @@ class Surface(metaclass=Named):
             _, right, down, *rest = commands[0]
             self._into.append(("text", x + right, y + down, *rest))
         elif commands:
-            inside = [("within", left, top, w, h, commands)]
-            if source._alpha < 255:
-                inside = [("faded", source._alpha / 255, inside)]
-            self._into.append(("at", x - left, y - top, inside))
+            inside = ("within", left, top, w, h, commands)
+            self._into.append(("at", x - left, y - top, [inside]))
         return self.get_clip().clip((x, y, w, h))
 
     def set_at(self, place, color):
@@ -131,18 +121,10 @@ class Surface(metaclass=Named):
         """Return the rectangle that is drawn in."""
         return Rect(0, 0, self._width, self._height) if self._clip is None else self._clip.copy()
 
-    def set_alpha(self, value=None, flags=0):
-        """Set how opaque the surface is where it is drawn on another one, from 0 to 255."""
-        self._alpha = 255 if value is None else min(max(int(value), 0), 255)
-
-    def get_alpha(self):
-        """Return how opaque the surface is, from 0 to 255."""
-        return self._alpha
-
     def copy(self):
         """Return a surface with the same picture."""
         made = Surface(self.get_size(), self._flags)
-        made.ops[:], made._alpha = self.ops, self._alpha
+        made.ops[:] = self.ops
         return made
 
     __copy__ = copy
@@ -152,11 +134,6 @@ class Surface(metaclass=Named):
         return self.copy()
 
     convert_alpha = convert
-
-    def lock(self):
-        """Do nothing: there are no pixels to lock."""
-
-    unlock = lock
 
     def forget(self):
         """Drop the oldest commands but the first if there are too many."""
@@ -198,14 +175,6 @@ class BufferProxy(metaclass=Named):
         """The bytes."""
         return bytes(self.parent.pixels().bytes)
 
-    @property
-    def length(self):
-        """Return how many bytes there are."""
-        return 4 * self.parent.get_width() * self.parent.get_height()
-
-    def __repr__(self):
-        return f"<BufferProxy({self.length})>"
-
 
 def read_size(size):
     """Return (width, height) as whole numbers."""
@@ -220,5 +189,5 @@ def read_size(size):
 def read_place(dest):
     """Return (x, y) as whole numbers, of a place or the corner of a rectangle."""
     if not hasattr(dest, "__getitem__") or len(dest) < 2 or not all(map(is_number, dest)):
-        raise TypeError(BAD_PLACE)
+        raise TypeError("invalid destination position for blit")
     return to_int(dest[0]), to_int(dest[1])

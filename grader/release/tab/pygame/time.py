@@ -3,7 +3,7 @@
 import time
 
 from .math import to_float
-from .naming import Named, refuse
+from .naming import Named
 from .state import State
 
 START = time.perf_counter()
