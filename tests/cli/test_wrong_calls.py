@@ -103,9 +103,11 @@ export csv empty
 export junit list.csv
 export html results/ann.json --out class
 check --todo 99
+check --course bad.toml
 hand-in --out class
 hint
 hint --todo 99
+hint --todo 1 --course bad.toml
 hint --todo 4 --level 9
 nosuchcommand
 """

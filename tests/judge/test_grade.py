@@ -1,16 +1,12 @@
 """Grade one submission: marks and reasons, the same each time."""
 
 import json
-import os
 import re
 import shutil
-import subprocess
-import sys
 import textwrap
 from collections.abc import Callable
 from pathlib import Path
 
-import msgspec
 import pytest
 from mixed_trees import mix_trees
 from whole_bank import bank
@@ -22,7 +18,6 @@ from grader.judge import running
 from grader.judge.grade import grade
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
-from grader.judge.submission import CannotGrade
 from grader.judge.task import KIT, Options, shipped_reference
 from grader.report.files import as_json
 from grader.source.regions import python_files, read_source, regions_in
@@ -71,12 +66,6 @@ def test_the_solution_needs_no_reference(solution_graded: Graded, todos: tuple[s
     assert alone == solution_graded(todos).todos
 
 
-def test_points_add_up_and_are_whole_numbers(solution: Result):
-    for todo in solution.todos:
-        assert todo.max_points == sum(check.max_points for check in todo.checks)
-        assert all(type(check.points) is int for check in todo.checks)
-
-
 def test_every_region_is_in_the_rubric_once_and_bonus_tasks_come_last():
     todos = load_rubric().todos
     assert sorted(todo.id for todo in todos if todo.function) == sorted(regions_of("solution"))
@@ -98,16 +87,6 @@ def test_every_check_has_a_title_a_student_can_read(solution: Result):
 def test_the_portable_worker_gives_the_same_json(solution_graded: Graded, todos: tuple[str, ...]):
     options = Options(shipped_reference(), only=frozenset(todos), spawn=True)
     assert grade(KIT / "solution", options).todos == solution_graded(todos).todos
-
-
-def test_the_hash_seed_and_the_locale_change_nothing(solution_graded: Graded, tmp_path: Path):
-    target = tmp_path / "result.json"
-    environment = {**os.environ, "PYTHONHASHSEED": "1", "LC_ALL": "C", "TZ": "Asia/Kolkata"}
-    command = ["-m", "grader", "grade", "solution", "--todo=8b", "--json", str(target)]
-    done = subprocess.run([sys.executable, *command], cwd=KIT, env=environment, capture_output=True)
-    assert done.returncode == 0, done
-    result = msgspec.json.decode(target.read_bytes(), type=Result)
-    assert result.todos == solution_graded(("8b",)).todos
 
 
 @pytest.mark.parametrize(
@@ -138,11 +117,6 @@ def test_who_was_graded_before_changes_nothing(tmp_path: Path, chosen: tuple[str
 
 
 # ---------------------------------------------------------------- what is handed in
-
-
-def test_a_folder_that_is_not_there_cannot_be_graded(tmp_path: Path):
-    with pytest.raises(CannotGrade, match="nowhere"):
-        grade(tmp_path / "nowhere", WITH_REFERENCE)
 
 
 @pytest.mark.parametrize(
@@ -232,16 +206,6 @@ def test_a_failed_check_says_what_ran_what_was_expected_and_what_came_out(hand_i
     assert todo.misconception == "the-same-share-every-step"
     assert check.meaning.startswith("Every step loses 1 %")
     assert check.where is not None and check.where.file == "mini_engine/world.py"
-
-
-def test_an_exception_names_the_students_own_line(hand_in):
-    source = (KIT / "solution" / "mini_engine" / "contacts.py").read_text(encoding="utf-8")
-    wrong = source.replace("offset = closest - centre", "offset = closest - center")
-    result = grade_tree(hand_in("solution", mini_engine__contacts_py=wrong), ONLY["1"])
-    check = result.todos[0].checks[0]
-    assert check.state == "error" and "NameError" in check.got
-    assert "offset = closest - center" in check.got
-    assert "reference" not in check.got
 
 
 # ---------------------------------------------------------------- the contract's JSON

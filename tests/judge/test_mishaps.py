@@ -9,7 +9,6 @@ from pathlib import Path
 
 import psutil
 import pytest
-from command_line import run_grader
 
 from grader.intake.listing import open_class
 from grader.judge.task import KIT
@@ -118,15 +117,6 @@ def test_a_folder_that_is_in_use_is_nobodys_leftover():
     with work_folder() as work:
         assert lock_folder(work) is None
     assert not work.exists()
-
-
-@pytest.mark.parametrize("option", [pytest.param("--out", marks=soak), "--json"])
-def test_a_place_that_cannot_be_written_is_a_sentence_and_status_2(tmp_path: Path, option: str):
-    (tmp_path / "file").write_text("in the way", encoding="utf-8")
-    target = tmp_path / "file" / "below"
-    done = run_grader("grade", KIT / "starter", "--todo", "8a", option, target)
-    assert done.exit_code == 2 and "cannot go on" in done.stderr
-    assert str(tmp_path / "file") in done.stderr.replace("\n", "")
 
 
 @soak

@@ -66,38 +66,10 @@ def test_what_is_kept_is_found_under_its_name(tmp_path: Path, line: str, names: 
         sys.modules.pop(name, None)
 
 
-VERLET = """
-    global last
-    a_start = accel(x) if last is None else last
-    x = x + v * dt + 0.5 * a_start * dt**2
-    last = accel(x)
-    return x, v + 0.5 * (a_start + last) * dt
-
-
-last = None
-
-
-def unused():
-    pass
-"""
-
-
 def failed_checks(tree: Path, todo: str) -> list[CheckResult]:
     options = Options(shipped_reference(), only=frozenset({todo}))
     (result,) = grade(tree, options, shared_worker()).todos
     return result.failed
-
-
-def test_a_dependence_on_earlier_calls_is_explained(hand_in: HandIn):
-    folder = hand_in("solution")
-    path = folder / "integrators.py"
-    text = path.read_text(encoding="utf-8")
-    begin, end = text.index("# TODO 8b"), text.index("# END TODO 8b")
-    path.write_text(text[:begin] + "# TODO 8b" + VERLET + "    " + text[end:], encoding="utf-8")
-    failed = failed_checks(folder, "8b")
-    assert failed and all("from call to call in last" in check.meaning for check in failed)
-    (drawn,) = [check for check in failed if check.kind == "property"]
-    assert drawn.meaning.startswith(REMEMBERS)
 
 
 def test_a_forbidden_change_is_not_called_a_memory(hand_in: HandIn):

@@ -106,21 +106,35 @@ def test_an_endless_loop_ends(tab: InlineWorker, hand_in: HandIn):
     assert "a loop that never ends?" in checks(result)[0].got
 
 
-EULER = "\n\ndef semi_implicit_euler(x, v, dt, accel):\n"
-ODD_CODE = {
-    f"{EULER}    print('x' * 10**6)\n    return 0\n": "bytes and then",
-    f"{EULER}    import os\n    os._exit(3)\n": "exit status 3",
-    "\n\nimport os\nos.environ['LAB_FRAMES'] = '1'\nos.environ.pop('PATH', None)\n": "",
-    "\n\nimport pytest\n": "",
-}
+ODD_CODE = """
 
 
-@pytest.mark.parametrize(("code", "words"), ODD_CODE.items(), ids=range(len(ODD_CODE)))
-def test_odd_code_gets_the_same(code: str, words: str, tab: InlineWorker, hand_in: HandIn):
+def semi_implicit_euler(x, v, dt, accel):
+    print("x" * 10**6)
+    return 0
+
+
+def velocity_verlet(x, v, dt, accel):
+    os._exit(3)
+
+
+import os
+
+os.environ["LAB_FRAMES"] = "1"
+os.environ.pop("PATH", None)
+"""
+
+
+def test_odd_code_gets_the_same(tab: InlineWorker, hand_in: HandIn):
     before = dict(os.environ)
-    check = checks(assert_same(hand_in(integrators_py=INTEGRATORS + code), tab, "8a"))[0]
-    assert words in f"{check.printed} {check.got}"
+    result = assert_same(hand_in(integrators_py=INTEGRATORS + ODD_CODE), tab, "8a", "8b")
+    printing, ending = (todo.checks[0] for todo in result.todos)
+    assert "bytes and then" in printing.printed and "exit status 3" in ending.got
     assert dict(os.environ) == before
+
+
+def test_a_library_of_the_grader_is_refused_the_same(tab: InlineWorker, hand_in: HandIn):
+    assert_same(hand_in(integrators_py=INTEGRATORS + "\n\nimport pytest\n"), tab, "8a")
 
 
 # ---------------------------------------------------------------- separation

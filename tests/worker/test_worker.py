@@ -17,11 +17,8 @@ from grader.protocol import (
     Call,
     ChildSetup,
     Import,
-    Items,
     Limits,
-    Missing,
     Raised,
-    Ref,
     Returned,
     Vec,
 )
@@ -43,7 +40,6 @@ def forever():
 def wait_for_nothing(): threading.Event().wait()
 def recurse(): return recurse()
 def swallow(): return len(bytearray(4 * 1024**3))
-def talk(n): print("x" * n); sys.stderr.write("y" * n); return n
 def leave_behind():
     pid = os.fork()
     if pid == 0:
@@ -58,17 +54,6 @@ def leave_behind():
 def flood_disk():
     with open("big", "wb") as f:
         for _ in range(64): f.write(bytes(1024 * 1024))
-def forge():
-    for fd in range(3, 200):
-        try: os.write(fd, b"\\x00\\x00\\x00\\x04junk")
-        except OSError: pass
-    return 1
-def number(): return 10 ** 400
-def weird(): return object()
-def deep():
-    x = []
-    for _ in range(5000): x = [x]
-    return x
 def clock(): return (time.time(), time.perf_counter())
 """
 
@@ -88,14 +73,12 @@ class Asker:
             str(folder), str(scratch), limits, True, hidden, str(bytecode), False
         )
         self.children: list[Child] = []
-        self.output = ""
 
     def __call__(self, name: str, *args: int | str) -> object:
         child = self.worker.open(self.setup)
         self.children.append(child)
         child.ask(Import("hostile"))
         answered = child.ask(Call(f"hostile:{name}", list(args)))
-        self.output = answered.output
         return answered.reply.value if isinstance(answered.reply, Returned) else answered.reply
 
     def end(self) -> None:
@@ -195,12 +178,6 @@ def test_a_limit_is_an_exception_like_any_other(ask: Asker, name: str, error: st
     assert len(reply.frames) <= 12
 
 
-def test_what_is_printed_is_kept_up_to_a_bound(ask: Asker):
-    assert ask("talk", 5_000_000) == 5_000_000
-    assert len(ask.output) < 70_000
-    assert "bytes and then" in ask.output
-
-
 @linux
 @both
 def test_nothing_can_be_written_outside_the_scratch_folder(ask: Asker, tmp_path: Path):
@@ -251,17 +228,6 @@ def test_a_child_ends_with_the_process_that_forked_it(tmp_path: Path):
     assert not process.is_running()
     child.channel.close()
     worker.close()
-
-
-def test_forged_answers_end_the_child(ask: Asker):
-    with pytest.raises(ChildEnded, match="not an answer"):
-        ask("forge")
-
-
-@pytest.mark.parametrize("name", ["weird", "deep", "number"])
-def test_odd_answers_are_answers_of_no_use(ask: Asker, name: str):
-    reply = ask(name)
-    assert isinstance(reply, Ref | Items | Raised | Missing | float)
 
 
 @both
