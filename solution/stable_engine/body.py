@@ -19,6 +19,8 @@ LEAST = 1e-100  # kg and kg px²: far below, and far above its inverse, floats r
 class Listeners:
     """The part of a world that its bodies call when something of them is set."""
 
+    __slots__ = ()
+
     static_moved_hooks: list[Callable[..., Any]]
     body_moved_hooks: list[Callable[..., Any]]
     body_changed_hooks: list[Callable[..., Any]]
@@ -58,14 +60,17 @@ class Island:
 
 
 class Body:
-    """One rigid body: plain floats inside; pos, vel and omega to read and set from outside.
+    """One rigid body.
 
     Mass 0 makes a static body, which never moves; a kinematic one moves by its own velocity, and
     no force changes that. A Box or Segment has no mass. A Segment stands where it was drawn unless
     pos says where its middle is; other shapes need a pos. Restitution and friction are for scenes
     that declare Bounce() and Friction(); there None means 0.3 and 0.6. A bullet is stopped where it
-    first touches a static body, however fast it is. All but the shape and what is static can be set
-    later on, and counts from the next step. Raises ValueError when a value makes no sense.
+    first touches a static body, however fast it is. Raises ValueError when a value makes no sense.
+
+    You can set pos, vel, angle (rad, clockwise on the screen), omega, mass, restitution, friction
+    and bullet later on, and they count from the next step. A static body stays static. Do not set
+    attributes that have no description here, such as x and vx: they are the engine's own.
     """
 
     __slots__ = (
@@ -136,11 +141,12 @@ class Body:
 
     def weigh(self, mass: float) -> None:
         """Take over a mass, and the inertia of a disc of that mass."""
+        mass = float(mass)
         twice = mass * (self.r * self.r)  # kg px², its inertia
         if mass and not (LEAST < mass < 1 / LEAST and LEAST < twice < 1 / LEAST):
             found = f"{mass:g} with a radius of {self.r:g}"
             require(False, "Body.mass", found, "neither so tiny nor so huge")
-        self.m = float(mass)  # kg
+        self.m = mass  # kg
         self.inv_mass = 1 / mass if mass else 0.0  # 1/kg
         self.inv_inertia = 2 / twice if mass else 0.0  # 1/(kg px²)
 
@@ -156,7 +162,7 @@ class Body:
 
     @property
     def asleep(self) -> bool:
-        """Return whether it lies still and is left out of the step."""
+        """Return whether it sleeps: steps skip it until something wakes it."""
         return self.sleeps
 
     @property
@@ -241,10 +247,7 @@ class Body:
 
     @property
     def vel(self) -> Vector2:
-        """Return the velocity in px/s.
-
-        Set it as a whole, which wakes the body: a part cannot be set.
-        """
+        """Return the velocity in px/s. Set both parts at once; this wakes the body."""
         return read("Body.vel", self.vx, self.vy)
 
     @vel.setter
@@ -254,16 +257,22 @@ class Body:
 
     @property
     def omega(self) -> float:
-        """Return the spin in rad/s, clockwise on the screen. Setting it wakes the body."""
+        """Return the spin in rad/s, clockwise on the screen. Setting it wakes the body.
+
+        Setting it raises ValueError for a Box or Segment, which never turns.
+        """
         return self.w
 
     @omega.setter
     def omega(self, value: float) -> None:
-        self.w = finite("Body.omega", value)
+        spin = finite("Body.omega", value)
+        shape = type(self.outline).__name__
+        require(self.r > 0 or spin == 0, "Body.omega", value, f"0, as a {shape} never turns")
+        self.w = spin
         self.moved()
 
     def apply_impulse(self, impulse: Iterable[float], at: Iterable[float] | None = None) -> None:
-        """Push with an impulse in kg px/s, at a place in px: the centre, unless given.
+        """Push with an impulse in kg px/s at a position in px: the centre, unless given.
 
         Raises ValueError for a static body, which no impulse moves.
         """
@@ -278,8 +287,9 @@ class Body:
     def apply_force(self, force: Iterable[float], at: Iterable[float] | None = None) -> None:
         """Push with a force in kg px/s² during the whole next step, and no longer.
 
-        at is a place in px: the centre, unless given. Its torque is that of the moment of the call.
-        Forces add up. Raises ValueError for a static body, and for one that is in no world.
+        at is a position in px: the centre, unless given. The torque about the centre is worked out
+        now and stays the same. Forces add up. A force that should follow the position needs one
+        substep and short steps. Raises ValueError for a static body, or one that is in no world.
         """
         fx, fy = pair("Body.apply_force's force", force)
         x, y = (self.x, self.y) if at is None else pair("Body.apply_force's at", at)
@@ -288,7 +298,7 @@ class Body:
     def apply_torque(self, torque: float) -> None:
         """Turn with a torque in kg px²/s², clockwise on the screen, during the whole next step.
 
-        Torques add up. Raises ValueError for a static body, and for one that is in no world.
+        Torques add up. Raises ValueError for a static body, or one that is in no world.
         """
         self.push(0.0, 0.0, finite("Body.apply_torque's torque", torque))
 

@@ -43,7 +43,8 @@ def missing(world: WorldState, looked_at: list[Body]) -> dict[str, str]:
         if body.is_static and not tied(body, world):
             reasons.setdefault("Contacts", f"{body!r} is static, and bodies would pass through it")
         if world.statics and is_too_fast(body):
-            reasons.setdefault("Bullets", f"{body!r} moves by {FAST:g} radii in {FRAME:g} s")
+            fast = f"more than {FAST:g} radii in {FRAME:.4f} s"
+            reasons.setdefault("Bullets", f"{body!r} moves by {fast}")
     if "Friction" in reasons or "Bounce" in reasons:
         reasons.setdefault("Contacts", "without contacts, friction and restitution do nothing")
     if "Contacts" not in world.effects and "Contacts" not in reasons:

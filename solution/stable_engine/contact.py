@@ -44,6 +44,9 @@ class Contact:
         self.aw = self.bw = 0.0  # 1/(kg px), of the spins
         self.arm_a = self.arm_b = 0.0  # px, from the centres to where they touch
 
+    def __repr__(self) -> str:
+        return f"Contact({self.a!r}, {self.b!r})"
+
     @property
     def normal(self) -> Vector2:
         """Return the unit normal from A to B."""

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 class WorldState(Listeners):
     """The world as effects know it: its bodies, and the effects that the scene declares."""
 
+    __slots__ = ()
+
     g: tuple[float, float]  # px/s²
     substep_count: int
     bodies: list[Body]
@@ -57,10 +59,13 @@ class Effect:
     rank: ClassVar[int]
     world: WorldState
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}()"
+
     def attach(self, world: WorldState) -> None:
         """Become part of a world, once. Look up here the other effects that this one needs."""
-        name = f"{type(self).__name__}.world"
-        require(not hasattr(self, "world"), name, "another one already", "new: make a new effect")
+        name, found = f"World.effects' {self!r}", "in another world already"
+        require(not hasattr(self, "world"), name, found, "a new one: each world has its own")
         self.world = world
 
     def add(self, thing: Any) -> None:

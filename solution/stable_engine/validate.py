@@ -1,6 +1,7 @@
 """Check what a caller passes in: bad input raises an error that names the value."""
 
 import math
+import operator
 from collections.abc import Iterable
 from typing import NoReturn
 
@@ -49,12 +50,14 @@ def positive(field: str, value: float) -> float:
 
 
 def whole(field: str, value: int) -> int:
-    """value. Raises ValueError when it is no whole number above 0."""
+    """value as an int. Raises ValueError when it is no whole number above 0."""
     rule = "a whole number above 0"
-    if not isinstance(value, int):
+    try:
+        count = operator.index(value)
+    except TypeError:
         refuse(field, value, rule)
-    require(value > 0, field, value, rule)
-    return value
+    require(count > 0, field, value, rule)
+    return count
 
 
 def pair(field: str, value: Iterable[float]) -> tuple[float, float]:

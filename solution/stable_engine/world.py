@@ -20,11 +20,20 @@ Thing = TypeVar("Thing", bound=Body | Joint)
 class World(WorldState):
     """Bodies, and the effects that the scene declares. No other effect runs a line of code.
 
-    gravity in px/s². Each step is made of that many substeps. Both can be set later on. unit is
-    the length of a pixel in the lengths of the scene: 0.01 for metres at 100 px each. What counts
-    as slow or as touching follows from it. Raises ValueError when a value makes no sense, or an
+    gravity is in px/s², and a step has so many substeps. Both can be set later on; effects cannot.
+    unit is the length of a pixel in the lengths of the scene: 0.01 for metres at 100 px each. What
+    counts as slow or as touching follows from it. bodies lists all bodies in the order of adding:
+    read it, and change it by add and remove. Raises ValueError when a value makes no sense, or an
     effect needs another one that is not declared.
     """
+
+    __slots__ = (
+        *("lengths", "substep_count", "g", "bodies", "awake", "statics", "added", "effects"),
+        *("unchecked", "warned", "forces", "detect_hooks", "impact_hooks", "prepare_hooks"),
+        *("force_hooks", "warm_start_hooks", "solve_hooks", "relax_hooks", "finish_hooks"),
+        *("tell_hooks", "coast_hooks", "static_moved_hooks", "body_moved_hooks"),
+        *("body_changed_hooks", "lighter_hooks", "forget_hooks"),
+    )
 
     def __init__(
         self,
@@ -156,10 +165,10 @@ class World(WorldState):
         self.unchecked.append(body)
 
     def remove(self, thing: Body | Joint) -> None:
-        """Take a body, rod or spring out. A body takes along the rods and springs tied to it.
+        """Remove a body, rod or spring; with a body, also the rods and springs tied to it.
 
-        Whatever slept on it or with it wakes. Call it between steps. What is taken out can be added
-        again. Raises ValueError when it is not in this world.
+        This wakes whatever slept on it or with it. Call it between steps, or in on_hit and on_part.
+        You can add it again. Raises ValueError when it is not in this world.
         """
         if isinstance(thing, Body):
             self.remove_body(thing)
@@ -176,8 +185,10 @@ class World(WorldState):
             lighter(body, 0.0)
         for forget in self.forget_hooks:
             forget(body)
-        for bodies in (self.bodies, self.statics if body.is_static else self.awake):
-            bodies.remove(body)
+        # new lists, so that a program may remove bodies while it loops over world.bodies
+        self.bodies = [other for other in self.bodies if other is not body]
+        self.awake = [other for other in self.awake if other is not body]
+        self.statics = [other for other in self.statics if other is not body]
         body.world, body.id = None, 0
 
     def remove_joint(self, joint: Joint) -> None:
@@ -195,10 +206,10 @@ class World(WorldState):
         return [body for body in self.bodies if body.contains(at)]
 
     def ray_cast(self, start: Iterable[float], end: Iterable[float]) -> RayHit | None:
-        """Return the first body, of any kind, on the straight way from start to end (px), or None.
+        """Return where the straight line from start to end (px) first meets a body, or None.
 
-        The hit has its body, the point, the normal out of the body and the distance from start. A
-        body that the ray starts in is not hit.
+        The hit has the body, the point, the normal out of the body and the distance from start. The
+        ray leaves a body that it starts in without a hit.
         """
         way = pair("World.ray_cast's start", start), pair("World.ray_cast's end", end)
         return cast_ray(self.bodies, *way)
@@ -206,7 +217,7 @@ class World(WorldState):
     def push(self, body: Body, fx: float, fy: float, torque: float) -> None:
         """Add to the force and the torque that act on a body in the next step."""
         if not self.forces:
-            self.force_hooks = [self.apply_forces, *self.hooks("force")]
+            self.force_hooks = [*self.hooks("force"), self.apply_forces]
             self.finish_hooks = [self.clear_forces, *self.hooks("finish")]
         before_x, before_y, before = self.forces.get(body, (0.0, 0.0, 0.0))
         self.forces[body] = before_x + fx, before_y + fy, before + torque
@@ -224,10 +235,10 @@ class World(WorldState):
         self.force_hooks, self.finish_hooks = self.hooks("force"), self.hooks("finish")
 
     def check(self) -> list[str]:
-        """Say which effects the scene calls for and does not declare, and which it does not use.
+        """Return a sentence for each effect that is needed and not declared, or declared and unused.
 
-        One sentence each. If nobody asks, a step warns of those that are not declared, when bodies
-        were added or set before it.
+        Other sentences name a gravity too weak for the unit, and rods that shake. Without this call
+        a step warns of effects that are not declared, once bodies were added or set.
         """
         self.seen()
         self.warned |= missing(self, self.bodies).keys()
@@ -250,7 +261,7 @@ class World(WorldState):
     def step(self, dt: float) -> None:
         """Advance by dt seconds. Raises ValueError on a bad dt or a body with NaN or infinity."""
         try:
-            h = dt / self.substep_count
+            h = float(dt / self.substep_count)
         except TypeError:
             refuse("World.step's dt", dt, "a number of seconds")
         require(0 < h < math.inf, "World.step's dt", dt, "a finite number of seconds above 0")
@@ -271,9 +282,9 @@ class World(WorldState):
 
         for _ in range(self.substep_count):
             # 2 forces
-            self.apply_gravity(h)
             for force in self.force_hooks:
                 force(h)
+            self.apply_gravity(h)
 
             # 3 solve
             for warm_start in self.warm_start_hooks:

@@ -148,7 +148,9 @@ def test_a_belt_and_a_spinning_ball_call_for_friction(field):
 def test_a_ball_too_fast_for_contacts_calls_for_bullets():
     world = world_with("Contacts")
     world.bodies[1].vel = (1e6, 0)
-    assert read_effects(world.check()) == {"Bullets": True}
+    (sentence,) = world.check()
+    assert read_effects([sentence]) == {"Bullets": True}
+    assert "by more than 20 radii" in sentence
 
 
 def test_what_is_added_or_set_after_the_first_step_is_checked_in_the_next():

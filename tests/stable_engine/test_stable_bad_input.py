@@ -75,6 +75,7 @@ VALUES = [  # a field, what sets it, and what it refuses
     ("Body.vel", lambda y: setattr(ball(), "vel", (0, y)), NOT_FINITE),
     ("Body.vel", lambda vel: setattr(ball(), "vel", vel), (None,)),
     ("Body.omega", lambda omega: setattr(ball(), "omega", omega), ("fast", *NOT_FINITE)),
+    ("Body.omega", lambda omega: setattr(Body(Box((1, 1)), (0, 0)), "omega", omega), (2,)),
     ("Body.mass", lambda mass: ball(mass=mass), (-1, -1e-9, NAN, INF, "heavy")),
     ("Body.mass", lambda mass: Body(Box((1, 1)), (0, 0), mass), (2.0,)),
     ("Body.mass", lambda mass: Body(Segment((0, 0), (1, 1)), mass=mass), (2.0,)),
@@ -148,4 +149,4 @@ def test_an_effect_belongs_to_one_world():
     refuse("World.effects", "Contacts() twice", lambda: World(effects=[Contacts(), Contacts()]))
     shared = Contacts()
     World(effects=[shared])
-    refuse("Contacts.world", "another", lambda: World(effects=[shared]))
+    refuse("Contacts()", "in another world", lambda: World(effects=[shared]))

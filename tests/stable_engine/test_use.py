@@ -1,10 +1,12 @@
 """Test the use of a running world: set, push, remove, query, callbacks."""
 
+import copy
 import math
 
+import numpy as np
 import pytest
 from pygame import Vector2
-from worlds_for_tests import balls, build
+from worlds_for_tests import balls, build, build_playground, make, state
 
 from experiments.measures import run, watch
 from experiments.scenes import BOUNCE, DT, TOUCH, Ball, Block, G, Scene, chain, floor, on_floor
@@ -15,6 +17,7 @@ from stable_engine import (
     Bullets,
     Circle,
     Contacts,
+    Damping,
     Friction,
     Rod,
     Rods,
@@ -65,6 +68,22 @@ def test_setting_what_a_body_is_like_wakes_it_and_what_touches_it(field, value):
         run(world, 3)
         setattr(world.bodies[0], field, value)
         assert world.bodies[1] in world.awake
+
+
+@pytest.mark.parametrize("rate", [1.0, 20.0])
+def test_damping_takes_no_weight_off_what_is_held(rate):
+    """At rest nothing moves, so drag is 0 and a floor, a rod and a spring bear m g."""
+    names = ("Contacts", "Rods", "Springs")
+    world = World(effects=[*make(names), Damping(rate, rate)])
+    world.add(Body(Box((100, 10)), (0, 10)))
+    lying, peg = world.add(Body(Circle(10), (0, -10), mass=2)), Body(Circle(1), (300, 0))
+    world.add(peg)
+    rod = world.add(Rod(peg, world.add(Body(Circle(5), (300, 50), mass=2))))
+    spring = world.add(Spring(peg, world.add(Body(Circle(5), (300, -50), mass=2)), 500.0, 50.0))
+    run(world, 10)
+    (contact,) = world.effects["Contacts"].of_body(lying)
+    borne = [abs(held.impulse) * world.substeps / DT for held in (contact, rod, spring)]
+    assert borne == pytest.approx([2 * G] * 3, rel=1e-6)
 
 
 # ---------------------------------------------------------------- all that can be set
@@ -134,6 +153,12 @@ def test_what_would_take_no_effect_cannot_be_set(name):
     thing = things()[kind]
     with pytest.raises(AttributeError):
         setattr(thing, field, getattr(thing, field))
+
+
+@pytest.mark.parametrize("name", ["damping", "iterations", "gravty"])
+def test_a_name_that_a_world_does_not_have_cannot_be_set(name):
+    with pytest.raises(AttributeError, match=name):
+        setattr(World(), name, 5)
 
 
 @pytest.mark.parametrize("kind", ["World", "Body", "Rod", "Spring", *SHAPES])
@@ -309,6 +334,10 @@ def test_what_a_thing_is_can_be_read_off_its_repr():
     rod = Rod(Body(Circle(1), (0, 0)), Body(Circle(1), (3, 4), mass=1))
     assert repr(rod).startswith("Rod(Body(")
     assert repr(rod).endswith("length 5)")
+    ball.pos = (1.5, 551)
+    world.step(DT)
+    (contact,) = world.effects["Contacts"].all_contacts()
+    assert repr(contact) == f"Contact({ball!r}, {world.bodies[0]!r})"
 
 
 def test_the_bodies_at_a_point_are_found():
@@ -373,6 +402,38 @@ def test_a_world_goes_on_as_if_what_was_taken_out_had_never_been():
     run(full, 2)
     run(less, 2)
     assert [(b.x, b.y, b.w) for b in full.bodies] == [(b.x, b.y, b.w) for b in less.bodies]
+
+
+def test_a_loop_over_the_bodies_may_remove_them():
+    world = build(Scene([floor(), *(Ball((30 * i, -10)) for i in range(5))]))
+    for body in world.bodies:
+        if not body.is_static:
+            world.remove(body)
+    assert len(world.bodies) == 1
+    assert world.awake == []
+
+
+# ---------------------------------------------------------------- numbers and copies
+
+
+def test_numbers_of_numpy_leave_plain_floats_behind():
+    world = World(np.array([0, 980]), substeps=np.int64(2))
+    ball = world.add(Body(Circle(np.float32(10)), np.array([1e9, 0]), mass=np.float32(2)))
+    ball.vel = np.array([1, 2], np.float32)
+    world.step(np.float32(DT))
+    assert {type(number) for number in (ball.x, ball.vx, ball.m, ball.radius)} == {float}
+    assert type(world.substeps) is int
+
+
+def test_a_deep_copy_of_a_world_goes_on_as_the_world_does():
+    names = ["Contacts", "Friction", "Bounce", "Rods", "Springs", "Bullets", "Sleep"]
+    world = build_playground(names)
+    run(world, 0.5)
+    saved, before = copy.deepcopy(world), state(world)
+    run(world, 2)
+    assert state(saved) == before
+    run(saved, 2)
+    assert state(saved) == state(world)
 
 
 # ---------------------------------------------------------------- callbacks
