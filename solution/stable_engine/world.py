@@ -235,7 +235,7 @@ class World(WorldState):
         self.force_hooks, self.finish_hooks = self.hooks("force"), self.hooks("finish")
 
     def check(self) -> list[str]:
-        """Return a sentence for each effect that is needed and not declared, or declared and unused.
+        """Return a sentence for each effect that is needed but not declared, or declared in vain.
 
         Other sentences name a gravity too weak for the unit, and rods that shake. Without this call
         a step warns of effects that are not declared, once bodies were added or set.
