@@ -1,24 +1,16 @@
 """Register known mistakes with their sentences for students in `mistakes.toml`."""
 
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Protocol, TypeVar
+from typing import Any
 
 from grader.judge.explain.misconceptions import Model, mistake
 
 MEANINGS: dict[str, dict[str, str]] = tomllib.loads(
     Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")
 )
-Decorated = TypeVar("Decorated", bound=Model)
-
-
-class Known(Protocol):
-    """Register the models of a mistake, or the function that this decorates."""
-
-    def __call__(
-        self, name: str, *models: Model, meaning: str = "", apart: bool = ...
-    ) -> Callable[[Decorated], Decorated]: ...
+Models = Iterable[tuple[str, Model]]  # each with the name of its mistake; a name may have several
 
 
 def meaning_of(todo: str, name: str) -> str:
@@ -29,23 +21,22 @@ def meaning_of(todo: str, name: str) -> str:
     return " Also: ".join(meanings[each] for each in name.split("+"))
 
 
-def known_in(todos: str, about: str, apart: bool = True) -> Known:
-    """Return a function that registers mistakes of these TODOs, in observations called `about`.
+def register(
+    todos: str,
+    about: str,
+    models: Models,
+    view: Callable[..., tuple[Any, ...]] | None = None,
+    apart: bool = True,
+) -> None:
+    """Register the models of mistakes in answers to one kind of question.
 
-    The first TODO's table has the sentences. See `mistake` for `apart`.
+    The first of the TODOs has the sentences. `view` returns what the models take, from the inputs
+    of a question. See `mistake` for `apart`.
     """
+    for name, model in models:
+        seen = model if view is None else look_through(view, model)
+        mistake(todos, about, name, meaning_of(todos.split()[0], name), seen, apart=apart)
 
-    def known(
-        name: str, *models: Model, meaning: str = "", apart: bool = apart
-    ) -> Callable[[Decorated], Decorated]:
-        meaning = meaning or meaning_of(todos.split()[0], name)
 
-        def register(model: Decorated) -> Decorated:
-            mistake(todos, about, name, meaning, model, apart=apart)
-            return model
-
-        for model in models:
-            register(model)
-        return register
-
-    return known
+def look_through(view: Callable[..., tuple[Any, ...]], model: Model) -> Model:
+    return lambda *inputs: model(*view(*inputs))

@@ -1,20 +1,19 @@
 """Known mistakes in TODO 1, as models of what circle_box then returns."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Disc, Rect, Touch
-from grader.checks.mistakes import known_in
-from grader.judge.explain.misconceptions import Undecided, truth
+from grader.checks.mistakes import Models, register
+from grader.judge.explain.misconceptions import Undecided, mistake, truth
 
 Answer = Touch | str | None  # a str is the name of an exception
 Right = Touch | None
 Model = Callable[[Disc, Rect], Answer]
-Box = tuple[float, float, float, float]  # as in Rect
+Case = Callable[[Disc, Rect], bool]
 Change = Callable[[Touch, Disc, Rect], Touch]
-
-known = known_in("1", "circle_box")
 
 FAR = 65536.0  # px, beyond every distance that a check asks about
 
@@ -28,6 +27,10 @@ def find_contact(disc: Disc, rect: Rect) -> Right:
 
 def is_inside(disc: Disc, rect: Rect) -> bool:
     return abs(disc.x - rect.x) <= rect.hx and abs(disc.y - rect.y) <= rect.hy
+
+
+def is_outside(disc: Disc, rect: Rect) -> bool:
+    return not is_inside(disc, rect)
 
 
 def is_on_the_edge(disc: Disc, rect: Rect) -> bool:
@@ -58,42 +61,117 @@ def describe_place(disc: Disc, rect: Rect) -> dict[str, str]:
 PARTS = {"the normal": [0, 1], "the depth": [2], "the point": [3, 4]}
 
 truth("circle_box", find_contact, describe_place, PARTS)
+truth("order", lambda disc, rect: (True, True), describe_place)  # A is the circle, B the box
 
 
-def change_inside(change: Change) -> Model:
-    """Return the right answer, changed for a centre inside the box."""
+# ---------------------------------------------------------------- right but in one case
+
+
+def except_if(case: Case, answer: Model) -> Model:
+    """Return the right model with another answer in one case."""
+    return lambda disc, rect: (answer if case(disc, rect) else find_contact)(disc, rect)
+
+
+def change_if(case: Case, change: Change) -> Model:
+    """Return the right model with its contacts changed in one case."""
 
     def model(disc: Disc, rect: Rect) -> Answer:
-        answer = find_contact(disc, rect)
-        return change(answer, disc, rect) if answer and is_inside(disc, rect) else answer
+        touch = find_contact(disc, rect)
+        return change(touch, disc, rect) if touch and case(disc, rect) else touch
 
     return model
 
 
-def change_outside(change: Change) -> Model:
-    """Return the right answer, changed for a centre outside the box."""
-
-    def model(disc: Disc, rect: Rect) -> Answer:
-        answer = find_contact(disc, rect)
-        return answer if answer is None or is_inside(disc, rect) else change(answer, disc, rect)
-
-    return model
+inside, outside = partial(except_if, is_inside), partial(except_if, is_outside)
+change_inside, change_outside = partial(change_if, is_inside), partial(change_if, is_outside)
+on_the_edge = partial(except_if, is_on_the_edge)
 
 
-def circle_first(disc: Disc, rect: Rect) -> tuple[bool, bool]:
-    """Return whether the contact's A is the circle, and its B the box."""
-    return True, True
+def always(error: str) -> Model:
+    return lambda disc, rect: error
 
 
-truth("order", circle_first, describe_place)
-
-
-def turn_normal(touch: Touch) -> Touch:
+def turn_normal(touch: Touch, disc: Disc, rect: Rect) -> Touch:
     return touch._replace(nx=-touch.nx, ny=-touch.ny)
 
 
-def with_normal(touch: Touch, nx: float, ny: float) -> Touch:
-    return touch._replace(nx=nx, ny=ny)
+def centre_with_normal(nx: float, ny: float) -> Change:
+    return lambda touch, disc, rect: Touch(nx, ny, disc.r, disc.x, disc.y)
+
+
+def nearest(ways: Iterable[Touch], measure: Callable[[Touch], float]) -> Touch:
+    """Return the contact with the smallest measure; undecided if there are several."""
+    first, second = sorted(ways, key=measure)[:2]
+    if math.isclose(measure(first), measure(second), abs_tol=1e-9):
+        raise Undecided
+    return first
+
+
+def farthest_face(disc: Disc, rect: Rect) -> Touch:
+    return nearest(exact.ways_out(disc, rect), lambda touch: -touch.depth)
+
+
+def face_by_share(disc: Disc, rect: Rect) -> Touch:
+    return nearest(
+        exact.ways_out(disc, rect),
+        lambda touch: (touch.depth - disc.r) / (rect.hx if touch.nx else rect.hy),
+    )
+
+
+def face_by_offset(disc: Disc, rect: Rect) -> Touch:
+    x, y = abs(disc.x - rect.x), abs(disc.y - rect.y)
+    if math.isclose(x, y, abs_tol=1e-9):
+        raise Undecided
+    ways = (touch for touch in exact.ways_out(disc, rect) if (touch.nx != 0) == (x > y))
+    return nearest(ways, gap)
+
+
+def farther_way(disc: Disc, rect: Rect) -> Touch:
+    left, right, top, bottom = exact.ways_out(disc, rect)
+    level, upright = min(left, right, key=gap), min(top, bottom, key=gap)
+    if math.isclose(level.depth, upright.depth) or left.depth == right.depth:
+        raise Undecided
+    return max(level, upright, key=gap)
+
+
+def gap(touch: Touch) -> float:
+    return touch.depth
+
+
+def point_at_the_middle(touch: Touch, disc: Disc, rect: Rect) -> Touch:
+    dx, dy = rect.x - disc.x, rect.y - disc.y
+    return touch._replace(nx=dx / math.hypot(dx, dy), ny=dy / math.hypot(dx, dy))
+
+
+def point_along_an_axis(touch: Touch, disc: Disc, rect: Rect) -> Touch:
+    if abs(touch.nx) == abs(touch.ny):
+        raise Undecided
+    if abs(touch.nx) > abs(touch.ny):
+        return touch._replace(nx=math.copysign(1.0, touch.nx), ny=0.0)
+    return touch._replace(nx=0.0, ny=math.copysign(1.0, touch.ny))
+
+
+def measure_from_the_middle(touch: Touch, disc: Disc, rect: Rect) -> Touch:
+    return touch._replace(px=touch.px - rect.x, py=touch.py - rect.y)
+
+
+# ---------------------------------------------------------------- another box, another test
+
+
+def find_in_box(change: Callable[[float, float, float, float], tuple[float, ...]]) -> Model:
+    """Return the model that uses a wrong box, made from x, y, hx and hy of the right one."""
+    return lambda disc, rect: find_contact(disc, Rect(*change(*rect)))
+
+
+def find_on_edge(change: Callable[[Rect], Rect]) -> Model:
+    """Return the model that uses an edge instead of the box."""
+
+    def model(disc: Disc, rect: Rect) -> Answer:
+        if is_inside(disc, change(rect)):
+            raise Undecided  # the distance is 0
+        return find_contact(disc, change(rect))
+
+    return model
 
 
 def find_at_any_distance(disc: Disc, rect: Rect) -> Touch:
@@ -103,242 +181,124 @@ def find_at_any_distance(disc: Disc, rect: Rect) -> Touch:
     return answer._replace(depth=answer.depth - FAR)
 
 
-def find_in_box(change: Callable[[float, float, float, float], Box]) -> Model:
-    """Return the model that uses a wrong box, made from x, y, hx and hy of the right one."""
-    return lambda disc, rect: find_contact(disc, Rect(*change(*rect)))
-
-
-def find_on_edge(disc: Disc, edge: Rect) -> Answer:
-    """Return the contact with an edge instead of the box."""
-    if is_inside(disc, edge):
-        raise Undecided  # the distance is 0
-    return find_contact(disc, edge)
-
-
-known_in("1", "order")("the-box-comes-first", lambda disc, rect: (False, False))
-
-
-@known("normal-points-out-of-the-box")
-def normal_points_out_of_the_box(disc: Disc, rect: Rect) -> Answer:
-    answer = find_contact(disc, rect)
-    return answer and turn_normal(answer)
-
-
-known(
-    "inside-is-forgotten",
-    lambda disc, rect: None if is_inside(disc, rect) else find_contact(disc, rect),
-)
-known("inside-normal-points-out", change_inside(lambda touch, disc, rect: turn_normal(touch)))
-known(
-    "inside-has-no-case-of-its-own",
-    change_inside(lambda touch, disc, rect: Touch(0.0, 1.0, disc.r, disc.x, disc.y)),
-    change_inside(lambda touch, disc, rect: Touch(0.0, -1.0, disc.r, disc.x, disc.y)),
-    change_inside(lambda touch, disc, rect: Touch(1.0, 0.0, disc.r, disc.x, disc.y)),
-    change_inside(lambda touch, disc, rect: Touch(-1.0, 0.0, disc.r, disc.x, disc.y)),
-)
-known(
-    "inside-depth-forgets-the-gap",
-    change_inside(lambda touch, disc, rect: touch._replace(depth=disc.r)),
-)
-known(
-    "inside-depth-is-the-gap",
-    change_inside(lambda touch, disc, rect: touch._replace(depth=touch.depth - disc.r)),
-)
-known(
-    "inside-point-is-the-centre",
-    change_inside(lambda touch, disc, rect: touch._replace(px=disc.x, py=disc.y)),
-)
-
-
-@known("inside-leaves-by-the-farthest-face")
-def inside_leaves_by_the_farthest_face(disc: Disc, rect: Rect) -> Answer:
-    if not is_inside(disc, rect):
-        return find_contact(disc, rect)
-    deepest = sorted(exact.ways_out(disc, rect), key=lambda touch: -touch.depth)
-    if deepest[0].depth == deepest[1].depth:
+def find_outside(disc: Disc, rect: Rect) -> Touch:
+    """Return the contact at any distance; undecided for a centre inside."""
+    if is_inside(disc, rect):
         raise Undecided
-    return deepest[0]
+    return find_at_any_distance(disc, rect)
 
 
-@known("inside-always-leaves-by-the-top")
-def inside_always_leaves_by_the_top(disc: Disc, rect: Rect) -> Answer:
-    if not is_inside(disc, rect):
-        return find_contact(disc, rect)
-    return exact.ways_out(disc, rect)[2]
-
-
-def face_by_share(disc: Disc, rect: Rect) -> Answer:
-    if not is_inside(disc, rect):
-        return find_contact(disc, rect)
-    shares = [
-        (touch.depth - disc.r) / (rect.hx if touch.nx else rect.hy)
-        for touch in exact.ways_out(disc, rect)
-    ]
-    first, second = sorted(range(4), key=lambda each: shares[each])[:2]
-    if math.isclose(shares[first], shares[second], abs_tol=1e-9):
-        raise Undecided
-    return exact.ways_out(disc, rect)[first]
-
-
-def face_by_offset(disc: Disc, rect: Rect) -> Answer:
-    if not is_inside(disc, rect):
-        return find_contact(disc, rect)
-    x, y = abs(disc.x - rect.x), abs(disc.y - rect.y)
-    ways = [touch for touch in exact.ways_out(disc, rect) if (touch.nx != 0) == (x > y)]
-    if math.isclose(x, y, abs_tol=1e-9) or math.isclose(ways[0].depth, ways[1].depth, abs_tol=1e-9):
-        raise Undecided
-    return min(ways, key=lambda touch: touch.depth)
-
-
-for error in ("ZeroDivisionError", "ValueError"):
-    known(
-        "edge-counts-as-outside",
-        lambda disc, rect, error=error: (
-            error if is_on_the_edge(disc, rect) else find_contact(disc, rect)
-        ),
-    )
-known("face-by-the-distance-from-the-middle", face_by_offset)
-known("face-by-share-of-the-half", face_by_share)
-known(
-    "depth-is-the-distance",
-    change_outside(lambda touch, disc, rect: touch._replace(depth=disc.r - touch.depth)),
-)
-known(
-    "normal-is-not-a-unit-vector",
-    change_outside(
-        lambda touch, disc, rect: with_normal(touch, touch.px - disc.x, touch.py - disc.y)
-    ),
-)
-
-
-@known("normal-points-at-the-centre-of-the-box")
-@change_outside
-def normal_points_at_the_centre_of_the_box(touch: Touch, disc: Disc, rect: Rect) -> Touch:
-    dx, dy = rect.x - disc.x, rect.y - disc.y
-    return with_normal(touch, dx / math.hypot(dx, dy), dy / math.hypot(dx, dy))
-
-
-@known("corner-normal-along-an-axis")
-@change_outside
-def corner_normal_along_an_axis(touch: Touch, disc: Disc, rect: Rect) -> Touch:
-    if abs(touch.nx) == abs(touch.ny):
-        raise Undecided
-    if abs(touch.nx) > abs(touch.ny):
-        return with_normal(touch, math.copysign(1.0, touch.nx), 0.0)
-    return with_normal(touch, 0.0, math.copysign(1.0, touch.ny))
-
-
-known(
-    "point-lies-on-the-circle",
-    change_outside(
-        lambda touch, disc, rect: touch._replace(
-            px=disc.x + touch.nx * disc.r, py=disc.y + touch.ny * disc.r
-        )
-    ),
-)
-
-
-def fail_inside(error: str) -> Model:
-    return lambda disc, rect: error if is_inside(disc, rect) else find_contact(disc, rect)
-
-
-known(
-    "inside-normalises-zero",
-    fail_inside("ValueError"),  # of normalize()
-    fail_inside("ZeroDivisionError"),
-)
-known("apart-is-not-noticed", lambda disc, rect: find_at_any_distance(disc, rect))
-
-
-@known("touching-counts-as-overlap")
-def touching_counts_as_overlap(disc: Disc, rect: Rect) -> Answer:
+def touching_counts(disc: Disc, rect: Rect) -> Answer:
     touch = find_at_any_distance(disc, rect)
     return touch if touch.depth >= 0 else None
 
 
-known("half-is-taken-for-the-full-size", find_in_box(lambda x, y, hx, hy: (x, y, hx / 2, hy / 2)))
-known("half-is-taken-for-the-full-width", find_in_box(lambda x, y, hx, hy: (x, y, hx / 2, hy)))
-known("half-is-taken-for-the-full-height", find_in_box(lambda x, y, hx, hy: (x, y, hx, hy / 2)))
-known("half-is-doubled", find_in_box(lambda x, y, hx, hy: (x, y, 2 * hx, 2 * hy)))
-known("width-for-height", find_in_box(lambda x, y, hx, hy: (x, y, hx, hx)))
-known("height-for-width", find_in_box(lambda x, y, hx, hy: (x, y, hy, hy)))
-known("box-at-the-origin", find_in_box(lambda x, y, hx, hy: (0.0, 0.0, hx, hy)))
-known(
-    "point-from-the-middle-of-the-box",
-    change_outside(lambda t, disc, rect: t._replace(px=t.px - rect.x, py=t.py - rect.y)),
-    change_inside(lambda t, disc, rect: t._replace(px=t.px - rect.x, py=t.py - rect.y)),
-)
-known(
-    "top-and-bottom-swapped",
-    lambda disc, rect: find_on_edge(disc, rect._replace(y=rect.y + rect.hy, hy=0.0)),
-)
-known(
-    "left-and-right-swapped",
-    lambda disc, rect: find_on_edge(disc, rect._replace(x=rect.x + rect.hx, hx=0.0)),
-)
-known("position-is-taken-for-a-corner", find_in_box(lambda x, y, hx, hy: (x + hx, y + hy, hx, hy)))
-known("clamp-is-turned-round", find_in_box(lambda x, y, hx, hy: (x - hx, y - hy, 0.0, 0.0)))
-known(
-    "clamp-is-turned-round",
-    find_in_box(lambda x, y, hx, hy: (x + hx, y + hy, 0.0, 0.0)),
-    meaning="The closest point is always the bottom right corner: min and max have changed places.",
-)
-
-
-@known("test-is-turned-round")
 def overlap_is_turned_round(disc: Disc, rect: Rect) -> Answer:
-    answer = find_at_any_distance(disc, rect)
-    if is_inside(disc, rect) or math.isclose(answer.depth, 0.0, abs_tol=1e-9):
+    answer = find_outside(disc, rect)
+    if math.isclose(answer.depth, 0.0, abs_tol=1e-9):
         raise Undecided  # either way
     return None if answer.depth > 0 else answer
 
 
-def distance_squared(disc: Disc, rect: Rect) -> Answer:
-    answer = find_at_any_distance(disc, rect)
-    if is_inside(disc, rect):
-        raise Undecided
-    squared = (disc.r - answer.depth) ** 2
-    return None if squared >= disc.r else answer._replace(depth=disc.r - squared)
-
-
-def compared_as_a_square(disc: Disc, rect: Rect) -> Answer:
-    answer = find_at_any_distance(disc, rect)
-    if is_inside(disc, rect):
-        raise Undecided
+def compare_square(disc: Disc, rect: Rect) -> Right:
+    answer = find_outside(disc, rect)
     return None if (disc.r - answer.depth) ** 2 >= disc.r else answer
 
 
-def shortened(disc: Disc, rect: Rect) -> Answer:
+def use_square(disc: Disc, rect: Rect) -> Right:
+    touch = compare_square(disc, rect)
+    return touch and touch._replace(depth=disc.r - (disc.r - touch.depth) ** 2)
+
+
+def divide_by_square(disc: Disc, rect: Rect) -> Right:
     """Return the contact with its offset divided by the square as well."""
-    touch = distance_squared(disc, rect)
-    if not isinstance(touch, Touch):
-        return touch
+    touch = use_square(disc, rect)
+    if touch is None:
+        return None
     distance = math.sqrt(disc.r - touch.depth)
-    return with_normal(touch, touch.nx / distance, touch.ny / distance)
+    return touch._replace(nx=touch.nx / distance, ny=touch.ny / distance)
 
 
-known("distance-is-squared", shortened, distance_squared, compared_as_a_square)
+# ---------------------------------------------------------------- the mistakes
 
-
-def farther_way(disc: Disc, rect: Rect) -> Answer:
-    if not is_inside(disc, rect):
-        return find_contact(disc, rect)
-    left, other, top, bottom = exact.ways_out(disc, rect)
-    level, upright = min(left, other, key=gap), min(top, bottom, key=gap)
-    if math.isclose(level.depth, upright.depth) or left.depth == other.depth:
-        raise Undecided
-    return max(level, upright, key=gap)
-
-
-def gap(touch: Touch) -> float:
-    return touch.depth
-
-
-known(
-    "inside-leaves-by-the-farthest-face",
-    farther_way,
-    meaning=(
-        "A centre inside leaves to the side where up or down is nearer, and the other way round: "
-        "compare the two gaps once more."
+register("1", "order", [("the-box-comes-first", lambda disc, rect: (False, False))])
+MODELS: Models = (
+    ("normal-points-out-of-the-box", change_if(lambda disc, rect: True, turn_normal)),
+    ("inside-is-forgotten", inside(lambda disc, rect: None)),
+    ("inside-normal-points-out", change_inside(turn_normal)),
+    ("inside-has-no-case-of-its-own", change_inside(centre_with_normal(0.0, 1.0))),
+    ("inside-has-no-case-of-its-own", change_inside(centre_with_normal(0.0, -1.0))),
+    ("inside-has-no-case-of-its-own", change_inside(centre_with_normal(1.0, 0.0))),
+    ("inside-has-no-case-of-its-own", change_inside(centre_with_normal(-1.0, 0.0))),
+    ("inside-depth-forgets-the-gap", change_inside(lambda t, disc, rect: t._replace(depth=disc.r))),
+    (
+        "inside-depth-is-the-gap",
+        change_inside(lambda t, disc, rect: t._replace(depth=t.depth - disc.r)),
     ),
+    (
+        "inside-point-is-the-centre",
+        change_inside(lambda t, disc, rect: t._replace(px=disc.x, py=disc.y)),
+    ),
+    ("inside-leaves-by-the-farthest-face", inside(farthest_face)),
+    ("inside-always-leaves-by-the-top", inside(lambda disc, rect: exact.ways_out(disc, rect)[2])),
+    ("edge-counts-as-outside", on_the_edge(always("ZeroDivisionError"))),
+    ("edge-counts-as-outside", on_the_edge(always("ValueError"))),
+    ("face-by-the-distance-from-the-middle", inside(face_by_offset)),
+    ("face-by-share-of-the-half", inside(face_by_share)),
+    (
+        "depth-is-the-distance",
+        change_outside(lambda t, disc, rect: t._replace(depth=disc.r - t.depth)),
+    ),
+    (
+        "normal-is-not-a-unit-vector",
+        change_outside(lambda t, disc, rect: t._replace(nx=t.px - disc.x, ny=t.py - disc.y)),
+    ),
+    ("normal-points-at-the-centre-of-the-box", change_outside(point_at_the_middle)),
+    ("corner-normal-along-an-axis", change_outside(point_along_an_axis)),
+    (
+        "point-lies-on-the-circle",
+        change_outside(
+            lambda t, disc, rect: t._replace(px=disc.x + t.nx * disc.r, py=disc.y + t.ny * disc.r)
+        ),
+    ),
+    ("inside-normalises-zero", inside(always("ValueError"))),  # of normalize()
+    ("inside-normalises-zero", inside(always("ZeroDivisionError"))),
+    ("apart-is-not-noticed", find_at_any_distance),
+    ("touching-counts-as-overlap", touching_counts),
+    ("half-is-taken-for-the-full-size", find_in_box(lambda x, y, hx, hy: (x, y, hx / 2, hy / 2))),
+    ("half-is-taken-for-the-full-width", find_in_box(lambda x, y, hx, hy: (x, y, hx / 2, hy))),
+    ("half-is-taken-for-the-full-height", find_in_box(lambda x, y, hx, hy: (x, y, hx, hy / 2))),
+    ("half-is-doubled", find_in_box(lambda x, y, hx, hy: (x, y, 2 * hx, 2 * hy))),
+    ("width-for-height", find_in_box(lambda x, y, hx, hy: (x, y, hx, hx))),
+    ("height-for-width", find_in_box(lambda x, y, hx, hy: (x, y, hy, hy))),
+    ("box-at-the-origin", find_in_box(lambda x, y, hx, hy: (0.0, 0.0, hx, hy))),
+    ("point-from-the-middle-of-the-box", change_outside(measure_from_the_middle)),
+    ("point-from-the-middle-of-the-box", change_inside(measure_from_the_middle)),
+    ("top-and-bottom-swapped", find_on_edge(lambda box: box._replace(y=box.y + box.hy, hy=0.0))),
+    ("left-and-right-swapped", find_on_edge(lambda box: box._replace(x=box.x + box.hx, hx=0.0))),
+    ("position-is-taken-for-a-corner", find_in_box(lambda x, y, hx, hy: (x + hx, y + hy, hx, hy))),
+    ("clamp-is-turned-round", find_in_box(lambda x, y, hx, hy: (x - hx, y - hy, 0.0, 0.0))),
+)
+register("1", "circle_box", MODELS)
+mistake(
+    "1",
+    "circle_box",
+    "clamp-is-turned-round",
+    "The closest point is always the bottom right corner: min and max have changed places.",
+    find_in_box(lambda x, y, hx, hy: (x + hx, y + hy, 0.0, 0.0)),
+)
+SQUARES: Models = (
+    ("test-is-turned-round", overlap_is_turned_round),
+    ("distance-is-squared", divide_by_square),
+    ("distance-is-squared", use_square),
+    ("distance-is-squared", compare_square),
+)
+register("1", "circle_box", SQUARES)
+mistake(
+    "1",
+    "circle_box",
+    "inside-leaves-by-the-farthest-face",
+    "A centre inside leaves to the side where up or down is nearer, and the other way round: "
+    "compare the two gaps once more.",
+    inside(farther_way),
 )

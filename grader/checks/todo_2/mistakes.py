@@ -2,13 +2,12 @@
 
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 from grader.checks import exact
 from grader.checks.exact import Lever, Pair, cross, inverse
-from grader.checks.mistakes import known_in
-from grader.judge.explain.misconceptions import Undecided, truth
-
-Sum = Callable[[Lever, Lever, Pair], float]
+from grader.checks.mistakes import Models, register
+from grader.judge.explain.misconceptions import truth
 
 
 def describe_turning(a: Lever, b: Lever, axis: Pair) -> dict[str, str]:
@@ -33,138 +32,76 @@ def turning_way(lever: Lever, axis: Pair) -> str:
 
 truth("effective_mass", exact.effective_mass, describe_turning, {"the sum": [0]})
 
-known = known_in("2", "effective_mass")
+
+class Side(NamedTuple):
+    """One body's part of the sum, with its inverse mass and its inverse inertia."""
+
+    mass: float
+    inertia: float
+    arm: Pair
+    axis: Pair
+
+    @property
+    def cross(self) -> float:
+        return cross(self.arm, self.axis)
+
+    @property
+    def dot(self) -> float:
+        return self.arm[0] * self.axis[0] + self.arm[1] * self.axis[1]
+
+    @property
+    def spin(self) -> float:
+        """Return the right spin term."""
+        return self.cross**2 * self.inertia
 
 
-def masses(a: Lever, b: Lever) -> float:
-    return inverse(a.mass) + inverse(b.mass)
+def take_sides(a: Lever, b: Lever, axis: Pair) -> tuple[Side, ...]:
+    return tuple(
+        Side(inverse(each.mass), inverse(each.inertia), (each.rx, each.ry), axis) for each in (a, b)
+    )
 
 
-def with_term(term: Callable[[Lever, Pair], float]) -> Sum:
+def with_term(term: Callable[[Side], float]) -> Callable[[Side, Side], float]:
     """Return the sum with another spin term for each body."""
-
-    def model(a: Lever, b: Lever, axis: Pair) -> float:
-        return masses(a, b) + term(a, axis) + term(b, axis)
-
-    return model
+    return lambda a, b: a.mass + b.mass + term(a) + term(b)
 
 
-def spin_term(lever: Lever, axis: Pair) -> float:
-    return lever_cross(lever, axis) ** 2 * inverse(lever.inertia)
-
-
-def lever_cross(lever: Lever, axis: Pair) -> float:
-    return cross((lever.rx, lever.ry), axis)
-
-
-known("no-spin-terms", lambda a, b, axis: masses(a, b))
-known("second-body-forgotten", lambda a, b, axis: masses(a, b) + spin_term(a, axis))
-known("first-body-forgotten", lambda a, b, axis: masses(a, b) + spin_term(b, axis))
-known(
-    "one-term-is-enough",
-    lambda a, b, axis: masses(a, b) + (spin_term(a, axis) if a.mass else spin_term(b, axis)),
-)
-known("masses-forgotten", lambda a, b, axis: spin_term(a, axis) + spin_term(b, axis))
-known(
-    "terms-are-subtracted",
-    lambda a, b, axis: masses(a, b) - spin_term(a, axis) - spin_term(b, axis),
-)
-known(
-    "cross-is-not-squared",
-    with_term(lambda lever, axis: lever_cross(lever, axis) * inverse(lever.inertia)),
-)
-known(
-    "dot-for-cross",
-    with_term(
-        lambda lever, axis: (lever.rx * axis[0] + lever.ry * axis[1]) ** 2 * inverse(lever.inertia)
+MODELS: Models = (
+    ("no-spin-terms", lambda a, b: a.mass + b.mass),
+    ("second-body-forgotten", lambda a, b: a.mass + b.mass + a.spin),
+    ("first-body-forgotten", lambda a, b: a.mass + b.mass + b.spin),
+    ("one-term-is-enough", lambda a, b: a.mass + b.mass + (a.spin if a.mass else b.spin)),
+    ("masses-forgotten", lambda a, b: a.spin + b.spin),
+    ("terms-are-subtracted", lambda a, b: a.mass + b.mass - a.spin - b.spin),
+    ("cross-is-not-squared", with_term(lambda side: side.cross * side.inertia)),
+    ("dot-for-cross", with_term(lambda side: side.dot**2 * side.inertia)),
+    ("whole-arm", with_term(lambda side: math.hypot(*side.arm) ** 2 * side.inertia)),
+    ("inverse-mass-for-inverse-inertia", with_term(lambda side: side.cross**2 * side.mass)),
+    ("divides-by-the-inverse", with_term(lambda side: side.cross**2 / side.inertia)),
+    ("inverse-inertia-is-squared", with_term(lambda side: side.spin * side.inertia)),
+    ("inertia-forgotten", with_term(lambda side: side.cross**2 if side.mass else 0.0)),
+    ("inertia-forgotten", with_term(lambda side: side.cross**2)),
+    ("inertia-forgotten-in-the-first", lambda a, b: a.mass + b.mass + a.cross**2 + b.spin),
+    ("inertia-forgotten-in-the-second", lambda a, b: a.mass + b.mass + a.spin + b.cross**2),
+    ("size-for-the-square", with_term(lambda side: abs(side.cross) * side.inertia)),
+    ("doubled-for-the-square", with_term(lambda side: 2 * side.cross * side.inertia)),
+    ("half-of-the-terms", with_term(lambda side: side.spin / 2)),
+    ("second-term-replaces-the-sum", lambda a, b: b.spin),
+    ("first-inertia-for-both", lambda a, b: a.mass + b.mass + a.spin + b.cross**2 * a.inertia),
+    (
+        "sum-before-the-square",
+        lambda a, b: a.mass + b.mass + (a.cross + b.cross) ** 2 * (a.inertia + b.inertia),
     ),
-)
-known(
-    "whole-arm",
-    with_term(lambda lever, axis: math.hypot(lever.rx, lever.ry) ** 2 * inverse(lever.inertia)),
-)
-known(
-    "inverse-mass-for-inverse-inertia",
-    with_term(lambda lever, axis: lever_cross(lever, axis) ** 2 * inverse(lever.mass)),
-)
-
-
-@known("divides-by-the-inverse")
-def divides_by_the_inverse(a: Lever, b: Lever, axis: Pair) -> float:
-    if not (a.mass and b.mass):
-        raise Undecided  # a division by 0
-    return with_term(lambda lever, axis: lever_cross(lever, axis) ** 2 * lever.inertia)(a, b, axis)
-
-
-known(
-    "inverse-inertia-is-squared",
-    with_term(lambda lever, axis: (lever_cross(lever, axis) * inverse(lever.inertia)) ** 2),
-)
-known(
-    "inertia-forgotten",
-    with_term(lambda lever, axis: lever_cross(lever, axis) ** 2 if lever.mass else 0.0),
-    with_term(lambda lever, axis: lever_cross(lever, axis) ** 2),
-)
-known(
-    "inertia-forgotten-in-the-first",
-    lambda a, b, axis: masses(a, b) + lever_cross(a, axis) ** 2 + spin_term(b, axis),
-)
-known(
-    "inertia-forgotten-in-the-second",
-    lambda a, b, axis: masses(a, b) + spin_term(a, axis) + lever_cross(b, axis) ** 2,
-)
-known(
-    "size-for-the-square",
-    with_term(lambda lever, axis: abs(lever_cross(lever, axis)) * inverse(lever.inertia)),
-)
-known(
-    "doubled-for-the-square",
-    with_term(lambda lever, axis: 2 * lever_cross(lever, axis) * inverse(lever.inertia)),
-)
-known("half-of-the-terms", with_term(lambda lever, axis: spin_term(lever, axis) / 2))
-known("second-term-replaces-the-sum", lambda a, b, axis: spin_term(b, axis))
-known(
-    "first-inertia-for-both",
-    lambda a, b, axis: (
-        masses(a, b) + spin_term(a, axis) + lever_cross(b, axis) ** 2 * inverse(a.inertia)
+    ("first-arm-for-both", lambda a, b: a.mass + b.mass + a.spin + a.cross**2 * b.inertia),
+    (
+        "inertias-swapped",
+        lambda a, b: a.mass + b.mass + a.cross**2 * b.inertia + b.cross**2 * a.inertia,
     ),
-)
-known(
-    "sum-before-the-square",
-    lambda a, b, axis: (
-        masses(a, b)
-        + (lever_cross(a, axis) + lever_cross(b, axis)) ** 2
-        * (inverse(a.inertia) + inverse(b.inertia))
+    ("returns-the-inverse", lambda a, b: 1 / with_term(lambda side: side.spin)(a, b)),
+    (
+        "arms-are-crossed",
+        lambda a, b: a.mass + b.mass + cross(a.arm, b.arm) ** 2 * (a.inertia + b.inertia),
     ),
+    ("mass-counts-twice", with_term(lambda side: side.spin * side.mass)),
 )
-known(
-    "first-arm-for-both",
-    lambda a, b, axis: (
-        masses(a, b) + spin_term(a, axis) + spin_term(b._replace(rx=a.rx, ry=a.ry), axis)
-    ),
-)
-known(
-    "inertias-swapped",
-    lambda a, b, axis: (
-        masses(a, b)
-        + lever_cross(a, axis) ** 2 * inverse(b.inertia)
-        + lever_cross(b, axis) ** 2 * inverse(a.inertia)
-    ),
-)
-known("returns-the-inverse", lambda a, b, axis: 1 / exact.effective_mass(a, b, axis))
-
-
-@known("arms-are-crossed")
-def arms_are_crossed(a: Lever, b: Lever, axis: Pair) -> float:
-    both = cross((a.rx, a.ry), (b.rx, b.ry)) ** 2
-    return masses(a, b) + both * (inverse(a.inertia) + inverse(b.inertia))
-
-
-known(
-    "mass-counts-twice",
-    with_term(
-        lambda lever, axis: (
-            lever_cross(lever, axis) ** 2 * inverse(lever.inertia) * inverse(lever.mass)
-        )
-    ),
-)
+register("2", "effective_mass", MODELS, take_sides)

@@ -8,12 +8,11 @@ import math
 from collections.abc import Callable
 
 from grader.checks import exact
-from grader.checks.exact import Pair, Rod
-from grader.checks.mistakes import known_in
+from grader.checks.exact import Pair, Rod, inverse
+from grader.checks.mistakes import Models, register
 from grader.judge.explain.misconceptions import Undecided, truth
 
 Ends = tuple[Pair, Pair]
-Model = Callable[[Rod], Ends]
 Answer = tuple[Pair, Pair, Pair]  # velocities of A and B, px/s; B as seen from A, px
 
 
@@ -49,10 +48,17 @@ PARTS = {"the velocity of A": [0, 1], "the velocity of B": [2, 3], "the position
 
 truth("rod", solve_rod, describe_rod, PARTS, apart=True)
 
-known = known_in("3", "rod")
+
+Impulse = Callable[[Rod], float]
+
+STILL = (0.0, 0.0)
 
 
-def velocities(model: Model) -> Callable[[Rod], Answer]:
+def fail_without_masses(rod: Rod) -> Answer | str:
+    return solve_rod(rod) if rod.k else "ZeroDivisionError"
+
+
+def velocities(model: Callable[[Rod], Ends]) -> Callable[[Rod], Answer]:
     """Return a model that changes only velocities, if an end can move."""
 
     def answer(rod: Rod) -> Answer:
@@ -63,214 +69,169 @@ def velocities(model: Model) -> Callable[[Rod], Answer]:
     return answer
 
 
-known("divides-by-a-k-of-0", lambda rod: solve_rod(rod) if rod.k else "ZeroDivisionError")
+# ---------------------------------------------------------------- another impulse for both ends
+
+
+def push(impulse: Impulse) -> Callable[[Rod], Ends]:
+    """Return the right model with another impulse."""
+    return lambda rod: exact.push_ends(rod, impulse(rod))
 
 
 def right_impulse(rod: Rod) -> float:
     return (rod.bias - rod.speed) / rod.k
 
 
-def add_along(vel: Pair, axis: Pair, by: float) -> Pair:
-    return vel[0] + by * axis[0], vel[1] + by * axis[1]
+def for_speed(speed: Impulse) -> Callable[[Rod], Ends]:
+    """Return the right model with another speed along the rod."""
+    return push(lambda rod: (rod.bias - speed(rod)) / rod.k)
 
 
-known("only-pulls", velocities(lambda rod: exact.push_ends(rod, min(0.0, right_impulse(rod)))))
-known("only-pushes", velocities(lambda rod: exact.push_ends(rod, max(0.0, right_impulse(rod)))))
-known("ignores-the-bias", velocities(lambda rod: exact.push_ends(rod, -rod.speed / rod.k)))
-known("ignores-the-speed", velocities(lambda rod: exact.push_ends(rod, rod.bias / rod.k)))
-
-
-def push_for_speed(rod: Rod, seen: Rod) -> Ends:
-    """Return the velocities after the impulse for another rod, one end of which rests."""
-    return exact.push_ends(rod, (rod.bias - seen.speed) / rod.k)
-
-
-known(
-    "speed-of-b-alone", velocities(lambda rod: push_for_speed(rod, rod._replace(vel_a=(0.0, 0.0))))
-)
-known(
-    "speed-of-a-alone", velocities(lambda rod: push_for_speed(rod, rod._replace(vel_b=(0.0, 0.0))))
-)
-known(
-    "adds-the-speed", velocities(lambda rod: exact.push_ends(rod, (rod.bias + rod.speed) / rod.k))
-)
-known("pushes-the-wrong-way", velocities(lambda rod: exact.push_ends(rod, -right_impulse(rod))))
-known(
-    "multiplies-by-k", velocities(lambda rod: exact.push_ends(rod, (rod.bias - rod.speed) * rod.k))
-)
-known("not-divided-by-k", velocities(lambda rod: exact.push_ends(rod, rod.bias - rod.speed)))
-known(
-    "bias-has-the-wrong-sign",
-    velocities(lambda rod: exact.push_ends(rod, (-rod.bias - rod.speed) / rod.k)),
-)
-known("impulse-is-not-applied", velocities(lambda rod: (rod.vel_a, rod.vel_b)))
-known(
-    "moves-only-a", velocities(lambda rod: (exact.push_ends(rod, right_impulse(rod))[0], rod.vel_b))
-)
-known(
-    "moves-only-b", velocities(lambda rod: (rod.vel_a, exact.push_ends(rod, right_impulse(rod))[1]))
-)
-known(
-    "b-does-it-all",
-    velocities(lambda rod: (rod.vel_a, add_along(rod.vel_b, rod.axis, rod.bias - rod.speed))),
-)
-
-
-def speed_of_lengths(rod: Rod) -> float:
-    return math.hypot(*rod.vel_b) - math.hypot(*rod.vel_a)
-
-
-known(
-    "speeds-by-their-lengths",
-    velocities(lambda rod: exact.push_ends(rod, (rod.bias - speed_of_lengths(rod)) / rod.k)),
-)
+def for_bias(bias: Impulse) -> Callable[[Rod], Ends]:
+    return push(lambda rod: (bias(rod) - rod.speed) / rod.k)
 
 
 def length_error(rod: Rod) -> float:
     return rod.length - math.hypot(*rod.offset)
 
 
-known(
-    "length-error-for-the-bias",
-    velocities(lambda rod: exact.push_ends(rod, (length_error(rod) - rod.speed) / rod.k)),
-    velocities(lambda rod: exact.push_ends(rod, (-length_error(rod) - rod.speed) / rod.k)),
-)
+def difference_of_lengths(rod: Rod) -> float:
+    return math.hypot(*rod.vel_b) - math.hypot(*rod.vel_a)
 
 
-def impulse_made_anew(rod: Rod) -> Ends:
-    """Work the impulse out twice: the second time A has changed."""
-    a, _ = exact.push_ends(rod, right_impulse(rod))
-    return a, exact.push_ends(rod, right_impulse(rod._replace(vel_a=a)))[1]
+def speed_in_every_direction(rod: Rod) -> float:
+    (ax, ay), (bx, by) = rod.vel_a, rod.vel_b
+    return math.hypot(bx - ax, by - ay)
 
 
-def impulse_made_anew_for_a(rod: Rod) -> Ends:
-    _, b = exact.push_ends(rod, right_impulse(rod))
-    return exact.push_ends(rod, right_impulse(rod._replace(vel_b=b)))[0], b
+def mass_of(mass: float) -> float:
+    """Return the mass of an end; undecided for a static one, where a division by 0 follows."""
+    if not mass:
+        raise Undecided
+    return mass
 
 
-known("impulse-made-anew", velocities(impulse_made_anew), velocities(impulse_made_anew_for_a))
-known(
-    "nothing-where-bias-is-0",
-    velocities(
-        lambda rod: (
-            exact.push_ends(rod, right_impulse(rod))
-            if abs(math.hypot(*rod.offset) - rod.length) > 1e-9 * rod.length
-            else (rod.vel_a, rod.vel_b)
-        )
-    ),
-)
+# ---------------------------------------------------------------- the ends apart
 
 
-@known("velocity-changed-in-place")
-@velocities
-def velocity_changed_in_place(rod: Rod) -> Ends:
-    a, (x, y) = exact.push_ends(rod, right_impulse(rod))
-    return a, (x - rod.vel_a[0], y - rod.vel_a[1])
+def add_along(vel: Pair, axis: Pair, by: float) -> Pair:
+    return vel[0] + by * axis[0], vel[1] + by * axis[1]
 
 
-@known("pushes-both-the-same-way")
-@velocities
-def pushes_both_the_same_way(rod: Rod) -> Ends:
-    by = right_impulse(rod) * exact.inverse(rod.mass_a)
-    return add_along(rod.vel_a, rod.axis, by), exact.push_ends(rod, right_impulse(rod))[1]
+def right_a(rod: Rod) -> Pair:
+    return exact.push_ends(rod, right_impulse(rod))[0]
 
 
-@known("static-end-first")
-@velocities
-def static_end_first(rod: Rod) -> Ends:
-    if rod.mass_b:
-        return exact.push_ends(rod, right_impulse(rod))
-    by = right_impulse(rod) * exact.inverse(rod.mass_a)
-    return add_along(rod.vel_a, rod.axis, by), rod.vel_b
+def right_b(rod: Rod) -> Pair:
+    return exact.push_ends(rod, right_impulse(rod))[1]
+
+
+def a_the_same_way(rod: Rod) -> Pair:
+    return add_along(rod.vel_a, rod.axis, right_impulse(rod) * inverse(rod.mass_a))
+
+
+def push_by(rod: Rod, a: float, b: float, axis: Pair) -> Ends:
+    """Return the velocities after changes against the axis and along it, px/s."""
+    return add_along(rod.vel_a, axis, -a), add_along(rod.vel_b, axis, b)
+
+
+def push_both(rod: Rod, impulse: float, axis: Pair) -> Ends:
+    return push_by(rod, impulse * inverse(rod.mass_a), impulse * inverse(rod.mass_b), axis)
 
 
 def without_masses(rod: Rod) -> Ends:
+    return push_by(rod, right_impulse(rod), right_impulse(rod), rod.axis)
+
+
+def with_masses_crossed(rod: Rod) -> Ends:
     by = right_impulse(rod)
-    return add_along(rod.vel_a, rod.axis, -by), add_along(rod.vel_b, rod.axis, by)
+    return push_by(rod, by * inverse(rod.mass_b), by * inverse(rod.mass_a), rod.axis)
 
 
-known("forgets-the-masses", velocities(without_masses))
-known(
-    "forgets-the-mass-of-a",
-    velocities(lambda rod: (without_masses(rod)[0], exact.push_ends(rod, right_impulse(rod))[1])),
-)
-known(
-    "forgets-the-mass-of-b",
-    velocities(lambda rod: (exact.push_ends(rod, right_impulse(rod))[0], without_masses(rod)[1])),
-)
-known("half-of-the-impulse", velocities(lambda rod: exact.push_ends(rod, right_impulse(rod) / 2)))
-
-
-@known("masses-crossed")
-@velocities
-def masses_crossed(rod: Rod) -> Ends:
-    by = right_impulse(rod)
-    a, b = by * exact.inverse(rod.mass_b), by * exact.inverse(rod.mass_a)
-    return add_along(rod.vel_a, rod.axis, -a), add_along(rod.vel_b, rod.axis, b)
-
-
-@known("axis-is-not-a-unit-vector")
-@velocities
-def axis_is_not_a_unit_vector(rod: Rod) -> Ends:
+def along_the_offset(rod: Rod) -> Ends:
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.offset
-    impulse = (rod.bias - ((bx - ax) * x + (by - ay) * y)) / rod.k
-    a, b = (impulse * exact.inverse(mass) for mass in (rod.mass_a, rod.mass_b))
-    return add_along(rod.vel_a, rod.offset, -a), add_along(rod.vel_b, rod.offset, b)
+    return push_both(rod, (rod.bias - ((bx - ax) * x + (by - ay) * y)) / rod.k, rod.offset)
 
 
-@known("velocities-are-replaced")
-@velocities
-def velocities_are_replaced(rod: Rod) -> Ends:
-    still = rod._replace(vel_a=(0.0, 0.0), vel_b=(0.0, 0.0))
-    return exact.push_ends(still, right_impulse(rod))
-
-
-@known("shares-equally")
-@velocities
-def shares_equally(rod: Rod) -> Ends:
-    by = (rod.bias - rod.speed) / 2
-    return add_along(rod.vel_a, rod.axis, -by), add_along(rod.vel_b, rod.axis, by)
-
-
-@known("stops-the-sideways-speed")
-@velocities
-def stops_the_sideways_speed(rod: Rod) -> Ends:
+def stop_sideways_speed(rod: Rod) -> Ends:
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
     wanted = rod.bias * x - (bx - ax), rod.bias * y - (by - ay)
     size = math.hypot(*wanted)
     if size == 0:
         return rod.vel_a, rod.vel_b
-    direction = wanted[0] / size, wanted[1] / size
-    a, b = (size / rod.k * exact.inverse(mass) for mass in (rod.mass_a, rod.mass_b))
-    return add_along(rod.vel_a, direction, -a), add_along(rod.vel_b, direction, b)
+    return push_both(rod, size / rod.k, (wanted[0] / size, wanted[1] / size))
 
 
-@known("moves-positions-instead")
-def moves_positions_instead(rod: Rod) -> Answer:
+def share_equally(rod: Rod) -> Ends:
+    by = (rod.bias - rod.speed) / 2
+    return push_by(rod, by, by, rod.axis)
+
+
+def change_in_place(rod: Rod) -> Ends:
+    a, (x, y) = exact.rod_solved(rod)
+    return a, (x - rod.vel_a[0], y - rod.vel_a[1])
+
+
+def nothing_if_exact(rod: Rod) -> Ends:
+    is_exact = abs(length_error(rod)) <= 1e-9 * rod.length
+    return (rod.vel_a, rod.vel_b) if is_exact else exact.rod_solved(rod)
+
+
+MODELS: Models = (
+    ("only-pulls", push(lambda rod: min(0.0, right_impulse(rod)))),
+    ("only-pushes", push(lambda rod: max(0.0, right_impulse(rod)))),
+    ("ignores-the-bias", for_bias(lambda rod: 0.0)),
+    ("ignores-the-speed", for_speed(lambda rod: 0.0)),
+    ("speed-of-b-alone", for_speed(lambda rod: rod._replace(vel_a=STILL).speed)),
+    ("speed-of-a-alone", for_speed(lambda rod: rod._replace(vel_b=STILL).speed)),
+    ("adds-the-speed", for_speed(lambda rod: -rod.speed)),
+    ("pushes-the-wrong-way", push(lambda rod: -right_impulse(rod))),
+    ("multiplies-by-k", push(lambda rod: (rod.bias - rod.speed) * rod.k)),
+    ("not-divided-by-k", push(lambda rod: rod.bias - rod.speed)),
+    ("bias-has-the-wrong-sign", for_bias(lambda rod: -rod.bias)),
+    ("impulse-is-not-applied", lambda rod: (rod.vel_a, rod.vel_b)),
+    ("moves-only-a", lambda rod: (right_a(rod), rod.vel_b)),
+    ("moves-only-b", lambda rod: (rod.vel_a, right_b(rod))),
+    ("b-does-it-all", lambda rod: push_by(rod, 0.0, rod.bias - rod.speed, rod.axis)),
+    ("speeds-by-their-lengths", for_speed(difference_of_lengths)),
+    ("length-error-for-the-bias", for_bias(length_error)),
+    ("length-error-for-the-bias", for_bias(lambda rod: -length_error(rod))),
+    ("impulse-made-anew", lambda rod: (right_a(rod), right_b(rod._replace(vel_a=right_a(rod))))),
+    ("impulse-made-anew", lambda rod: (right_a(rod._replace(vel_b=right_b(rod))), right_b(rod))),
+    ("nothing-where-bias-is-0", nothing_if_exact),
+    ("velocity-changed-in-place", change_in_place),
+    ("pushes-both-the-same-way", lambda rod: (a_the_same_way(rod), right_b(rod))),
+    (
+        "static-end-first",
+        lambda rod: (right_a(rod) if rod.mass_b else a_the_same_way(rod), right_b(rod)),
+    ),
+    ("forgets-the-masses", without_masses),
+    ("forgets-the-mass-of-a", lambda rod: (without_masses(rod)[0], right_b(rod))),
+    ("forgets-the-mass-of-b", lambda rod: (right_a(rod), without_masses(rod)[1])),
+    ("half-of-the-impulse", push(lambda rod: right_impulse(rod) / 2)),
+    ("masses-crossed", with_masses_crossed),
+    ("axis-is-not-a-unit-vector", along_the_offset),
+    (
+        "velocities-are-replaced",
+        lambda rod: exact.push_ends(rod._replace(vel_a=STILL, vel_b=STILL), right_impulse(rod)),
+    ),
+    (
+        "shares-equally",
+        share_equally,
+    ),
+    ("stops-the-sideways-speed", stop_sideways_speed),
+    ("speed-in-every-direction", for_speed(speed_in_every_direction)),
+    ("k-of-one-end", push(lambda rod: (rod.bias - rod.speed) * mass_of(rod.mass_b))),
+    ("k-of-one-end", push(lambda rod: (rod.bias - rod.speed) * mass_of(rod.mass_a))),
+    ("distance-for-speed", for_speed(lambda rod: math.hypot(*rod.offset))),
+)
+
+
+def move_positions(rod: Rod) -> Answer:
     if not rod.k:
         raise Undecided
     return rod.vel_a, rod.vel_b, (rod.axis[0] * rod.length, rod.axis[1] * rod.length)
 
 
-@known("speed-in-every-direction")
-@velocities
-def speed_in_every_direction(rod: Rod) -> Ends:
-    (ax, ay), (bx, by) = rod.vel_a, rod.vel_b
-    return exact.push_ends(rod, (rod.bias - math.hypot(bx - ax, by - ay)) / rod.k)
-
-
-def by_one_mass(rod: Rod, mass: float) -> Ends:
-    if not mass:
-        raise Undecided  # a division by 0
-    return exact.push_ends(rod, (rod.bias - rod.speed) * mass)
-
-
-known(
-    "k-of-one-end",
-    velocities(lambda rod: by_one_mass(rod, rod.mass_b)),
-    velocities(lambda rod: by_one_mass(rod, rod.mass_a)),
-)
-known(
-    "distance-for-speed",
-    velocities(lambda rod: exact.push_ends(rod, (rod.bias - math.hypot(*rod.offset)) / rod.k)),
-)
+register("3", "rod", [("divides-by-a-k-of-0", fail_without_masses)])
+register("3", "rod", ((name, velocities(model)) for name, model in MODELS))
+register("3", "rod", [("moves-positions-instead", move_positions)])

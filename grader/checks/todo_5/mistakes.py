@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 
 from grader.checks import exact
-from grader.checks.mistakes import known_in
+from grader.checks.mistakes import register
 from grader.judge.explain.misconceptions import truth
 
 Shares = tuple[float, float]
@@ -26,16 +26,9 @@ def describe_rates(linear: float, angular: float, dt: float, steps: int) -> dict
 
 truth("damping", keep_shares, describe_rates, {"the speed": [0], "the spin": [1]}, apart=True)
 
-known_damping = known_in("5", "damping")
-
-
-def known(name: str, *models: Model) -> None:
-    """Register each model, also for a world that skips damping if both rates are 0."""
-    for model in models:
-        known_damping(name, left_out_at_zero(model), model)
-
 
 def left_out_at_zero(model: Model) -> Model:
+    """Return the model of a world that skips damping if both rates are 0."""
     return lambda linear, angular, dt, steps: (
         model(linear, angular, dt, steps) if linear or angular else (1.0, 1.0)
     )
@@ -49,44 +42,37 @@ def per_step(factor: Factor) -> Model:
     )
 
 
-known("the-same-share-every-step", per_step(lambda rate, dt: 0.99))
-known(
-    "one-percent-per-frame",
-    per_step(lambda rate, dt: 0.99 ** (60 * dt)),
-    per_step(lambda rate, dt: 0.99 ** (120 * dt)),
-    per_step(lambda rate, dt: 0.99**dt),
+FACTORS: tuple[tuple[str, Factor], ...] = (
+    ("the-same-share-every-step", lambda rate, dt: 0.99),
+    ("one-percent-per-frame", lambda rate, dt: 0.99 ** (60 * dt)),
+    ("one-percent-per-frame", lambda rate, dt: 0.99 ** (120 * dt)),
+    ("one-percent-per-frame", lambda rate, dt: 0.99**dt),
+    ("rate-without-the-step", lambda rate, dt: math.exp(-rate)),
+    ("a-step-length-of-its-own", lambda rate, dt: math.exp(-rate / 120)),
+    ("a-sixtieth-for-every-step", lambda rate, dt: math.exp(-rate / 60)),
+    ("sixty-for-the-step", lambda rate, dt: math.exp(-rate * 60)),
+    ("rate-left-out", lambda rate, dt: math.exp(-dt)),
+    ("damped-twice", lambda rate, dt: math.exp(-2 * rate * dt)),
+    ("step-times-the-share", lambda rate, dt: math.exp(-rate) * dt),
+    ("straight-line-instead-of-exp", lambda rate, dt: 1 - rate * dt),
+    ("one-over-instead-of-exp", lambda rate, dt: 1 / (1 + rate * dt)),
+    ("rate-taken-for-a-share", lambda rate, dt: max(0.0, 1 - rate) ** dt),
+    ("a-share-typed-in", lambda rate, dt: 0.95),
+    ("a-share-typed-in", lambda rate, dt: 0.95**dt),
+    ("rate-over-the-step", lambda rate, dt: math.exp(-rate / dt)),
+    ("rate-to-the-step", lambda rate, dt: rate**dt),
+    ("rate-lost-in-every-step", lambda rate, dt: 1 - rate),
+    ("share-times-the-step", lambda rate, dt: 0.99 * dt),
+    ("grows-instead-of-fading", lambda rate, dt: math.exp(rate * dt)),
+    ("keeps-what-it-should-lose", lambda rate, dt: 1 - math.exp(-rate * dt)),
 )
-known("rate-without-the-step", per_step(lambda rate, dt: math.exp(-rate)))
-known("a-step-length-of-its-own", per_step(lambda rate, dt: math.exp(-rate / 120)))
-known("a-sixtieth-for-every-step", per_step(lambda rate, dt: math.exp(-rate / 60)))
-known("sixty-for-the-step", per_step(lambda rate, dt: math.exp(-rate * 60)))
-known("rate-left-out", per_step(lambda rate, dt: math.exp(-dt)))
-known("rates-typed-in", lambda linear, angular, dt, steps: keep_shares(0.05, 0.3, dt, steps))
-known("damped-twice", per_step(lambda rate, dt: math.exp(-2 * rate * dt)))
-known("step-times-the-share", per_step(lambda rate, dt: math.exp(-rate) * dt))
-known("straight-line-instead-of-exp", per_step(lambda rate, dt: 1 - rate * dt))
-known("one-over-instead-of-exp", per_step(lambda rate, dt: 1 / (1 + rate * dt)))
-known("rate-taken-for-a-share", per_step(lambda rate, dt: max(0.0, 1 - rate) ** dt))
-known("a-share-typed-in", per_step(lambda rate, dt: 0.95), per_step(lambda rate, dt: 0.95**dt))
-known("rate-over-the-step", per_step(lambda rate, dt: math.exp(-rate / dt)))
-known("rate-to-the-step", per_step(lambda rate, dt: rate**dt))
-known("rate-lost-in-every-step", per_step(lambda rate, dt: 1 - rate))
-known("share-times-the-step", per_step(lambda rate, dt: 0.99 * dt))
-known("grows-instead-of-fading", per_step(lambda rate, dt: math.exp(rate * dt)))
-known("keeps-what-it-should-lose", per_step(lambda rate, dt: 1 - math.exp(-rate * dt)))
-known(
-    "spin-is-not-damped",
-    lambda linear, angular, dt, steps: (exact.compute_share(linear, dt * steps), 1.0),
+SHARES: tuple[tuple[str, Model], ...] = (
+    ("rates-typed-in", lambda linear, angular, dt, n: keep_shares(0.05, 0.3, dt, n)),
+    ("spin-is-not-damped", lambda linear, angular, dt, n: keep_shares(linear, 0.0, dt, n)),
+    ("speed-is-not-damped", lambda linear, angular, dt, n: keep_shares(0.0, angular, dt, n)),
+    ("one-rate-for-both", lambda linear, angular, dt, n: keep_shares(linear, linear, dt, n)),
+    ("one-rate-for-both", lambda linear, angular, dt, n: keep_shares(angular, angular, dt, n)),
+    ("rates-are-swapped", lambda linear, angular, dt, n: keep_shares(angular, linear, dt, n)),
 )
-known(
-    "speed-is-not-damped",
-    lambda linear, angular, dt, steps: (1.0, exact.compute_share(angular, dt * steps)),
-)
-known(
-    "one-rate-for-both",
-    lambda linear, angular, dt, steps: keep_shares(linear, linear, dt, steps),
-    lambda linear, angular, dt, steps: keep_shares(angular, angular, dt, steps),
-)
-known(
-    "rates-are-swapped", lambda linear, angular, dt, steps: keep_shares(angular, linear, dt, steps)
-)
+for name, model in (*((name, per_step(each)) for name, each in FACTORS), *SHARES):
+    register("5", "damping", [(name, left_out_at_zero(model)), (name, model)])

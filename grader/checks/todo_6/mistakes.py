@@ -3,10 +3,10 @@
 Time is counted in thirds of a millisecond: there a step, the cap and every frame are whole numbers.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 
-from grader.checks.mistakes import known_in
+from grader.checks.mistakes import Models, register
 from grader.judge.explain.misconceptions import Undecided, truth
 from grader.judge.lab import STEP as STEP_SECONDS
 from grader.protocol import MAX_STEP_SIZES, RUNAWAY
@@ -14,14 +14,18 @@ from grader.protocol import MAX_STEP_SIZES, RUNAWAY
 STEP, CAP, SECOND = 25, 200, 3000
 
 Frames = tuple[int, ...]  # ms
+Held = int | Fraction
 Answer = tuple[list[int], list[float]]  # steps after each frame but the last, step sizes in s
-
-known = known_in("6 7d", "frames")  # of both programs
 
 
 def answer_with(steps: list[int]) -> Answer:
     """Return the answer with steps of the right size."""
     return steps, [STEP_SECONDS] if any(steps) else []
+
+
+def list_sizes(sizes: list[int]) -> list[float]:
+    """Return each size once, in seconds."""
+    return [size / SECOND for size in dict.fromkeys(sizes)][:MAX_STEP_SIZES]
 
 
 def cap_frame(frame: int) -> int:
@@ -32,7 +36,7 @@ def count_thirds(frame: int) -> int:
     return 3 * frame
 
 
-def count_whole_steps(held: int | Fraction) -> int:
+def count_whole_steps(held: Held) -> int:
     """Return how many steps are due; undecided if rounding may delay the last one."""
     steps, rest = divmod(held, STEP)
     if steps and not rest and held != CAP:  # 8 * STEP does hold 8 steps
@@ -40,233 +44,178 @@ def count_whole_steps(held: int | Fraction) -> int:
     return int(steps)
 
 
-def run_accumulator(
-    frames: Frames, added: Callable[[int], int | Fraction], most: int = RUNAWAY
-) -> list[int]:
-    """Return the steps of a loop that adds `added(frame)` and runs whole steps, `most` of them."""
-    steps: list[int] = []
-    held: int | Fraction = 0
+def take_steps(held: Held, count: int) -> Held:
+    return held - count * STEP
+
+
+def run_loop(
+    frames: Frames,
+    added: Callable[[int], Held],
+    due: Callable[[Held], int] = count_whole_steps,
+    rest: Callable[[Held, int], Held] = take_steps,
+) -> Iterator[tuple[Held, int]]:
+    """Yield the accumulator and the steps of each frame but the last.
+
+    `due` counts the steps, and `rest` returns what is left after them. A runaway ends the loop.
+    """
+    held: Held = 0
     for frame in frames[:-1]:
         held += added(frame)
-        steps.append(min(count_whole_steps(held), most))
-        held -= steps[-1] * STEP
-    return steps
-
-
-def run_frames(frames: Frames) -> Answer:
-    return answer_with(run_accumulator(frames, cap_frame))
-
-
-truth("frames", run_frames)
-known("one-step-per-frame", lambda frames: answer_with([1 for _ in frames[:-1]]))
-known(
-    "one-step-per-frame-at-most",
-    lambda frames: answer_with(run_accumulator(frames, cap_frame, most=1)),
-)
-known("assumes-sixty-frames", lambda frames: answer_with([2 for _ in frames[:-1]]))
-known(
-    "drops-the-remainder",
-    lambda frames: answer_with([count_whole_steps(cap_frame(frame)) for frame in frames[:-1]]),
-)
-known(
-    "rounds-each-frame",
-    lambda frames: answer_with([round(cap_frame(frame) / STEP) for frame in frames[:-1]]),
-)
-
-
-def run_at_price(frames: Frames, due: Callable[[int], int], price: int) -> Answer:
-    """Return the steps of a loop that runs due(held) steps and subtracts `price` for each."""
-    steps: list[int] = []
-    held = 0
-    for frame in frames[:-1]:
-        held += cap_frame(frame)
-        if held % STEP == 0:
-            raise Undecided
         count = due(held)
-        steps.append(min(max(count, 0), RUNAWAY))
-        if steps[-1] == RUNAWAY:
-            break
-        held -= count * price
-    return answer_with(steps)
+        yield held, min(max(count, 0), RUNAWAY)
+        if count >= RUNAWAY:
+            return
+        held = rest(held, count)
 
 
-known(
-    "steps-before-it-is-due",
-    lambda frames: run_at_price(frames, lambda held: max(0, -(-held // STEP)), STEP),
-)
-known("no-cap", lambda frames: answer_with(run_accumulator(frames, count_thirds)))
-known(
-    "cap-is-in-seconds",
-    lambda frames: answer_with(run_accumulator(frames, lambda frame: min(3 * frame, 8 * SECOND))),
-)
-known(
-    "cap-is-a-quarter-second",
-    lambda frames: answer_with(run_accumulator(frames, lambda frame: min(3 * frame, SECOND // 4))),
-)
-known(
-    "cap-counts-frames",
-    lambda frames: answer_with(run_accumulator(frames, lambda frame: min(3 * frame, 2 * CAP))),
-)
-known(
-    "cap-is-one-step",
-    lambda frames: answer_with(run_accumulator(frames, lambda frame: min(3 * frame, STEP))),
-)
-known(
-    "cap-is-turned-round",
-    lambda frames: answer_with(run_accumulator(frames, lambda frame: max(3 * frame, CAP))),
-)
-known(
-    "keeps-the-backlog",
-    lambda frames: answer_with(run_accumulator(frames, count_thirds, most=CAP // STEP)),
-)
-known("counts-milliseconds", lambda frames: answer_with([CAP // STEP for _ in frames[:-1]]))
-known(
-    "takes-seconds-for-milliseconds",
-    lambda frames: answer_with(
-        run_accumulator(frames, lambda frame: min(Fraction(3 * frame, 1000), Fraction(CAP)))
-    ),
-)
+def accumulate(
+    added: Callable[[int], Held] = cap_frame,
+    due: Callable[[Held], int] = count_whole_steps,
+    rest: Callable[[Held, int], Held] = take_steps,
+) -> Callable[[Frames], Answer]:
+    """Return the model of a loop whose steps have the right size."""
+    return lambda frames: answer_with([count for _, count in run_loop(frames, added, due, rest)])
 
 
-@known("accumulator-never-shrinks")
-def accumulator_never_shrinks(frames: Frames) -> Answer:
-    steps: list[int] = []
-    for number in range(1, len(frames)):
-        if count_whole_steps(sum(map(cap_frame, frames[:number]))):
-            return answer_with([*steps, RUNAWAY])
-        steps.append(0)
-    return answer_with(steps)
+def in_each_frame(count: Callable[[int], int]) -> Callable[[Frames], Answer]:
+    """Return the model of a loop that forgets all earlier frames."""
+    return lambda frames: answer_with([count(frame) for frame in frames[:-1]])
 
 
-@known("steps-of-another-size")
-def steps_of_another_size(frames: Frames) -> Answer:
-    steps, sizes = run_frames(frames)
-    return steps, [2 * size for size in sizes]
+def at_most(most: int) -> Callable[[Held], int]:
+    return lambda held: min(count_whole_steps(held), most)
 
 
-known(
-    "steps-with-the-frame-time",
-    lambda frames: ([1 for _ in frames[:-1]], list_sizes([cap_frame(frame) for frame in frames])),
-)
-known(
-    "steps-with-all-of-the-frame-time",
-    lambda frames: (
-        [1 for _ in frames[:-1]],
-        list_sizes([count_thirds(frame) for frame in frames]),
-    ),
-)
+truth("frames", accumulate())
 
 
-@known("steps-with-all-that-is-left")
-def steps_with_all_that_is_left(frames: Frames) -> Answer:
-    steps: list[int] = []
-    sizes: list[int] = []
-    held = 0
-    for frame in frames[:-1]:
-        held += cap_frame(frame)
-        steps.append(min(count_whole_steps(held), 1))
-        if steps[-1]:
-            sizes.append(held)
-            held = 0
-    return steps, list_sizes(sizes)
+# ---------------------------------------------------------------- loops of another kind
 
 
-def list_sizes(sizes: list[int]) -> list[float]:
-    """Return each size once, in seconds."""
-    return [size / SECOND for size in dict.fromkeys(sizes)][:MAX_STEP_SIZES]
+def one_step_of(size: Callable[[int], int]) -> Callable[[Frames], Answer]:
+    """Return the model of one step in each frame, as long as `size(frame)`."""
+    return lambda frames: ([1 for _ in frames[:-1]], list_sizes([size(each) for each in frames]))
 
 
-@known("emptied-by-a-step")
-def emptied_by_a_step(frames: Frames) -> Answer:
-    steps, held = [], 0
-    for frame in frames[:-1]:
-        held += cap_frame(frame)
-        steps.append(min(count_whole_steps(held), 1))
-        held *= not steps[-1]
-    return answer_with(steps)
+def due_at_once(held: Held) -> int:
+    if held % STEP == 0:
+        raise Undecided
+    return int(-(-held // STEP))
 
 
-known(
-    "drops-the-remainder+no-cap",
-    lambda frames: answer_with([count_whole_steps(count_thirds(frame)) for frame in frames[:-1]]),
-)
+def due_towards_zero(held: Held) -> int:
+    if held % STEP == 0:
+        raise Undecided
+    return int(held / STEP)
 
 
-@known("sixtieths-for-steps")
-def sixtieths_for_steps(frames: Frames) -> Answer:
-    """Run steps of 1/60 s, each as long as two right ones."""
-    steps, held = [], 0
-    for frame in frames[:-1]:
-        held += cap_frame(frame)
-        if held and held % (2 * STEP) == 0 and held != CAP:
-            raise Undecided
-        steps.append(held // (2 * STEP))
-        held -= steps[-1] * 2 * STEP
-    return steps, [2 * STEP_SECONDS] if any(steps) else []
+def due_while_seconds_are_held(held: Held) -> int:
+    """Count steps that take 1 s each out of the accumulator."""
+    count = 0
+    while held > 0 and count_whole_steps(held):
+        count, held = count + 1, held - SECOND
+    return count
 
 
-@known("steps-with-the-accumulator")
-def steps_with_the_accumulator(frames: Frames) -> Answer:
-    steps, sizes, held = [], [], 0
-    for frame in frames[:-1]:
-        held += cap_frame(frame)
-        steps.append(count_whole_steps(held))
-        for _ in range(steps[-1]):
-            sizes.append(held)
-            held -= STEP
-    return steps, list_sizes(sizes)
+def take_seconds(held: Held, count: int) -> Held:
+    return held - count * SECOND
 
 
-@known("steps-with-the-frame-in-the-loop")
-def steps_with_the_frame_in_the_loop(frames: Frames) -> Answer:
-    steps, _ = run_frames(frames)
+def sizes_of_all_left(frames: Frames) -> Answer:
+    ran = list(run_loop(frames, cap_frame, at_most(1), lambda held, count: 0 if count else held))
+    return [count for _, count in ran], list_sizes([int(held) for held, count in ran if count])
+
+
+def sizes_of_accumulator(frames: Frames) -> Answer:
+    ran = list(run_loop(frames, cap_frame))
+    sizes = [int(held) - n * STEP for held, count in ran for n in range(count)]
+    return [count for _, count in ran], list_sizes(sizes)
+
+
+def sizes_of_frames(frames: Frames) -> Answer:
+    steps, _ = accumulate()(frames)
     pairs = zip(steps, frames, strict=False)
     return steps, list_sizes([count_thirds(frame) for count, frame in pairs if count])
 
 
-@known("pair-the-wrong-way-round")
-def pair_the_wrong_way_round(frames: Frames) -> Answer:
-    """Return the number of steps as the accumulator: the mistake swaps the two."""
-    steps = [0]
-    for frame in frames[:-1]:
-        steps.append(min(count_whole_steps(cap_frame(frame) + SECOND * steps[-1]), RUNAWAY))
-        if steps[-1] == RUNAWAY:
-            break
-    return answer_with(steps[1:])
+def sizes_doubled(frames: Frames) -> Answer:
+    steps, sizes = accumulate()(frames)
+    return steps, [2 * size for size in sizes]
 
 
-@known("a-step-more-each-frame")
-def a_step_more_each_frame(frames: Frames) -> Answer:
+def sixtieths(frames: Frames) -> Answer:
+    """Run steps of 1/60 s, each as long as two right ones."""
+
+    def due(held: Held) -> int:
+        if held and held % (2 * STEP) == 0 and held != CAP:
+            raise Undecided
+        return int(held // (2 * STEP))
+
+    steps, _ = accumulate(cap_frame, due, lambda held, count: held - count * 2 * STEP)(frames)
+    return steps, [2 * STEP_SECONDS] if any(steps) else []
+
+
+def a_step_more(frames: Frames) -> Answer:
     if max(frames) <= 34:
         raise Undecided  # steps may be slow there, so more steps make the last frames longer
-    return answer_with([1 + steps for steps in run_accumulator(frames, cap_frame)])
+    return answer_with([1 + count for count in accumulate()(frames)[0]])
 
 
-known(
-    "a-step-less-each-frame",
-    lambda frames: answer_with([max(steps - 1, 0) for steps in run_accumulator(frames, cap_frame)]),
+def a_step_less(frames: Frames) -> Answer:
+    return answer_with([max(count - 1, 0) for count in accumulate()(frames)[0]])
+
+
+def all_held(held: Held) -> int:
+    """Return the steps of an accumulator that never shrinks, so the loop never ends."""
+    return RUNAWAY if count_whole_steps(held) else 0
+
+
+def count_for_accumulator(frames: Frames) -> Answer:
+    """Return the number of steps as the accumulator: the mistake swaps the two."""
+    return accumulate(cap_frame, count_whole_steps, lambda held, count: SECOND * count)(frames)
+
+
+MODELS: Models = (
+    ("one-step-per-frame", in_each_frame(lambda frame: 1)),
+    ("one-step-per-frame-at-most", accumulate(due=at_most(1))),
+    ("assumes-sixty-frames", in_each_frame(lambda frame: 2)),
+    ("drops-the-remainder", in_each_frame(lambda frame: count_whole_steps(cap_frame(frame)))),
+    ("rounds-each-frame", in_each_frame(lambda frame: round(cap_frame(frame) / STEP))),
+    ("steps-before-it-is-due", accumulate(due=due_at_once)),
+    ("no-cap", accumulate(count_thirds)),
+    ("cap-is-in-seconds", accumulate(lambda frame: min(3 * frame, 8 * SECOND))),
+    ("cap-is-a-quarter-second", accumulate(lambda frame: min(3 * frame, SECOND // 4))),
+    ("cap-counts-frames", accumulate(lambda frame: min(3 * frame, 2 * CAP))),
+    ("cap-is-one-step", accumulate(lambda frame: min(3 * frame, STEP))),
+    ("cap-is-turned-round", accumulate(lambda frame: max(3 * frame, CAP))),
+    ("keeps-the-backlog", accumulate(count_thirds, at_most(CAP // STEP))),
+    ("counts-milliseconds", in_each_frame(lambda frame: CAP // STEP)),
+    (
+        "takes-seconds-for-milliseconds",
+        accumulate(lambda frame: min(Fraction(3 * frame, 1000), Fraction(CAP))),
+    ),
+    ("accumulator-never-shrinks", accumulate(due=all_held)),
+    ("steps-of-another-size", sizes_doubled),
+    ("steps-with-the-frame-time", one_step_of(cap_frame)),
+    ("steps-with-all-of-the-frame-time", one_step_of(count_thirds)),
+    ("steps-with-all-that-is-left", sizes_of_all_left),
+    ("emptied-by-a-step", accumulate(due=at_most(1), rest=lambda held, count: held * (not count))),
+    ("drops-the-remainder+no-cap", in_each_frame(lambda frame: count_whole_steps(3 * frame))),
+    ("sixtieths-for-steps", sixtieths),
+    ("steps-with-the-accumulator", sizes_of_accumulator),
+    ("steps-with-the-frame-in-the-loop", sizes_of_frames),
+    ("pair-the-wrong-way-round", count_for_accumulator),
+    ("a-step-more-each-frame", a_step_more),
+    ("a-step-less-each-frame", a_step_less),
+    ("count-taken-out", accumulate(due=due_towards_zero, rest=take_seconds)),
+    ("count-taken-out", accumulate(due=due_while_seconds_are_held, rest=take_seconds)),
+    ("no-step-runs", in_each_frame(lambda frame: 0)),
 )
+register("6 7d", "frames", MODELS)  # of both programs
 
-
-def second_taken_out(frames: Frames) -> Answer:
-    """Take 1 s out of the accumulator for each step."""
-    steps: list[int] = []
-    held = 0
-    for frame in frames[:-1]:
-        held += cap_frame(frame)
-        steps.append(0)
-        while held > 0 and count_whole_steps(held):
-            steps[-1] += 1
-            held -= SECOND
-    return answer_with(steps)
-
-
-known(
-    "count-taken-out",
-    lambda frames: run_at_price(frames, lambda held: int(held / STEP), SECOND),  # towards 0
-    second_taken_out,
-)
-known("no-step-runs", lambda frames: answer_with([0 for _ in frames[:-1]]))
 truth("said", lambda ran: ran)
-known_in("6 7d", "said")("steps-are-not-counted", lambda ran: 0)
-known_in("6 7d", "said")("steps-are-counted-down", lambda ran: -ran)
+SAID: Models = (
+    ("steps-are-not-counted", lambda ran: 0),
+    ("steps-are-counted-down", lambda ran: -ran),
+)
+register("6 7d", "said", SAID)

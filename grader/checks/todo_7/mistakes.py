@@ -4,64 +4,54 @@ TODO 6 has those of 7d.
 """
 
 import math
-from collections.abc import Callable
 
 from grader.checks import exact
-from grader.checks.mistakes import known_in
+from grader.checks.mistakes import Models, register
 from grader.judge.explain.misconceptions import Model, Undecided, always, are_close, truth
 from grader.judge.lab import STEP, Pair
 
 # ---------------------------------------------------------------- 7a: the gravity, px/s²
 
-
 truth("gravity", always((0.0, 980.0)))
-
-known_7a = known_in("7a", "gravity")
-
-known_7a("no-gravity", always((0.0, 0.0)))
-known_7a("gravity-points-up", always((0.0, -980.0)))
-known_7a(
-    "gravity-in-metres",
-    always((0.0, 9.8)),
-    always((0.0, 9.81)),
-    always((0.0, -9.8)),
-    always((0.0, -9.81)),
-)
-known_7a("gravity-of-one-step", always((0.0, 980.0 * STEP)))
-known_7a(
-    "gravity-of-another-scene", always((0.0, 900.0)), always((0.0, 981.0)), always((0.0, 1000.0))
-)
-known_7a("gravity-points-sideways", always((980.0, 0.0)), always((-980.0, 0.0)))
+GRAVITIES = {
+    "no-gravity": [(0.0, 0.0)],
+    "gravity-points-up": [(0.0, -980.0)],
+    "gravity-in-metres": [(0.0, 9.8), (0.0, 9.81), (0.0, -9.8), (0.0, -9.81)],
+    "gravity-of-one-step": [(0.0, 980.0 * STEP)],
+    "gravity-of-another-scene": [(0.0, 900.0), (0.0, 981.0), (0.0, 1000.0)],
+    "gravity-points-sideways": [(980.0, 0.0), (-980.0, 0.0)],
+}
+register("7a", "gravity", ((name, always(g)) for name, some in GRAVITIES.items() for g in some))
 
 
 # ---------------------------------------------------------------- 7b: the moment of a ball
 
-
 truth("moment", lambda radius, mass: exact.disc_moment(mass, radius))
-
-known_7b = known_in("7b", "moment")
-
-known_7b("moment-is-infinite", lambda radius, mass: math.inf)
-known_7b("moment-of-a-ring", lambda radius, mass: mass * radius**2)
-known_7b("diameter-instead-of-radius", lambda radius, mass: exact.disc_moment(mass, 2 * radius))
-known_7b("moment-of-a-box", lambda radius, mass: mass * 2 * (2 * radius) ** 2 / 12)
-known_7b("moment-of-a-small-box", lambda radius, mass: mass * 2 * radius**2 / 12)
-known_7b("moment-of-the-bob", lambda radius, mass: exact.disc_moment(6.0, 24.0))
-known_7b("radius-of-the-bob", lambda radius, mass: exact.disc_moment(mass, 24.0))
-known_7b("a-hole-of-a-pixel", lambda radius, mass: mass * (1.0 + radius**2) / 2)
-known_7b("moment-of-a-sphere", lambda radius, mass: mass * radius**2 * 2 / 5)
-known_7b("half-twice", lambda radius, mass: exact.disc_moment(mass, radius) / 2)
-known_7b("mass-is-left-out", lambda radius, mass: exact.disc_moment(1.0, radius))
-known_7b("mass-and-radius-swapped", lambda radius, mass: exact.disc_moment(radius, mass))
-known_7b("radius-is-not-squared", lambda radius, mass: mass * radius / 2)
-known_7b("inverse-of-the-moment", lambda radius, mass: 1 / exact.disc_moment(mass, radius))
-known_7b("half-the-radius", lambda radius, mass: exact.disc_moment(mass, radius / 2))
-known_7b("mass-for-moment", lambda radius, mass: mass)
+MOMENTS: Models = (
+    ("moment-is-infinite", lambda radius, mass: math.inf),
+    ("moment-of-a-ring", lambda radius, mass: mass * radius**2),
+    ("diameter-instead-of-radius", lambda radius, mass: exact.disc_moment(mass, 2 * radius)),
+    ("moment-of-a-box", lambda radius, mass: mass * 2 * (2 * radius) ** 2 / 12),
+    ("moment-of-a-small-box", lambda radius, mass: mass * 2 * radius**2 / 12),
+    ("moment-of-the-bob", lambda radius, mass: exact.disc_moment(6.0, 24.0)),
+    ("radius-of-the-bob", lambda radius, mass: exact.disc_moment(mass, 24.0)),
+    ("a-hole-of-a-pixel", lambda radius, mass: mass * (1.0 + radius**2) / 2),
+    ("moment-of-a-sphere", lambda radius, mass: mass * radius**2 * 2 / 5),
+    ("half-twice", lambda radius, mass: exact.disc_moment(mass, radius) / 2),
+    ("mass-is-left-out", lambda radius, mass: exact.disc_moment(1.0, radius)),
+    ("mass-and-radius-swapped", lambda radius, mass: exact.disc_moment(radius, mass)),
+    ("radius-is-not-squared", lambda radius, mass: mass * radius / 2),
+    ("inverse-of-the-moment", lambda radius, mass: 1 / exact.disc_moment(mass, radius)),
+    ("half-the-radius", lambda radius, mass: exact.disc_moment(mass, radius / 2)),
+    ("mass-for-moment", lambda radius, mass: mass),
+)
+register("7b", "moment", MOMENTS)
 
 
 # ---------------------------------------------------------------- 7c: what holds the bob
 
-PIVOT, BOB = (700.0, 90.0), (840.0, 90.0)  # px
+PIVOT, BOB, CORNER = (700.0, 90.0), (840.0, 90.0), (0.0, 0.0)  # px
+RIMS = ((-24.0, 0.0), (24.0, 0.0), (0.0, -24.0), (0.0, 24.0))  # px, from the bob's centre
 Rod = tuple[str, Pair, Pair, bool]  # kind, far end, end on the bob, whether the far end moves
 
 
@@ -70,18 +60,27 @@ def pin(far_end: Pair, on_bob: Pair = (0.0, 0.0), moves: bool = False) -> Rod:
     return "PinJoint", far_end, (BOB[0] + on_bob[0], BOB[1] + on_bob[1]), moves
 
 
-def right_rod() -> list[Rod]:
-    return [pin(PIVOT)]
+truth("rods", always([pin(PIVOT)]))
+JOINTS: dict[str, list[Rod]] = {  # one of them instead of the right one
+    "rod-from-the-corner": [pin(CORNER)],
+    "bob-anchor-in-screen-coordinates": [pin(PIVOT, BOB), pin(PIVOT, PIVOT), pin(CORNER, BOB)],
+    "far-anchor-counted-twice": [pin((2 * PIVOT[0], 2 * PIVOT[1]))],
+    "anchors-the-wrong-way-round": [pin(CORNER, PIVOT)],
+    "rod-at-the-rim": [pin(PIVOT, rim) for rim in RIMS],
+    "rod-on-a-moving-body": [pin(PIVOT, moves=True)],
+    "rope-instead-of-rod": [("SlideJoint", PIVOT, BOB, False)],
+    "slack-of-two": [("SlideJoint with slack", PIVOT, BOB, False)],
+    "spring-instead-of-rod": [("DampedSpring", PIVOT, BOB, False)],
+    "pivot-turns-the-bob": [("PivotJoint", PIVOT, PIVOT, False)],
+    "bob-is-nailed-to-the-wall": [("PivotJoint", BOB, BOB, False)],
+}
 
 
-truth("rods", right_rod)
-
-
-def length_off(off: int) -> Callable[[list[Rod]], int]:
+def length_off(off: int) -> Model:
     """Return a rod at the right position that is too long (1) or too short (-1)."""
 
     def model(rods: list[Rod]) -> int:
-        if not are_close(rods, right_rod()):
+        if not are_close(rods, [pin(PIVOT)]):
             raise Undecided
         return off
 
@@ -89,36 +88,6 @@ def length_off(off: int) -> Callable[[list[Rod]], int]:
 
 
 truth("length", length_off(0))
-known_in("7c", "length")("rod-is-too-short", length_off(-1))
-known_in("7c", "length")("rod-is-too-long", length_off(1))
-
-known_7c = known_in("7c", "rods")
-
-
-def held_by(rod: Rod) -> Model:
-    return always([rod])
-
-
-known_7c("joint-is-not-in-the-space", always([]))
-known_7c("rod-from-the-corner", held_by(pin((0.0, 0.0))))
-known_7c(
-    "bob-anchor-in-screen-coordinates",
-    held_by(pin(PIVOT, on_bob=BOB)),
-    held_by(pin(PIVOT, on_bob=PIVOT)),
-    held_by(pin((0.0, 0.0), on_bob=BOB)),
-)
-known_7c("far-anchor-counted-twice", held_by(pin((2 * PIVOT[0], 2 * PIVOT[1]))))
-known_7c("anchors-the-wrong-way-round", held_by(pin((0.0, 0.0), on_bob=PIVOT)))
-known_7c(
-    "rod-at-the-rim",
-    *(
-        held_by(pin(PIVOT, on_bob=rim))
-        for rim in ((-24.0, 0.0), (24.0, 0.0), (0.0, -24.0), (0.0, 24.0))
-    ),
-)
-known_7c("rod-on-a-moving-body", held_by(pin(PIVOT, moves=True)))
-known_7c("rope-instead-of-rod", held_by(("SlideJoint", PIVOT, BOB, False)))
-known_7c("slack-of-two", held_by(("SlideJoint with slack", PIVOT, BOB, False)))
-known_7c("spring-instead-of-rod", held_by(("DampedSpring", PIVOT, BOB, False)))
-known_7c("pivot-turns-the-bob", held_by(("PivotJoint", PIVOT, PIVOT, False)))
-known_7c("bob-is-nailed-to-the-wall", held_by(("PivotJoint", BOB, BOB, False)))
+register("7c", "length", [("rod-is-too-short", length_off(-1)), ("rod-is-too-long", length_off(1))])
+register("7c", "rods", [("joint-is-not-in-the-space", always([]))])
+register("7c", "rods", ((name, always([each])) for name, some in JOINTS.items() for each in some))

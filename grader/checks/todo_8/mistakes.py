@@ -1,31 +1,28 @@
 """Known mistakes in TODO 8a to 8c, as models of what one step then returns."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from itertools import product
 
 from grader.checks import exact
 from grader.checks.exact import Accel, State, polynomial
-from grader.checks.mistakes import known_in
-from grader.judge.explain.misconceptions import right_models, truth
+from grader.checks.mistakes import Models, register
+from grader.judge.explain.misconceptions import mistake, truth
 
-SEMI_IMPLICIT, VERLET, RK4 = "semi_implicit_euler", "velocity_verlet", "rk4"
 SAMPLES = "samples of accel"
 Force = Sequence[float]
-Step = Callable[[float, float, float, Force], State]
+Step = Callable[[float, float, float, Accel], State]
 
-known_8a = known_in("8a", SEMI_IMPLICIT)
-known_8b = known_in("8b", VERLET)
-known_8c = known_in("8c", RK4, apart=False)  # x and v share the samples
-known_samples = known_in("8c", SAMPLES)
-KNOWN = {SEMI_IMPLICIT: known_8a, VERLET: known_8b, RK4: known_in("8c", RK4)}
-
-
-def right_semi_implicit(x: float, v: float, dt: float, force: Force) -> State:
-    return exact.semi_implicit_euler(x, v, dt, polynomial(force))
+METHODS: dict[str, tuple[str, Step]] = {  # by TODO: the kind of question, and the right model
+    "8a": ("semi_implicit_euler", exact.semi_implicit_euler),
+    "8b": ("velocity_verlet", exact.velocity_verlet),
+    "8c": ("rk4", exact.rk4),
+}
 
 
-XV = {"x": [0], "v": [1]}
+def take_accel(x: float, v: float, dt: float, force: Force) -> tuple[float, float, float, Accel]:
+    return x, v, dt, polynomial(force)
 
 
 def describe_step(x: float, v: float, dt: float, force: Force) -> dict[str, str]:
@@ -42,189 +39,90 @@ def formula(force: Force) -> str:
     return " ".join(f"{c:+g}{power}" for c, power in powers if c) or "0"
 
 
-truth(SEMI_IMPLICIT, right_semi_implicit, describe_step, XV, apart=True)
-truth(
-    VERLET,
-    lambda x, v, dt, force: exact.velocity_verlet(x, v, dt, polynomial(force)),
-    describe_step,
-    XV,
-    apart=True,
-)
-truth(
-    RK4,
-    lambda x, v, dt, force: exact.rk4(x, v, dt, polynomial(force)),
-    describe_step,
-    XV,
-    apart=True,
-)
+# ---------------------------------------------------------------- any method
+
+SPRING = polynomial((0.0, -((2 * math.pi) ** 2)))  # the lesson's
 
 
-SPRING = (0.0, -((2 * math.pi) ** 2))  # the lesson's
-for about, known in KNOWN.items():
-    known(
-        "the-spring-itself",
-        lambda x, v, dt, force, about=about: right_models[about](x, v, dt, SPRING),
-        meaning="The acceleration of the lesson's spring is used for every force: call accel(x).",
-    )
+def with_step(right: Step, seconds: float) -> Step:
+    return lambda x, v, dt, a: right(x, v, seconds, a)
 
 
-# ---------------------------------------------------------------- how steps are put together
+def list_common(right: Step) -> Iterator[tuple[str, str, Step]]:
+    """Yield mistakes that any method may have: a name, a sentence and a model."""
+    spring = "The acceleration of the lesson's spring is used for every force: call accel(x)."
+    yield "the-spring-itself", spring, lambda x, v, dt, a: right(x, v, dt, SPRING)
+    for rate in (60, 30, 120, 40):
+        words = f"Every step is taken to last 1/{rate} s; it lasts dt."
+        yield f"step-of-1-{rate}", words, with_step(right, 1 / rate)
+    words = "The pair is the wrong way round: return x first, then v."
+    yield "velocity-returned-first", words, lambda x, v, dt, a: right(x, v, dt, a)[::-1]
+    words = "x is returned unchanged: it must move."
+    yield "x-is-not-moved", words, lambda x, v, dt, a: (x, right(x, v, dt, a)[1])
+    words = "v is returned unchanged: the acceleration must change it."
+    yield "v-is-not-changed", words, lambda x, v, dt, a: (right(x, v, dt, a)[0], v)
 
 
-def semi_implicit_with(
-    kick: Callable[[float, float], float], drift: Callable[[float, float], float]
-) -> Step:
-    """Return the step in which v changes by kick(a, dt), then x by drift(v, dt)."""
-
-    def model(x: float, v: float, dt: float, force: Force) -> State:
-        v += kick(polynomial(force)(x), dt)
-        return x + drift(v, dt), v
-
-    return model
+def from_force(step: Step) -> Callable[[float, float, float, Force], State]:
+    return lambda x, v, dt, force: step(x, v, dt, polynomial(force))
 
 
-def verlet_with(
-    bend: Callable[[float, float], float], kick: Callable[[float, float, float], float]
-) -> Step:
-    """Return the step in which x bends by bend(a, dt); v changes by kick(a, a at the end, dt)."""
-
-    def model(x: float, v: float, dt: float, force: Force) -> State:
-        accel = polynomial(force)
-        end = x + v * dt + bend(accel(x), dt)
-        return end, v + kick(accel(x), accel(end), dt)
-
-    return model
+for about, right in METHODS.values():
+    truth(about, from_force(right), describe_step, {"x": [0], "v": [1]}, apart=True)
 
 
-def drift_by(factor: float) -> Callable[[float, float], float]:
-    return lambda v, dt: factor * v * dt
+def midpoint(x: float, v: float, dt: float, accel: Accel) -> State:
+    middle = x + v * dt / 2
+    return x + (v + accel(x) * dt / 2) * dt, v + accel(middle) * dt
 
 
-def bend_by(factor: float) -> Callable[[float, float], float]:
-    return lambda a, dt: factor * a * dt**2 / 2
+def explicit_euler(x: float, v: float, dt: float, accel: Accel) -> State:
+    return x + v * dt, v + accel(x) * dt
 
 
-def kick_by(factor: float) -> Callable[[float, float, float], float]:
-    return lambda old, new, dt: factor * (old + new) / 2 * dt
-
-
-Source = tuple[int, float]  # the sample that another starts from, and the share of the step
-USUAL: tuple[Source, ...] = ((0, 0.5), (1, 0.5), (2, 1.0))
-RIGHT_WEIGHTS = (1 / 6, 2 / 6, 2 / 6, 1 / 6)
-WHOLE_STEPS: tuple[Source, ...] = ((0, 1.0), (1, 1.0), (2, 1.0))
-
-
-def take_samples(
-    x: float,
-    v: float,
-    dt: float,
-    force: Force,
-    sources: Sequence[Source] = USUAL,
-    speeds: Sequence[Source] | None = None,
-) -> tuple[list[State], list[float]]:
-    """Return the four samples, and the positions at which accel is called.
-
-    `speeds` replace the sources of their velocities.
-    """
-    accel = polynomial(force)
-    samples, places = [(v, accel(x))], [x]
-    for (source, share), (other, reach) in zip(sources, speeds or sources, strict=True):
-        speed = v + reach * dt * samples[other][1]
-        dx = [*(each[0] for each in samples), speed][source]
-        places.append(x + share * dt * dx)
-        samples.append((speed, accel(places[-1])))
-    return samples, places
-
-
-def find_places(
-    sources: Sequence[Source], speeds: Sequence[Source] | None = None
-) -> Callable[..., tuple[float, ...]]:
-    return lambda x, v, dt, force: tuple(
-        dict.fromkeys(take_samples(x, v, dt, force, sources, speeds)[1])
-    )
-
-
-def weigh_samples(
-    sources: Sequence[Source], weights: Sequence[float], speeds: Sequence[Source] | None = None
-) -> Step:
-    """Return the step that adds up such samples with such weights."""
-
-    def model(x: float, v: float, dt: float, force: Force) -> State:
-        samples = take_samples(x, v, dt, force, sources, speeds)[0]
-        for weight, (dx, dv) in zip(weights, samples, strict=True):
-            x, v = x + dt * weight * dx, v + dt * weight * dv
-        return x, v
-
-    return model
+def position_first(x: float, v: float, dt: float, accel: Accel) -> State:
+    return x + v * dt, v + accel(x + v * dt) * dt
 
 
 # ---------------------------------------------------------------- 8a
 
-
-@known_8a("explicit-euler-again")
-def explicit_euler(x: float, v: float, dt: float, force: Force) -> State:
-    return x + v * dt, v + polynomial(force)(x) * dt
-
-
-known_8b("explicit-euler-again", explicit_euler)
-known_8c("explicit-euler-again", explicit_euler)
-
-
-@known_8a("position-first")
-def position_first(x: float, v: float, dt: float, force: Force) -> State:
-    x += v * dt
-    return x, v + polynomial(force)(x) * dt
-
-
-known_8b("position-first", position_first)
-known_8a("velocity-without-the-step", semi_implicit_with(lambda a, dt: a, drift_by(1.0)))
-known_8a(
-    "old-velocity-returned", lambda x, v, dt, force: (right_semi_implicit(x, v, dt, force)[0], v)
+EULER: Models = (
+    ("explicit-euler-again", explicit_euler),
+    ("position-first", position_first),
+    ("velocity-without-the-step", lambda x, v, dt, a: (x + (v + a(x)) * dt, v + a(x))),
+    ("old-velocity-returned", lambda x, v, dt, a: (x + (v + a(x) * dt) * dt, v)),
+    ("velocity-is-replaced", lambda x, v, dt, a: (x + a(x) * dt * dt, a(x) * dt)),
+    ("pair-swapped-and-both-old", lambda x, v, dt, a: explicit_euler(x, v, dt, a)[::-1]),
+    ("mean-of-both-velocities", lambda x, v, dt, a: (x + (v + a(x) * dt / 2) * dt, v + a(x) * dt)),
+    ("acceleration-of-the-velocity", lambda x, v, dt, a: (x + (v + a(v) * dt) * dt, v + a(v) * dt)),
+    ("position-is-replaced", lambda x, v, dt, a: ((v + a(x) * dt) * dt, v + a(x) * dt)),
+    ("changes-alone-are-returned", lambda x, v, dt, a: ((v + a(x) * dt) * dt, a(x) * dt)),
+    (
+        "parabola-with-the-new-velocity",
+        lambda x, v, dt, a: (x + (v + a(x) * dt * 3 / 2) * dt, v + a(x) * dt),
+    ),
+    (
+        "velocity-by-the-square-of-the-step",
+        lambda x, v, dt, a: (x + (v + a(x) * dt**2) * dt, v + a(x) * dt**2),
+    ),
+    ("moves-a-whole-second", lambda x, v, dt, a: (x + v + a(x) * dt, v + a(x) * dt)),
+    (
+        "acceleration-has-the-wrong-sign",
+        lambda x, v, dt, a: (x + (v - a(x) * dt) * dt, v - a(x) * dt),
+    ),
+    ("velocity-is-not-used", lambda x, v, dt, a: (x + v * dt, v)),
 )
+register("8a", "semi_implicit_euler", EULER, take_accel)
 
 
-@known_8a("velocity-is-replaced")
-def velocity_is_replaced(x: float, v: float, dt: float, force: Force) -> State:
-    v = polynomial(force)(x) * dt
-    return x + v * dt, v
+def by_factor(factor: float) -> Step:
+    return lambda x, v, dt, a: (x + factor * (v + a(x) * dt) * dt, v + a(x) * dt)
 
 
-known_8a("pair-swapped-and-both-old", lambda x, v, dt, force: explicit_euler(x, v, dt, force)[::-1])
-
-
-@known_8a("mean-of-both-velocities")
-def mean_of_both_velocities(x: float, v: float, dt: float, force: Force) -> State:
-    new_v = v + polynomial(force)(x) * dt
-    return x + (v + new_v) / 2 * dt, new_v
-
-
-@known_8a("acceleration-of-the-velocity")
-def acceleration_of_the_velocity(x: float, v: float, dt: float, force: Force) -> State:
-    v += polynomial(force)(v) * dt
-    return x + v * dt, v
-
-
-@known_8a("position-is-replaced")
-def position_is_replaced(x: float, v: float, dt: float, force: Force) -> State:
-    _, v = right_semi_implicit(x, v, dt, force)
-    return v * dt, v
-
-
-known_8a(
-    "changes-alone-are-returned",
-    lambda x, v, dt, force: ((v + polynomial(force)(x) * dt) * dt, polynomial(force)(x) * dt),
-)
-
-
-@known_8a("parabola-with-the-new-velocity")
-def parabola_with_the_new_velocity(x: float, v: float, dt: float, force: Force) -> State:
-    end, new_v = right_semi_implicit(x, v, dt, force)
-    return end + polynomial(force)(x) * dt**2 / 2, new_v
-
-
-known_8a(
-    "velocity-by-the-square-of-the-step", semi_implicit_with(lambda a, dt: a * dt**2, drift_by(1.0))
-)
+FACTORS = (("half", "half of", 0.5), ("twice", "twice", 2.0), ("opposite", "the opposite of", -1.0))
+for name, words, factor in FACTORS:
+    words = f"x moves by {words} v * dt; it moves by v * dt, with the new v."
+    mistake("8a", "semi_implicit_euler", f"{name}-the-way", words, from_force(by_factor(factor)))
 
 
 # ---------------------------------------------------------------- 8b
@@ -234,95 +132,168 @@ def parabola(x: float, v: float, dt: float, accel: Accel) -> float:
     return x + v * dt + accel(x) * dt**2 / 2
 
 
+def verlet_with(
+    bend: Callable[[float, float], float], kick: Callable[[float, float, float], float]
+) -> Step:
+    """Return the step in which x bends by bend(a, dt); v changes by kick(a, a at the end, dt)."""
+
+    def model(x: float, v: float, dt: float, accel: Accel) -> State:
+        end = x + v * dt + bend(accel(x), dt)
+        return end, v + kick(accel(x), accel(end), dt)
+
+    return model
+
+
+def bend_by(factor: float, a: float, dt: float) -> float:
+    return factor * a * dt**2 / 2
+
+
+def kick_by(factor: float, begin: float, end: float, dt: float) -> float:
+    return factor * (begin + end) / 2 * dt
+
+
+right_bend, right_kick = partial(bend_by, 1.0), partial(kick_by, 1.0)
+
+
+def at_second(place: Callable[[float, float, float, float], float]) -> Step:
+    """Return the step whose second acceleration is that at place(x, v, dt, end)."""
+
+    def model(x: float, v: float, dt: float, accel: Accel) -> State:
+        end = parabola(x, v, dt, accel)
+        return end, v + right_kick(accel(x), accel(place(x, v, dt, end)), dt)
+
+    return model
+
+
+def force_at_the_mean_place(x: float, v: float, dt: float, accel: Accel) -> State:
+    end = parabola(x, v, dt, accel)
+    return end, v + accel((x + end) / 2) * dt
+
+
+def acceleration_of_the_velocity(x: float, v: float, dt: float, accel: Accel) -> State:
+    end = x + v * dt + accel(v) * dt**2 / 2
+    return end, v + (accel(v) + accel(end)) / 2 * dt
+
+
+def speed_missing_in_x(x: float, v: float, dt: float, accel: Accel) -> State:
+    end = x + accel(x) * dt**2 / 2
+    return end, v + (accel(x) + accel(end)) / 2 * dt
+
+
 BENDS: dict[str, Callable[[float, float], float]] = {
     "half-is-missing-in-x": lambda a, dt: a * dt**2,
     "straight-line-in-x": lambda a, dt: 0.0,
     "square-is-missing-in-x": lambda a, dt: a * dt / 2,
 }
 KICKS: dict[str, Callable[[float, float, float], float]] = {
-    "sum-instead-of-mean": lambda begin, end, dt: (begin + end) * dt,
     "old-acceleration-twice": lambda begin, end, dt: begin * dt,
     "new-acceleration-only": lambda begin, end, dt: end * dt,
+    "sum-instead-of-mean": lambda begin, end, dt: (begin + end) * dt,
     "step-is-missing-in-v": lambda begin, end, dt: (begin + end) / 2,
 }
-
-
-def known_bend(name: str) -> None:
-    known_8b(name, verlet_with(BENDS[name], kick_by(1.0)))
-
-
-def known_kick(name: str) -> None:
-    known_8b(name, verlet_with(bend_by(1.0), KICKS[name]))
-
-
-known_kick("old-acceleration-twice")
-known_kick("new-acceleration-only")
-known_kick("sum-instead-of-mean")
-known_bend("half-is-missing-in-x")
-known_bend("straight-line-in-x")
-known_8b(
-    "semi-implicit-euler-again",
-    lambda x, v, dt, force: exact.semi_implicit_euler(x, v, dt, polynomial(force)),
+OTHER_KICKS: tuple[tuple[str, Callable[[float, float, float], float]], ...] = (
+    ("old-half-alone", lambda begin, end, dt: begin * dt / 2),
+    ("new-half-alone", lambda begin, end, dt: end * dt / 2),
+    ("mean-without-brackets", lambda begin, end, dt: begin + end / 2 * dt),
+    ("mean-without-brackets", lambda begin, end, dt: (begin + end / 2) * dt),
+    ("mean-without-brackets", lambda begin, end, dt: begin + end * dt / 2),
+    ("mean-without-brackets", lambda begin, end, dt: begin / 2 + end * dt),
+    ("mean-without-brackets", lambda begin, end, dt: begin / 2 + end * dt / 2),
+    ("mean-without-brackets", lambda begin, end, dt: (begin / 2 + end) * dt),
+    ("mean-by-the-square-of-the-step", lambda begin, end, dt: (begin + end) / 2 * dt**2),
 )
-
-
-def acceleration_at_the_mean_place(x: float, v: float, dt: float, force: Force) -> State:
-    accel = polynomial(force)
-    end = parabola(x, v, dt, accel)
-    return end, v + accel((x + end) / 2) * dt
-
-
-@known_8b("end-on-a-straight-line")
-def end_on_a_straight_line(x: float, v: float, dt: float, force: Force) -> State:
-    accel = polynomial(force)
-    return parabola(x, v, dt, accel), v + (accel(x) + accel(x + v * dt)) / 2 * dt
-
-
-known_8b("force-at-the-mean-place", acceleration_at_the_mean_place)
-
-
-midpoint = weigh_samples(USUAL, (0, 1, 0, 0))
-
-
-known_8b("midpoint-method", midpoint)
-known_8c("midpoint-method", midpoint)
-known_8b("old-half-alone", verlet_with(bend_by(1.0), lambda old, new, dt: old * dt / 2))
-known_8b("new-half-alone", verlet_with(bend_by(1.0), lambda old, new, dt: new * dt / 2))
-known_8b(
-    "mean-without-brackets",
-    verlet_with(bend_by(1.0), lambda old, new, dt: old + new / 2 * dt),
-    verlet_with(bend_by(1.0), lambda old, new, dt: (old + new / 2) * dt),
-    verlet_with(bend_by(1.0), lambda old, new, dt: old + new * dt / 2),
-    verlet_with(bend_by(1.0), lambda old, new, dt: old / 2 + new * dt),
-    verlet_with(bend_by(1.0), lambda old, new, dt: old / 2 + new * dt / 2),
-    verlet_with(bend_by(1.0), lambda old, new, dt: (old / 2 + new) * dt),
+VERLET: Models = (
+    ("explicit-euler-again", explicit_euler),
+    ("position-first", position_first),
+    *((name, verlet_with(right_bend, kick)) for name, kick in KICKS.items()),
+    *((name, verlet_with(bend, right_kick)) for name, bend in BENDS.items()),
+    ("semi-implicit-euler-again", exact.semi_implicit_euler),
+    ("end-on-a-straight-line", at_second(lambda x, v, dt, end: x + v * dt)),
+    ("force-at-the-mean-place", force_at_the_mean_place),
+    ("midpoint-method", midpoint),
+    *((name, verlet_with(right_bend, kick)) for name, kick in OTHER_KICKS),
+    (
+        "acceleration-for-velocity",
+        lambda x, v, dt, a: (parabola(x, v, dt, a), a(parabola(x, v, dt, a))),
+    ),
+    ("acceleration-of-the-velocity", acceleration_of_the_velocity),
+    *(
+        (f"{bend_name}+{kick_name}", verlet_with(bend, kick))
+        for (bend_name, bend), (kick_name, kick) in product(BENDS.items(), KICKS.items())
+    ),
+    ("velocity-changes-twice", lambda x, v, dt, a: exact.velocity_verlet(x, v + a(x) * dt, dt, a)),
+    ("speed-is-missing-in-x", speed_missing_in_x),
 )
-known_8b(
-    "mean-by-the-square-of-the-step",
-    verlet_with(bend_by(1.0), lambda old, new, dt: (old + new) / 2 * dt**2),
+register("8b", "velocity_verlet", VERLET, take_accel)
+mistake(
+    "8b",
+    "velocity_verlet",
+    "acceleration-of-the-velocity",
+    "The second acceleration is that at v; accel is asked about the new x.",
+    from_force(at_second(lambda x, v, dt, end: v)),
 )
-
-
-@known_8b("acceleration-for-velocity")
-def acceleration_for_velocity(x: float, v: float, dt: float, force: Force) -> State:
-    accel = polynomial(force)
-    end = parabola(x, v, dt, accel)
-    return end, accel(end)
-
-
-@known_8b("acceleration-of-the-velocity")
-def old_acceleration_of_v(x: float, v: float, dt: float, force: Force) -> State:
-    accel = polynomial(force)
-    end = x + v * dt + accel(v) * dt**2 / 2
-    return end, v + (accel(v) + accel(end)) / 2 * dt
+for name, words, factor in FACTORS:
+    if factor == 2.0:  # twice as much is half too little
+        continue
+    bends = f"x bends by {words} a * dt² / 2; it bends by a * dt² / 2, with the old a."
+    step = verlet_with(partial(bend_by, factor), right_kick)
+    mistake("8b", "velocity_verlet", f"{name}-the-bend", bends, from_force(step))
+    kicks = f"v changes by {words} the mean of both accelerations * dt; it is that mean * dt."
+    step = verlet_with(right_bend, partial(kick_by, factor))
+    mistake("8b", "velocity_verlet", f"{name}-the-mean", kicks, from_force(step))
 
 
 # ---------------------------------------------------------------- 8c
 
+Source = tuple[int, float]  # the sample that another starts from, and the share of the step
+Sources = Sequence[Source]
+USUAL: tuple[Source, ...] = ((0, 0.5), (1, 0.5), (2, 1.0))
+WHOLE_STEPS: tuple[Source, ...] = ((0, 1.0), (1, 1.0), (2, 1.0))
+RIGHT_WEIGHTS = (1 / 6, 2 / 6, 2 / 6, 1 / 6)
 
-@known_8c("samples-lead-on")
-def samples_lead_on(x: float, v: float, dt: float, force: Force) -> State:
-    accel, place, speed = polynomial(force), x, v
+
+def take_samples(
+    x: float, v: float, dt: float, accel: Accel, sources: Sources, speeds: Sources = ()
+) -> tuple[list[State], list[float]]:
+    """Return the four samples, and the positions at which accel is called.
+
+    `speeds` replace the sources of their velocities.
+    """
+    samples, places = [(v, accel(x))], [x]
+    for (source, share), (other, reach) in zip(sources, speeds or sources, strict=True):
+        speed = v + reach * dt * samples[other][1]
+        dx = [*(each[0] for each in samples), speed][source]
+        places.append(x + share * dt * dx)
+        samples.append((speed, accel(places[-1])))
+    return samples, places
+
+
+def find_places(sources: Sources, speeds: Sources = ()) -> Callable[..., tuple[float, ...]]:
+    return lambda x, v, dt, a: tuple(dict.fromkeys(take_samples(x, v, dt, a, sources, speeds)[1]))
+
+
+def weigh_samples(sources: Sources, weights: Sequence[float], speeds: Sources = ()) -> Step:
+    """Return the step that adds up such samples with such weights."""
+
+    def model(x: float, v: float, dt: float, accel: Accel) -> State:
+        samples = take_samples(x, v, dt, accel, sources, speeds)[0]
+        for weight, (dx, dv) in zip(weights, samples, strict=True):
+            x, v = x + dt * weight * dx, v + dt * weight * dv
+        return x, v
+
+    return model
+
+
+truth(
+    SAMPLES,
+    lambda *given: find_places(USUAL)(*take_accel(*given)),
+    describe_step,
+    {f"the position of k{n + 1}": [n] for n in range(4)},
+)
+
+
+def samples_lead_on(x: float, v: float, dt: float, accel: Accel) -> State:
+    place, speed = x, v
     for share, weight in ((0.5, 1), (0.5, 2), (1.0, 2), (0.0, 1)):
         dx, dv = speed, accel(place)
         x, v = x + dt / 6 * weight * dx, v + dt / 6 * weight * dv
@@ -330,27 +301,12 @@ def samples_lead_on(x: float, v: float, dt: float, force: Force) -> State:
     return x, v
 
 
-@known_8c("new-velocity-in-x")
-def new_velocity_in_x(x: float, v: float, dt: float, force: Force) -> State:
-    _, end = right_models[RK4](x, v, dt, force)
+def new_velocity_in_x(x: float, v: float, dt: float, accel: Accel) -> State:
+    _, end = exact.rk4(x, v, dt, accel)
     return x + end * dt, end
 
 
-known_8c("weights-are-swapped", weigh_samples(USUAL, (2 / 6, 1 / 6, 1 / 6, 2 / 6)), apart=True)
-known_8c("mean-of-both-ends", weigh_samples(WHOLE_STEPS, (1 / 2, 1 / 2, 0, 0)))
-known_8c(
-    "velocity-is-not-sampled",
-    weigh_samples(USUAL, RIGHT_WEIGHTS, tuple((before, 0.0) for before, _ in USUAL)),
-)
-known_8c(
-    "step-stays-halved",
-    lambda x, v, dt, force: weigh_samples(WHOLE_STEPS, RIGHT_WEIGHTS)(x, v, dt / 2, force),
-)
-
-
-@known_8c("three-eighths")
-def three_eighths(x: float, v: float, dt: float, force: Force) -> State:
-    accel = polynomial(force)
+def three_eighths(x: float, v: float, dt: float, accel: Accel) -> State:
     v1, a1 = v, accel(x)
     v2, a2 = v + dt * a1 / 3, accel(x + dt * v1 / 3)
     v3, a3 = v + dt * (a2 - a1 / 3), accel(x + dt * (v2 - v1 / 3))
@@ -358,81 +314,23 @@ def three_eighths(x: float, v: float, dt: float, force: Force) -> State:
     return x + dt / 8 * (v1 + 3 * v2 + 3 * v3 + v4), v + dt / 8 * (a1 + 3 * a2 + 3 * a3 + a4)
 
 
-# ---------------------------------------------------------------- a part left out, or typed in
+def led_by_acceleration(x: float, v: float, dt: float, accel: Accel) -> tuple[float, ...]:
+    """Return the positions of samples that move by the acceleration."""
+    places = [x]
+    for share in (0.5, 0.5, 1.0):
+        places.append(x + share * dt * accel(places[-1]))
+    return tuple(dict.fromkeys(places))
 
 
-TYPED = {"1/60": 1 / 60, "1/30": 1 / 30, "1/120": 1 / 120, "1/40": 1 / 40}
-for about, known in KNOWN.items():
-    for words, seconds in TYPED.items():
-        known(
-            f"step-of-{words.replace('/', '-')}",
-            lambda x, v, dt, force, about=about, seconds=seconds: right_models[about](
-                x, v, seconds, force
-            ),
-            meaning=f"Every step is taken to last {words} s; it lasts dt.",
-        )
-    known(
-        "velocity-returned-first",
-        lambda x, v, dt, force, about=about: right_models[about](x, v, dt, force)[::-1],
-        meaning="The pair is the wrong way round: return x first, then v.",
-    )
-    known(
-        "x-is-not-moved",
-        lambda x, v, dt, force, about=about: (x, right_models[about](x, v, dt, force)[1]),
-        meaning="x is returned unchanged: it must move.",
-    )
-    known(
-        "v-is-not-changed",
-        lambda x, v, dt, force, about=about: (right_models[about](x, v, dt, force)[0], v),
-        meaning="v is returned unchanged: the acceleration must change it.",
-    )
+def each_from_the_last(x: float, v: float, dt: float, accel: Accel) -> tuple[float, ...]:
+    """Return the positions of samples that each start from the sample before."""
+    places, slope = [x], v
+    for share in (0.5, 0.5, 1.0):
+        slope, place = v + share * dt * accel(places[-1]), places[-1] + share * dt * slope
+        places.append(place)
+    return tuple(dict.fromkeys(places))
 
 
-known_8a("moves-a-whole-second", semi_implicit_with(lambda a, dt: a * dt, lambda v, dt: v))
-known_8a(
-    "acceleration-has-the-wrong-sign",
-    semi_implicit_with(lambda a, dt: -a * dt, lambda v, dt: v * dt),
-)
-known_8a("velocity-is-not-used", semi_implicit_with(lambda a, dt: 0.0, lambda v, dt: v * dt))
-known_bend("square-is-missing-in-x")
-known_kick("step-is-missing-in-v")
-for (bend_name, bend), (kick_name, kick) in product(BENDS.items(), KICKS.items()):
-    known_8b(f"{bend_name}+{kick_name}", verlet_with(bend, kick))
-
-
-@known_8b("velocity-changes-twice")
-def velocity_changes_twice(x: float, v: float, dt: float, force: Force) -> State:
-    accel = polynomial(force)
-    begin = accel(x)
-    v += begin * dt
-    x += v * dt + begin * dt**2 / 2
-    return x, v + (begin + accel(x)) / 2 * dt
-
-
-@known_8b("speed-is-missing-in-x")
-def speed_is_missing_in_x(x: float, v: float, dt: float, force: Force) -> State:
-    accel = polynomial(force)
-    end = x + accel(x) * dt**2 / 2
-    return end, v + (accel(x) + accel(end)) / 2 * dt
-
-
-@known_8b(
-    "acceleration-of-the-velocity",
-    meaning="The second acceleration is that at v; accel is asked about the new x.",
-)
-def second_at_v(x: float, v: float, dt: float, force: Force) -> State:
-    accel = polynomial(force)
-    return parabola(x, v, dt, accel), v + (accel(x) + accel(v)) / 2 * dt
-
-
-# ---------------------------------------------------------------- 8c: other samples, other weights
-
-truth(
-    SAMPLES,
-    find_places(USUAL),
-    describe_step,
-    {f"the position of k{n + 1}": [n] for n in range(4)},
-)
 OTHER_SAMPLES: dict[str, tuple[Source, ...]] = {
     "second-sample-at-full-step": ((0, 1.0), (1, 0.5), (2, 1.0)),
     "third-sample-at-full-step": ((0, 0.5), (1, 1.0), (2, 1.0)),
@@ -443,6 +341,7 @@ OTHER_SAMPLES: dict[str, tuple[Source, ...]] = {
     "every-sample-from-the-first": ((0, 0.5), (0, 0.5), (0, 1.0)),
 }
 OTHER_WEIGHTS: dict[str, tuple[tuple[float, ...], ...]] = {
+    "weights-are-swapped": ((2 / 6, 1 / 6, 1 / 6, 2 / 6),),
     "equal-weights": ((1 / 4,) * 4, (1 / 6,) * 4),
     "sum-is-not-divided": ((1.0, 2.0, 2.0, 1.0),),
     "third-sample-counts-once": ((1 / 6, 2 / 6, 1 / 6, 1 / 6), (1 / 5, 2 / 5, 1 / 5, 1 / 5)),
@@ -455,98 +354,84 @@ OTHER_WEIGHTS: dict[str, tuple[tuple[float, ...], ...]] = {
         (1 / 4, 2 / 4, 1 / 4, 0.0),
     ),
 }
-for sample_name, sources in OTHER_SAMPLES.items():
-    known_samples(sample_name, find_places(sources))
-    known_8c(sample_name, weigh_samples(sources, RIGHT_WEIGHTS))
-for weight_name, many in OTHER_WEIGHTS.items():
-    known_8c(weight_name, *(weigh_samples(USUAL, weights) for weights in many), apart=True)
-
+RK4: Models = (
+    ("explicit-euler-again", explicit_euler),
+    ("midpoint-method", midpoint),
+    ("samples-lead-on", samples_lead_on),
+    ("new-velocity-in-x", new_velocity_in_x),
+    ("mean-of-both-ends", weigh_samples(WHOLE_STEPS, (1 / 2, 1 / 2, 0, 0))),
+    (
+        "velocity-is-not-sampled",
+        weigh_samples(USUAL, RIGHT_WEIGHTS, [(before, 0.0) for before, _ in USUAL]),
+    ),
+    (
+        "step-stays-halved",
+        lambda x, v, dt, a: weigh_samples(WHOLE_STEPS, RIGHT_WEIGHTS)(x, v, dt / 2, a),
+    ),
+    ("three-eighths", three_eighths),
+    *((name, weigh_samples(sources, RIGHT_WEIGHTS)) for name, sources in OTHER_SAMPLES.items()),
+    ("pairs-are-joined", lambda x, v, dt, a: (x + dt / 6 * v, v + dt / 6 * a(x))),
+)
+SUMS: Models = (
+    *(
+        (name, weigh_samples(USUAL, weights))
+        for name, some in OTHER_WEIGHTS.items()
+        for weights in some
+    ),
+    (
+        "sum-without-the-step",
+        lambda x, v, dt, a: weigh_samples(USUAL, [w / dt for w in RIGHT_WEIGHTS])(x, v, dt, a),
+    ),
+)
+PLACES_OF_SAMPLES: Models = (
+    *((name, find_places(sources)) for name, sources in OTHER_SAMPLES.items()),
+    ("acceleration-leads-to-the-places", led_by_acceleration),
+    ("each-sample-from-the-last-place", each_from_the_last),
+)
+register("8c", "rk4", RK4, take_accel, apart=False)  # x and v share the samples
+register("8c", "rk4", SUMS, take_accel)
+register("8c", SAMPLES, PLACES_OF_SAMPLES, take_accel)
 
 PLACES = ("first", "second", "third", "fourth")
 REACHES = {0.0: "at the start", 0.5: "half-way", 1.0: "at the end of the step"}
-for number, (before, reach) in enumerate(USUAL, 1):
-    for source, share in product(range(number), REACHES):
-        if (source != before) == (share != reach):
-            continue  # right, or two mistakes
-        told = (
-            f"of the {PLACES[number]} sample, k{number + 1}, is that {REACHES[share]}; it belongs "
-            f"{REACHES[reach]}."
-            if source == before
-            else f"of the {PLACES[number]} sample, k{number + 1}, starts from the "
-            f"{PLACES[source]}; it must use what the {PLACES[before]} one found."
-        )
-        other = (*USUAL[: number - 1], (source, share), *USUAL[number:])
-        name = f"k{number + 1}-from-k{source + 1}-at-{share:g}"
-        for part, places, speeds in (("position", other, USUAL), ("velocity", USUAL, other)):
-            words = f"The {part} {told}"
-            known_samples(f"{part}-of-{name}", find_places(places, speeds), meaning=words)
-            known_8c(
-                f"{part}-of-{name}", weigh_samples(places, RIGHT_WEIGHTS, speeds), meaning=words
-            )
 
 
+def list_other_sources() -> Iterator[tuple[str, str, str, Sources, Sources]]:
+    """Yield mistakes in one sample: a part of it, a name, the end of a sentence, and its sources.
+
+    The sources are those of the position, and those of the velocity.
+    """
+    for number, (before, reach) in enumerate(USUAL, 1):
+        for source, share in product(range(number), REACHES):
+            if (source != before) == (share != reach):
+                continue  # right, or two mistakes
+            words = f"of the {PLACES[number]} sample, k{number + 1}, "
+            if source == before:
+                words += f"is that {REACHES[share]}; it belongs {REACHES[reach]}."
+            else:
+                words += f"starts from the {PLACES[source]}; it must use what the {PLACES[before]}"
+                words += " one found."
+            other = (*USUAL[: number - 1], (source, share), *USUAL[number:])
+            name = f"of-k{number + 1}-from-k{source + 1}-at-{share:g}"
+            yield "position", name, words, other, USUAL
+            yield "velocity", name, words, USUAL, other
+
+
+for part, name, words, sources, speeds in list_other_sources():
+    name, words = f"{part}-{name}", f"The {part} {words}"
+    ways, step = find_places(sources, speeds), weigh_samples(sources, RIGHT_WEIGHTS, speeds)
+    mistake("8c", SAMPLES, name, words, lambda *given, ways=ways: ways(*take_accel(*given)))
+    mistake("8c", "rk4", name, words, from_force(step), apart=False)
 for number, (before, reach) in enumerate(USUAL, 1):
     other = (*USUAL[: number - 1], (number, reach), *USUAL[number:])
-    known_8c(
-        f"position-of-k{number + 1}-by-its-own-velocity",
-        weigh_samples(other, RIGHT_WEIGHTS, USUAL),
-        meaning=f"The position of the {PLACES[number]} sample, k{number + 1}, is moved by its own "
-        f"velocity; it must be moved by that of the {PLACES[before]} one.",
+    step = weigh_samples(other, RIGHT_WEIGHTS, USUAL)
+    words = (
+        f"The position of the {PLACES[number]} sample, k{number + 1}, is moved by its own "
+        f"velocity; it must be moved by that of the {PLACES[before]} one."
     )
+    name = f"position-of-k{number + 1}-by-its-own-velocity"
+    mistake("8c", "rk4", name, words, from_force(step), apart=False)
 
-
-@known_8c("pairs-are-joined")
-def pairs_are_joined(x: float, v: float, dt: float, force: Force) -> State:
-    return x + dt / 6 * v, v + dt / 6 * polynomial(force)(x)
-
-
-def led_by_acceleration(x: float, v: float, dt: float, force: Force) -> tuple[float, ...]:
-    """Return the positions of samples that move by the acceleration."""
-    accel, places = polynomial(force), [x]
-    for share in (0.5, 0.5, 1.0):
-        places.append(x + share * dt * accel(places[-1]))
-    return tuple(dict.fromkeys(places))
-
-
-def each_from_the_last(x: float, v: float, dt: float, force: Force) -> tuple[float, ...]:
-    """Return the positions of samples that each start from the sample before."""
-    accel, places, slope = polynomial(force), [x], v
-    for share in (0.5, 0.5, 1.0):
-        slope, place = v + share * dt * accel(places[-1]), places[-1] + share * dt * slope
-        places.append(place)
-    return tuple(dict.fromkeys(places))
-
-
-known_samples("acceleration-leads-to-the-places", led_by_acceleration)
-known_samples("each-sample-from-the-last-place", each_from_the_last)
-
-
-# ---------------------------------------------------------------- a factor too much
-
-FACTORS = (("half", "half of", 0.5), ("twice", "twice", 2.0), ("opposite", "the opposite of", -1.0))
-for name, words, factor in FACTORS:
-    known_8a(
-        f"{name}-the-way",
-        semi_implicit_with(drift_by(1.0), drift_by(factor)),
-        meaning=f"x moves by {words} v * dt; it moves by v * dt, with the new v.",
-    )
-    if factor != 2.0:  # twice as much is half too little
-        known_8b(
-            f"{name}-the-bend",
-            verlet_with(bend_by(factor), kick_by(1.0)),
-            meaning=f"x bends by {words} a * dt² / 2; it bends by a * dt² / 2, with the old a.",
-        )
-        known_8b(
-            f"{name}-the-mean",
-            verlet_with(bend_by(1.0), kick_by(factor)),
-            meaning=f"v changes by {words} the mean of both accelerations * dt; it is that mean "
-            "* dt.",
-        )
-
-
-@known_8c("sum-without-the-step", apart=True)
-def sum_without_the_step(x: float, v: float, dt: float, force: Force) -> State:
-    samples = take_samples(x, v, dt, force, USUAL)[0]
-    for weight, (dx, dv) in zip(RIGHT_WEIGHTS, samples, strict=True):
-        x, v = x + weight * dx, v + weight * dv
-    return x, v
+for todo, (about, right) in METHODS.items():
+    for name, words, step in list_common(right):
+        mistake(todo, about, name, words, from_force(step))

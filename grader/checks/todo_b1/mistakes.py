@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Collection
 
-from grader.checks.mistakes import known_in
+from grader.checks.mistakes import Models, register
 from grader.checks.todo_b1.checks import (
     AFTER_A_HIT,
     AFTER_A_PUSH,
@@ -35,8 +35,6 @@ RIGHT = dict.fromkeys(AWAKE, False) | dict.fromkeys(ASLEEP, True)
 
 truth("sleep", RIGHT.__getitem__)
 
-known = known_in("B1", "sleep")
-
 
 def wrong_at(*moments: str, unsure: Collection[str] = ()) -> Callable[[str], bool]:
     """Return the wrong answer at these moments, and perhaps at the unsure ones."""
@@ -49,17 +47,21 @@ def wrong_at(*moments: str, unsure: Collection[str] = ()) -> Callable[[str], boo
     return model
 
 
-known("sleeps-too-soon", wrong_at(AT_FIRST, unsure=(*ANEW, *LEFT, *HIT)))
-known("sleeps-at-the-top-of-a-throw", wrong_at(FLYING, unsure=(AFTER_THE_AIR,)))
-known("sleeps-while-it-spins", wrong_at(SPINNING))
-known("sleeps-on-its-rod", wrong_at(*HELD))
-known("the-time-never-begins-anew", wrong_at(AFTER_A_PUSH, unsure=(AFTER_THE_AIR,)))
-known("sleeps-through-a-hit", wrong_at(*HIT))
-known("one-hit-wakes-all", wrong_at(ANOTHER_HIT))
-known(
-    "floats-when-its-support-leaves", wrong_at(FLOOR_GONE, CARRIED_AWAY, unsure=(ONE_OF_TWO_GONE,))
+MODELS: Models = (
+    ("sleeps-too-soon", wrong_at(AT_FIRST, unsure=(*ANEW, *LEFT, *HIT))),
+    ("sleeps-at-the-top-of-a-throw", wrong_at(FLYING, unsure=(AFTER_THE_AIR,))),
+    ("sleeps-while-it-spins", wrong_at(SPINNING)),
+    ("sleeps-on-its-rod", wrong_at(*HELD)),
+    ("the-time-never-begins-anew", wrong_at(AFTER_A_PUSH, unsure=(AFTER_THE_AIR,))),
+    ("sleeps-through-a-hit", wrong_at(*HIT)),
+    ("one-hit-wakes-all", wrong_at(ANOTHER_HIT)),
+    (
+        "floats-when-its-support-leaves",
+        wrong_at(FLOOR_GONE, CARRIED_AWAY, unsure=(ONE_OF_TWO_GONE,)),
+    ),
+    ("an-awake-neighbour-wakes", wrong_at(IN_TURN, unsure=(AT_REST, CHEAP, *LEFT))),
+    ("never-wakes", wrong_at(*HIT, *LEFT)),
+    ("a-static-body-sleeps", wrong_at(STATIC, unsure={*RIGHT} - {STATIC})),
+    ("sleeps-at-once", wrong_at(AT_FIRST, unsure={*RIGHT} - {AT_FIRST})),
 )
-known("an-awake-neighbour-wakes", wrong_at(IN_TURN, unsure=(AT_REST, CHEAP, *LEFT)))
-known("never-wakes", wrong_at(*HIT, *LEFT))
-known("a-static-body-sleeps", wrong_at(STATIC, unsure={*RIGHT} - {STATIC}))
-known("sleeps-at-once", wrong_at(AT_FIRST, unsure={*RIGHT} - {AT_FIRST}))
+register("B1", "sleep", MODELS)

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from itertools import product
 
 from grader.checks.exact import Disc, Rect
-from grader.checks.mistakes import known_in
+from grader.checks.mistakes import Models, register
 from grader.judge.explain.misconceptions import always, truth
 
 CELL = 48.0  # px; for another size, no mistake is named
@@ -17,8 +17,6 @@ Model = Callable[[Sequence[Disc], Sequence[Rect], Pairs], Pairs]
 
 truth("contacts", lambda balls, boxes, touching: touching)
 truth("comparison of all", always(False))
-
-known = known_in("B3", "contacts")
 
 
 def grid(cells_of: Callable[[Bounds], Cells]) -> Model:
@@ -63,22 +61,11 @@ def cells_of_two_corners(bounds: Bounds) -> Cells:
     return {(left, top), (right, bottom)}
 
 
-known("forgets-the-last-cell", grid(lambda bounds: cells(bounds, beyond=0)))
-known(
-    "nothing-left-of-zero",
-    grid(lambda bounds: {(x, y) for x, y in cells(bounds) if x >= 0 and y >= 0}),
-)
-known("only-the-cell-of-the-centre", grid(cell_of_the_centre))
-known("only-the-cells-of-the-corners", grid(cells_of_the_corners), grid(cells_of_two_corners))
-
-
-@known("a-pair-once-per-cell")
-def a_pair_once_per_cell(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
+def once_per_cell(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
     within = [cells(each) for each in all_bounds(balls, boxes)]
     return [(a, b) for a, b in touching for _ in within[a] & within[b]]
 
 
-@known("only-the-nearest")
 def only_the_nearest(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
     places = [(each[0], each[1]) for each in (*balls, *boxes)]
     numbers = range(len(places))
@@ -90,12 +77,25 @@ def only_the_nearest(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pai
     return [(a, b) for a, b in touching if nearest_of[a] == b or nearest_of[b] == a]
 
 
-known("a-pair-in-both-orders", lambda balls, boxes, touching: sorted([*touching, *touching]))
-known(
-    "boxes-are-left-out",
-    lambda balls, boxes, touching: [pair for pair in touching if max(pair) < len(balls)],
-)
-known("no-pair-that-touches", lambda balls, boxes, touching: [])
+def only_of_balls(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
+    return [pair for pair in touching if max(pair) < len(balls)]
 
+
+MODELS: Models = (
+    ("forgets-the-last-cell", grid(lambda bounds: cells(bounds, beyond=0))),
+    (
+        "nothing-left-of-zero",
+        grid(lambda bounds: {each for each in cells(bounds) if min(each) >= 0}),
+    ),
+    ("only-the-cell-of-the-centre", grid(cell_of_the_centre)),
+    ("only-the-cells-of-the-corners", grid(cells_of_the_corners)),
+    ("only-the-cells-of-the-corners", grid(cells_of_two_corners)),
+    ("a-pair-once-per-cell", once_per_cell),
+    ("only-the-nearest", only_the_nearest),
+    ("a-pair-in-both-orders", lambda balls, boxes, touching: sorted([*touching, *touching])),
+    ("boxes-are-left-out", only_of_balls),
+    ("no-pair-that-touches", lambda balls, boxes, touching: []),
+)
+register("B3", "contacts", MODELS)
 # Last, since it does not explain lost contacts: another mistake may.
-known_in("B3", "comparison of all")("compares-all-pairs", always(True))
+register("B3", "comparison of all", [("compares-all-pairs", always(True))])

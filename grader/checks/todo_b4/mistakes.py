@@ -5,33 +5,33 @@ is away again). Other pairs: two balls, a ball and the ledge, a box and a peg. T
 new space, after hits in another.
 """
 
-from grader.checks.mistakes import known_in
+from grader.checks.mistakes import Models, register
 from grader.judge.explain.misconceptions import Undecided, always, truth
 
 truth("hits", lambda what, steps: int(what != "leave"))
 truth("others", always([0, 0, 0]))
 truth("afresh", always(0))
 
-known_hits = known_in("B4", "hits")
-known_others = known_in("B4", "others")
-
-known_others(
-    "counts-what-balls-hit",
-    always([2, 1, 0]),  # a touch of two balls is one of each
+OTHERS: Models = (
+    ("counts-what-balls-hit", always([2, 1, 0])),  # a touch of two balls is one of each
+    ("counts-what-hits-pegs", always([0, 0, 1])),
+    ("counts-every-touch", always([1, 1, 1])),
+    ("counts-between-balls", always([1, 0, 0])),
 )
-known_others("counts-what-hits-pegs", always([0, 0, 1]))
-known_others("counts-every-touch", always([1, 1, 1]))
-known_others("counts-between-balls", always([1, 0, 0]))
-known_hits("counts-nothing", always(0))
+register("B4", "others", OTHERS)
 
 
-@known_hits("counts-every-step")
-def counts_every_step(what: str, steps: int) -> int:
+def count_every_step(what: str, steps: int) -> int:
     if what == "throw":  # the touch may last a step or two
         raise Undecided
     return steps if what == "touch" else 0
 
 
-known_hits("counts-when-they-part", lambda what, steps: int(what != "touch"))
-known_hits("soft-touches-are-left-out", lambda what, steps: int(what == "throw"))
-known_in("B4", "afresh")("one-counter-for-all-spaces", lambda before: before)
+HITS: Models = (
+    ("counts-nothing", always(0)),
+    ("counts-every-step", count_every_step),
+    ("counts-when-they-part", lambda what, steps: int(what != "touch")),
+    ("soft-touches-are-left-out", lambda what, steps: int(what == "throw")),
+)
+register("B4", "hits", HITS)
+register("B4", "afresh", [("one-counter-for-all-spaces", lambda before: before)])

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from grader.checks.mistakes import known_in
+from grader.checks.mistakes import Models, register
 from grader.checks.todo_b6.checks import CLICKS
 from grader.judge.explain.misconceptions import always, truth
 
@@ -18,17 +18,18 @@ LEFT, RIGHT = "left shift", "right shift"
 
 truth("heaviness", heavy_where(lambda keys: LEFT in keys or RIGHT in keys))
 
-known = known_in("B6", "heaviness")
-
-known("always-heavy", heavy_where(lambda keys: True))
-known("only-the-left-shift", heavy_where(lambda keys: LEFT in keys))
-known("only-the-right-shift", heavy_where(lambda keys: RIGHT in keys))
-known("both-shifts-at-once", heavy_where(lambda keys: keys == {LEFT, RIGHT}))
-known("nothing-else-held", heavy_where(lambda keys: keys in ({LEFT}, {RIGHT}, {LEFT, RIGHT})))
-known("any-modifier", heavy_where(bool))
-known("heavy-without-shift", heavy_where(lambda keys: LEFT not in keys and RIGHT not in keys))
-known("shift-does-not-count", heavy_where(lambda keys: False))
-known(
-    "control-for-shift",
-    always([HEAVY if "ctrl" in keys else 1.0 for keys, _ in CLICKS[:-1]] + [1.0]),
+MODELS: Models = (
+    ("always-heavy", heavy_where(lambda keys: True)),
+    ("only-the-left-shift", heavy_where(lambda keys: LEFT in keys)),
+    ("only-the-right-shift", heavy_where(lambda keys: RIGHT in keys)),
+    ("both-shifts-at-once", heavy_where(lambda keys: keys == {LEFT, RIGHT})),
+    ("nothing-else-held", heavy_where(lambda keys: keys in ({LEFT}, {RIGHT}, {LEFT, RIGHT}))),
+    ("any-modifier", heavy_where(bool)),
+    ("heavy-without-shift", heavy_where(lambda keys: LEFT not in keys and RIGHT not in keys)),
+    ("shift-does-not-count", heavy_where(lambda keys: False)),
+    (
+        "control-for-shift",
+        always([HEAVY if "ctrl" in keys else 1.0 for keys, _ in CLICKS[:-1]] + [1.0]),
+    ),
 )
+register("B6", "heaviness", MODELS)
