@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 class WorldState(Listeners):
     """The world as effects know it: its bodies, and the effects that the scene declares."""
 
-    __slots__ = ()
+    __slots__ = ("awake", "bodies", "effects", "g", "statics", "substep_count")
 
     g: tuple[float, float]  # px/s²
     substep_count: int

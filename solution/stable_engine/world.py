@@ -28,8 +28,8 @@ class World(WorldState):
     """
 
     __slots__ = (
-        *("lengths", "substep_count", "g", "bodies", "awake", "statics", "added", "effects"),
-        *("unchecked", "warned", "forces", "detect_hooks", "impact_hooks", "prepare_hooks"),
+        *("lengths", "added", "unchecked", "warned", "forces"),
+        *("detect_hooks", "impact_hooks", "prepare_hooks"),
         *("force_hooks", "warm_start_hooks", "solve_hooks", "relax_hooks", "finish_hooks"),
         *("tell_hooks", "coast_hooks", "static_moved_hooks", "body_moved_hooks"),
         *("body_changed_hooks", "lighter_hooks", "forget_hooks"),
