@@ -296,15 +296,6 @@ def test_reports_go_into_a_folder_and_through_no_link(tmp_path: Path):
 # ---------------------------------------------------------------- elsewhere, and the policy
 
 
-def test_reports_do_not_mix_with_what_a_submission_brings(tmp_path: Path):
-    checkout = checkout_of("starter", tmp_path)
-    (checkout / "report").mkdir()
-    (checkout / "report" / "marks.html").write_text("100 of 100")
-    done = start_grader("grade", checkout, "--ci", checkout / "report", COLUMNS="200")
-    assert done.returncode == 2 and "report is there already" in done.stderr
-    assert len(list((checkout / "report").iterdir())) == 1
-
-
 @pytest.mark.soak
 def test_gitlab_gets_the_files_and_no_command_of_github(tmp_path: Path):
     checkout = checkout_of("starter", tmp_path)
@@ -315,19 +306,6 @@ def test_gitlab_gets_the_files_and_no_command_of_github(tmp_path: Path):
     assert done.returncode == 1 and "::" not in done.stdout
     assert (tmp_path / "report" / "summary.md").read_text().startswith("## ben: 0 of 2 points")
     assert ci_readers.junit_cases((tmp_path / "report" / "junit.xml").read_bytes())
-
-
-@pytest.mark.soak
-def test_a_folder_of_the_repository_is_named_in_the_annotations(tmp_path: Path):
-    checkout = checkout_of("solution", tmp_path)
-    make_mistake("8c-equal-weights", checkout)
-    done = start_grader(
-        *("grade", checkout, "--ci", tmp_path / "report", "--todo", "8c"),
-        GITHUB_ACTIONS="true",
-        GITHUB_WORKSPACE=str(tmp_path),
-    )
-    ((_, held, _),) = ci_readers.commands_in(done.stdout)
-    assert held["file"] == "work/integrators.py"
 
 
 @pytest.mark.parametrize(

@@ -103,6 +103,7 @@ export csv empty
 export junit list.csv
 export html results/ann.json --out class
 check --todo 99
+check class/ann class/ben
 check --course bad.toml
 hand-in --out class
 hint
