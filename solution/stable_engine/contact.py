@@ -21,7 +21,7 @@ class Contact:
     """
 
     __slots__ = (
-        *("a", "b", "nx", "ny", "found", "gap", "reach", "jn", "jt", "mn", "mt", "mu", "e", "push"),
+        *("a", "b", "nx", "ny", "found", "gap", "reach", "jn", "jt", "mn", "mt", "mu", "e", "load"),
         *("ax", "ay", "bx", "by", "tax", "tay", "aw", "tbx", "tby", "bw", "arm_a", "arm_b"),
     )
 
@@ -33,12 +33,12 @@ class Contact:
         self.gap = 0.0  # px, the gap to be solved for: Bounce lets those that part just touch
         self.reach = 0.0  # px
         self.jn = 0.0  # kg px/s, accumulated normal impulse, never negative
+        self.load = 0.0  # kg px/s, the part of jn that lasts, see Contacts.prepare
         self.jt = 0.0  # kg px/s, accumulated friction impulse
         self.mn = 1 / (a.inv_mass + b.inv_mass)  # kg, effective mass along the normal
         self.mt = 0.0  # kg, effective mass along the tangent, filled in by Friction
         self.mu = 0.0  # friction of the pair, filled in by Friction
         self.e = 0.0  # restitution of the pair, filled in by Bounce
-        self.push = 0.0  # px/s, overlap is pushed out no faster
         self.ax = self.ay = self.bx = self.by = 0.0  # 1/kg, along the normal
         self.tax = self.tay = self.tbx = self.tby = 0.0  # 1/kg, along the tangent
         self.aw = self.bw = 0.0  # 1/(kg px), of the spins

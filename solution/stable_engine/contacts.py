@@ -12,7 +12,8 @@ from .sweep import NO_HIT, first_hit, moment_of_touch, stop_at_first_hit
 from .validate import refuse
 
 FREQUENCY = 0.24  # of a contact of two balls, per substep; against a static body it is doubled
-DAMPING_RATIO = 10.0  # so high that overlap is pushed out without a bounce
+LEAST_DAMPING = 10.0  # ratio, so high that overlap is pushed out without a bounce
+SUBSTEP_DAMPING = 2.5  # ratio, per substep of a step: see Contacts.prepare
 STIFFENING = 0.07  # of a substep, per step
 # lengths are in units of the world, see World.unit
 RESTING_SPEED = 30.0  # 1/s, a slower impact does not bounce
@@ -21,6 +22,7 @@ CORE = 0.5  # radii
 FAR = 0.125  # of both radii; two balls that come closer by more in a step may have passed
 CORNER_PASSES = 4  # of keeping cores out: put back from one static body, a ball may meet another
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
+PARTED = 0.3  # of an overlap, by which balls in a crowd are put apart in a step
 TOUCHING = 1e-6  # bodies that are no further apart touch, but for what numbers are rounded to
 MOST_BODIES = 2**30  # and no id is larger
 REDETECT_DISTANCE = 1e-4  # contacts stay valid until a body has moved further
@@ -68,6 +70,7 @@ class Contacts(Effect):
         self.last_dt = 0.0  # s, of the step before
         self.flown: dict[Body, float] = {}  # s, how long a ball flew before it was stopped
         self.broad_phase = BroadPhase()
+        self.crowd: dict[Contact, None] = {}  # of balls that are put apart
         self.near: list[Body] = []  # can move, and are near others
         self.alone: list[Body] = []  # can move, and are near nobody
         self.beside_static: list[Body] = []  # balls that are near static bodies
@@ -133,12 +136,7 @@ class Contacts(Effect):
         touching: list[Contact] = []
         balls: list[Contact] = []
         statics: list[Contact] = []
-        deep: list[Contact] = []
-        slow, touching_gap, push = (
-            SPECULATIVE_SPEED * self.world.unit,
-            self.touching_gap,
-            self.max_push_speed,
-        )
+        slow, touching_gap = SPECULATIVE_SPEED * self.world.unit, self.touching_gap
         margin, slow2 = slow * dt, slow * slow
         back = self.last_dt if self.lets_none_pass else 0.0
         for pair in self.broad_phase.pairs:
@@ -168,20 +166,18 @@ class Contacts(Effect):
                 nx, ny, gap = the_way_it_came(c, nx, ny, gap)
             if nx * c.nx + ny * c.ny < SAME_DIRECTION:
                 c.jn = c.jt = 0.0
-            c.nx, c.ny, c.gap, c.found, c.push = nx, ny, gap, gap, push
+            c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
             touching.append(c)
             if b.inv_mass:
                 balls.append(c)
+                if gap < -a.r or gap < -b.r:
+                    self.crowd[c] = None
             else:
                 statics.append(c)
-            if gap < -a.r or gap < -b.r < 0:
-                deep.append(c)
         self.touching, self.balls.contacts, self.statics.contacts = touching, balls, statics
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
         if self.unpaired:
             self.end_unpaired()
-        if len(deep) > 1:
-            share_push(deep, push)
 
     def find_contact(self, a: Body, b: Body, nx: float, ny: float) -> Contact:
         """Return the contact that two bodies had, or a new one, with this normal.
@@ -242,14 +238,23 @@ class Contacts(Effect):
         self.broad_phase.bounds = []
 
     def prepare(self, h: float) -> None:
+        """Choose the stiffness of contacts by the substep, and their damping by the step.
+
+        A step lets balls overlap by their way in it, however short its substeps are. More damping
+        takes more time to push that out. Were it pushed out in a few substeps, a pile would get
+        energy from it: the less time that is, the more.
+        """
         if h != self.h:
             self.keep_forces(h)
         hertz = FREQUENCY / self.pace.follow(h)
+        damping = max(LEAST_DAMPING, SUBSTEP_DAMPING * self.world.substep_count)
         for group in self.groups:
             rate = hertz if group.moves_b else 2 * hertz
-            group.bias_rate, group.mass_scale = softness(rate, DAMPING_RATIO, h)
+            group.bias_rate, group.mass_scale = softness(rate, damping, h)
         if not self.changed:
             return
+        if self.crowd:
+            self.gather_crowd()
         for c in self.touching:
             a, b, nx, ny = c.a, c.b, c.nx, c.ny
             c.ax, c.ay = nx * a.inv_mass, ny * a.inv_mass
@@ -278,6 +283,7 @@ class Contacts(Effect):
                     b.vy += c.by * jn
 
     def solve(self, h: float) -> None:
+        most = -self.max_push_speed
         for group in self.groups:
             moves_b, bias_rate, mass_scale = group.moves_b, group.bias_rate, group.mass_scale
             for c in group.contacts:
@@ -290,8 +296,8 @@ class Contacts(Effect):
                     jn = before - mn * (speed + gap / h)
                 else:
                     push = bias_rate * gap
-                    if push < -c.push:
-                        push = -c.push
+                    if push < most:
+                        push = most
                     jn = mass_scale * (before - mn * speed) - mn * push
                 if jn < 0:
                     jn = 0.0
@@ -333,6 +339,8 @@ class Contacts(Effect):
 
         The core is half as wide as the ball, so that one that slides is not held up at a seam.
         """
+        if self.crowd:
+            self.part_crowd(h * self.world.substep_count)
         self.begun = []
         self.flown, self.last_dt = {}, h * self.world.substep_count
         leavers = [one.body for one in self.broad_phase.find_leavers(self.last_dt)]
@@ -349,6 +357,34 @@ class Contacts(Effect):
                 break
             for body in dict.fromkeys(put_back):
                 self.stop_core(body, h)
+
+    def gather_crowd(self) -> None:
+        """Have balls in a crowd touch and no more, and those that they meet join it."""
+        members = {body for c in self.crowd for body in (c.a, c.b)}
+        for c in self.begun:
+            if not (c.b.is_static or members.isdisjoint((c.a, c.b))):
+                self.crowd[c] = None
+        for c in self.crowd:
+            c.gap = max(c.gap, self.touching_gap)
+
+    def part_crowd(self, dt: float) -> None:
+        """Put balls apart of which one had its centre in another, and those they meet by that.
+
+        They get no speed. Pushed apart, many balls in one place would keep some, as no pass over
+        their contacts takes all of it away again: energy that nothing has given.
+        """
+        deepest = 0.0
+        for c in self.crowd:
+            a, b = c.a, c.b
+            nx, ny, gap = collide(a, b)
+            deepest = max(deepest, -gap)
+            way = c.mn * min(max(-PARTED * gap, 0.0), self.max_push_speed * dt)
+            a.x -= nx * way * a.inv_mass
+            a.y -= ny * way * a.inv_mass
+            b.x += nx * way * b.inv_mass
+            b.y += ny * way * b.inv_mass
+        if deepest < REDETECT_DISTANCE * self.world.unit:
+            self.crowd = {}
 
     def stop_core(self, body: Body, h: float) -> None:
         """Stop a ball that has gone further than its radius where its core met a static body."""
@@ -473,6 +509,7 @@ class Contacts(Effect):
         """Drop all contacts that have A and B: they are not told of as parted."""
         ends = {a, b}
         self.touching = [c for c in self.touching if not ends <= {c.a, c.b}]
+        self.crowd = {c: None for c in self.crowd if not ends <= {c.a, c.b}}
         self.unpaired = {n: c for n, c in self.unpaired.items() if not ends <= {c.a, c.b}}
         self.broad_phase.bounds = []
 
@@ -499,20 +536,6 @@ def in_touch(body: Body, contacts: list[Contact]) -> set[Body]:
         found.update(near)
         ahead += near
     return found
-
-
-def share_push(deep: list[Contact], push: float) -> None:
-    """Push the slower, the more of these contacts a ball has: those with a centre in the other.
-
-    Many balls in one place cannot part along all normals at once. Each would be pushed by all.
-    """
-    crowd: dict[Body, int] = {}
-    for c in deep:
-        for body in (c.a, c.b):
-            crowd[body] = crowd.get(body, 0) + 1
-    for c in deep:
-        if not c.b.is_static:
-            c.push = push / max(crowd[c.a], crowd[c.b])
 
 
 def pair_number(a: Body, b: Body) -> int:

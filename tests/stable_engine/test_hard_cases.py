@@ -10,12 +10,12 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from samples import sample
-from worlds_for_tests import build, dumbbell
+from worlds_for_tests import balls, build, dumbbell
 
 from experiments.engines import Stable
 from experiments.engines.contestants import Contestant
 from experiments.leaderboard import ask, holds
-from experiments.measures import energy, run, speed, watch
+from experiments.measures import deepest_overlap, energy, run, speed, top_speed, watch
 from experiments.rows import list_rows
 from experiments.rows.reasons import find_reason
 from experiments.scenes import (
@@ -27,7 +27,9 @@ from experiments.scenes import (
     Spring,
     chain,
     closed_box,
+    coincident,
     drop,
+    pile,
     rammer,
     shot,
     wild_box,
@@ -71,6 +73,24 @@ def test_a_normal_that_turned_takes_no_impulse_along():
     world.effects["Contacts"].detect(H)
     assert contact.normal.x == pytest.approx(-1)
     assert (contact.jn, contact.jt) == (0, 0)
+
+
+def test_a_pile_comes_to_rest_with_many_substeps_too():
+    """Contacts without restitution take energy away; nothing gives any."""
+    world = build(pile(20, 120.0), substeps=48)
+    run(world, 4)
+    assert sum(ball.m * speed(ball) ** 2 / 2 for ball in balls(world)) < 0.5 * 1.0**2  # 1 kg
+
+
+@pytest.mark.parametrize("count", [3, 10, 30])
+def test_balls_in_one_place_part_and_get_no_speed(count):
+    """Nothing that rests in the same place has energy to give."""
+    engine = Stable(coincident(count))
+    assert max(watch(engine, 2, lambda: top_speed(engine))) < 1e-9
+    assert deepest_overlap(engine) < 0.01
+    xs, ys = ([getattr(body, axis) for body in engine.bodies] for axis in "xy")
+    assert max(xs) - min(xs) > 10 < max(ys) - min(ys)
+    assert sum(xs) == pytest.approx(0, abs=1e-9) == sum(ys)
 
 
 # ---------------------------------------------------------------- steps that vary
