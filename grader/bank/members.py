@@ -26,8 +26,9 @@ To read the report of a wrong member, put its code into a copy of the solution a
 A member of `wrong/whole.toml` breaks a promise of the lesson in given code, by `files`. The program
 as a whole must lose points; only the TODOs in `also` may lose some.
 
-A right member must get every point. Where it differs from the solution in one TODO, add a table to
-`right/TODO.toml`, with `why`, and `change` or `code`. The other members:
+Right and hostile members lose exactly what `loses` names: TODOs, checks of them, or "everything".
+By default it names nothing. Where a right member differs from the solution in one TODO, add a table
+to `right/TODO.toml`, with `why`, and `change` or `code`. The other members:
 
 - `right/NAME.py` and `hostile/NAME.py` hold regions that take the place of the solution's.
 - `right/NAME.toml` and `hostile/NAME.toml` edit a whole tree: `base` is the tree or right member to
@@ -38,8 +39,8 @@ A right member must get every point. Where it differs from the solution in one T
 - `right/NAME/` and `hostile/NAME/` hold files to add or replace, beside or without a NAME.toml. A
   mini_engine.py there replaces the package.
 - `hostile/8a.toml` holds attacks in TODO 8a: `code`, or `tries` if the answer is right unless the
-attack raises OSError. They get 98 points, all but those of TODO 8a, or their `points`.
-  With the `numbers` of a system call on x86_64 and aarch64, `tries` can `call(number, ...)` it.
+  attack raises OSError. They lose TODO 8a unless `loses` names something else. With the `numbers`
+  of a system call on x86_64 and aarch64, `tries` can `call(number, ...)` it.
 - `bank.toml` has the marks of members without a TOML.
 - `ladders/TODO.toml` holds the rungs of a ladder, lowest first (see ladders.py).
 """
@@ -126,7 +127,7 @@ class Entry(Variant, frozen=True):
     copy: dict[str, str] = {}  # new file, old file
     everywhere: str = ""  # code for every TODO
     transform: str = ""
-    points: int | None = None  # exact points; None: all of them
+    loses: tuple[str, ...] = ()  # TODOs and checks without points, or "everything"
     single_file: bool = True  # a wrong member is graded as a single file as well
     seconds: int = 120  # the longest time it may take; a limit on harm, not a score
 
@@ -155,7 +156,7 @@ class Wrong(Entry, frozen=True):
 class Attack(Entry, frozen=True):
     """A hostile member that attacks in the region of TODO 8a."""
 
-    points: int | None = 98
+    loses: tuple[str, ...] = (ATTACKED,)
     tries: str = ""  # imports, an empty line, and code that must raise OSError
     numbers: tuple[int, int] | None = None  # of the system call that `tries` makes
 
@@ -302,15 +303,29 @@ class Member:
             if unharmed:
                 return f"TODO {', '.join(unharmed)} loses nothing"
             return f"TODO {', '.join(others)} must not lose anything" if others else ""
-        points = result.max_points if self.entry.points is None else self.entry.points
-        begun = {todo.id for todo in result.todos if todo.state != "not started"} | self.todos
-        if self.entry.points is None and any(map(is_bonus, set(lost) & begun)):
-            return f"not the whole bonus; lost: {lost}"
-        if result.points != points:
-            return f"{result.points} points instead of {points}; lost: {lost}"
+        if wrong := self.compare_losses(result):
+            return wrong
         if seconds > self.entry.seconds:
             return f"took {seconds:.0f} s, more than {self.entry.seconds} s"
         return ""
+
+    def compare_losses(self, result: Result) -> str:
+        """Return the checks that wrongly lose or keep their points; empty if there are none.
+
+        A bonus task that the member does not begin is not asked for.
+        """
+        lost, meant = set(), set()
+        for todo in result.todos:
+            if todo.bonus and todo.state == "not started" and todo.id not in self.todos:
+                continue
+            for check in todo.checks:
+                if check.points < check.max_points:
+                    lost.add(f"{todo.id}: {check.id}")
+                if not {"everything", todo.id, check.id}.isdisjoint(self.entry.loses):
+                    meant.add(f"{todo.id}: {check.id}")
+        if wrongly := sorted(lost - meant):
+            return f"must not lose {', '.join(wrongly)}"
+        return f"must lose {', '.join(sorted(meant - lost))}" if meant > lost else ""
 
     def compare_name(self, result: Result) -> Literal["right", "wrong", "none"]:
         """Return how the report names the mistake of a wrong member."""

@@ -199,7 +199,7 @@ def judge_states(
 
 def list_trees(course: Course = FULL) -> list[Member]:
     """Return the shipped trees as members: all points, and none."""
-    nothing = Entry(base="starter", points=0)
+    nothing = Entry(base="starter", loses=("everything",))
     return [
         Member("right", "solution", "package", Entry(), None, course),
         Member("hostile", "starter", "package", nothing, None, course),

@@ -31,7 +31,7 @@ from grader.bank.verify import (
     summarize,
 )
 from grader.judge.task import KIT
-from grader.judge.result import Result, TodoResult
+from grader.judge.result import CheckResult, Result, TodoResult
 
 RIGHT = Result(1, "ann", 100, 100, 16, [], [])
 BANK = [Member("right", name, "package", Entry(), None) for name in ("a", "b", "c", "d")]
@@ -94,7 +94,9 @@ def test_a_complaint_is_looked_into_again(tmp_path: Path, graded_names: list[str
 
 
 def test_marks_that_are_no_longer_the_right_ones_are_not_taken_over(tmp_path: Path, graded_names):
-    Store(tmp_path).write(BANK[0], 1.0, Result(1, "ann", 99, 100, 0, [], []))
+    failed = CheckResult("falls", "It falls", "unit", "not yet", 0, 1)
+    todo = TodoResult("5", "Damping", "not yet", 0, 1, None, [failed])
+    Store(tmp_path).write(BANK[0], 1.0, replace_in(RIGHT, todos=[todo]))
     (verdict,) = judge_members(BANK[:1], 1, Store(tmp_path), fresh=False)
     assert graded_names == ["a"] and verdict.result == RIGHT
     list(judge_members(BANK[:1], 1, Store(tmp_path), fresh=True))
@@ -125,7 +127,7 @@ def test_all_that_decides_about_marks_is_in_the_key(
     member = Member("wrong", "5-x", "package", Entry(), source)
     usual = make_key(member)
     assert make_key(replace(member, form="single file")) != usual
-    assert make_key(replace(member, entry=Entry(points=98))) != usual
+    assert make_key(replace(member, entry=Entry(loses=("5",)))) != usual
     source.write_text("# TODO 5: damp\n\n# END TODO 5\n", encoding="utf-8")
     assert make_key(member) != usual
     rest = store.hash_surroundings.__wrapped__
