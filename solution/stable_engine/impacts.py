@@ -1,7 +1,7 @@
 """Impacts: which come first, which come together, and where the bodies are afterwards."""
 
 from collections.abc import Callable
-from math import hypot
+from math import cos, hypot, sin
 
 from .body import Body
 from .contact import Contact, collide
@@ -14,6 +14,7 @@ SETTLINGS = 3  # each may make impacts due once more
 TURNS = 5  # of normal impulses and friction, where bodies stay together
 PASSES = 200  # of the solver for impacts at one moment
 WORK = 4000  # contacts, over all passes of the solver for one large group
+ARC = 1.1  # how much further back two may touch that fly on an arc, and not straight
 SAME = 1e-9  # share by which times and speeds of one moment may differ
 BEFORE = 0.01  # radii, how far from a wall a bullet is left: the next step finds what it meets
 FIXED = 1e-6  # share of an impulse that reaches a ball which rods hold still
@@ -42,9 +43,10 @@ class Impacts:
     still closes in slowly is stopped, all of an island at once.
 
     A contact is found after the touch. Impulses go along the normal at the touch, and free balls
-    are put where they would be had they bounced then. This keeps angular momentum. A ball on a
-    joint or at a static body stays where it is, and so does a bullet that was stopped at one. Rods
-    pass an impact on at once: a ball weighs as much as what hangs on it along the normal.
+    are put where they would be had they bounced then, and so are balls that swing on one rod: the
+    overlap would push them apart. This keeps angular momentum. A ball on other joints or at a
+    static body stays where it is, and so does a bullet that was stopped at one. Rods pass an
+    impact on at once: a ball weighs as much as what hangs on it along the normal.
     """
 
     def __init__(self, contacts: Contacts, rods: Rods | None, slow: float) -> None:
@@ -56,9 +58,11 @@ class Impacts:
         self.slow = slow  # px/s, slower ones are not due
         self.due: dict[Contact, Impact] = {}
         self.frame_of: dict[Body, Frame] = {}
+        self.pivots: dict[Body, Body] = {}  # of balls that swing on one rod
         if rods:
             rods.find_frames()
             self.frame_of = rods.frame_of
+            self.pivots = find_pivots(rods)
 
     def find(self) -> None:
         """Find what is due. A contact that has just begun counts as it was when it touched."""
@@ -89,7 +93,9 @@ class Impacts:
         """
         if since <= 0 or self.swings(c.a) or self.swings(c.b):
             return 0.0
-        ago, nx, ny = moment_of_touch(c.a, c.b, since)
+        is_arc = c.a in self.pivots or c.b in self.pivots
+        ago, nx, ny = moment_of_touch(c.a, c.b, since * ARC if is_arc else since)
+        ago = min(ago, since)
         if c.b.is_static and nx * c.nx + ny * c.ny <= 0:
             return 0.0
         if ago > 0 and (nx, ny) != (c.nx, c.ny):
@@ -169,7 +175,7 @@ class Impacts:
         """Resolve the first impacts that are due, and enter whom they reached, and how long ago."""
         group, ago = self.take_first()
         hit = balls_of(group)
-        if ago > 0 and not self.free.issuperset(hit):
+        if ago > 0 and not self.can_go_back.issuperset(hit):
             ago = 0.0
         frames = self.frames_of(group)
         for frame in frames:
@@ -188,6 +194,9 @@ class Impacts:
         """Have balls fly straight on for a time, or back. A bullet stops before it meets a wall."""
         statics = self.contacts.world.statics
         for body in hit:
+            if body in self.pivots:
+                swing(body, self.pivots[body], seconds)
+                continue
             share = 1.0
             if body.is_bullet:
                 x, y = body.vx * seconds, body.vy * seconds
@@ -218,6 +227,8 @@ class Impacts:
         self.free = {
             body for body in self.beside if not (body in held or body.joint_count or stopped(body))
         }
+        swinging = {b for b in self.pivots if b in self.beside and not (b in held or b.is_bullet)}
+        self.can_go_back = self.free | swinging
 
     def take_first(self) -> tuple[list[Contact], float]:
         """Return the earliest contacts, of these the hardest, and how long (s) ago they touched."""
@@ -347,6 +358,26 @@ def hold(frames: list[Frame]) -> None:
     """Have rods pass on what has been done to their balls."""
     for frame in frames:
         frame.hold()
+
+
+def find_pivots(rods: Rods) -> dict[Body, Body]:
+    """Return the pivot of each ball that one rod ties to a body at rest, and nothing else."""
+    pivots: dict[Body, Body] = {}
+    for rod in rods.awake:
+        for ball, pivot in ((rod.end_a, rod.end_b), (rod.end_b, rod.end_a)):
+            if pivot.is_static and not pivot.is_kinematic and ball.joint_count == 1:
+                pivots[ball] = pivot
+    return pivots
+
+
+def swing(body: Body, pivot: Body, seconds: float) -> None:
+    """Turn a ball about the pivot of its rod, at the speed it has, for a time or back."""
+    x, y = body.x - pivot.x, body.y - pivot.y
+    angle = (x * body.vy - y * body.vx) / (x * x + y * y) * seconds
+    c, s = cos(angle), sin(angle)
+    body.x, body.y = pivot.x + c * x - s * y, pivot.y + s * x + c * y
+    body.vx, body.vy = c * body.vx - s * body.vy, s * body.vx + c * body.vy
+    body.angle += body.w * seconds
 
 
 def settle(c: Contact, closing: float) -> tuple[float, float]:

@@ -13,6 +13,7 @@ from worlds_for_tests import balls, build
 
 from experiments.measures import run, watch
 from experiments.rows.hits import gas
+from experiments.rows.row import fall_speed, law, seen
 from experiments.scenes import BOUNCE, DT, Ball, Block, G, Scene, floor
 
 IDEAL = {"restitution": 1.0, "friction": 0.0}
@@ -236,3 +237,20 @@ def test_bullets_that_hit_each_other_stay_in_their_box(seed):
     world = build(Scene([*walls, *flying], gravity=(0, 0)), *SMOOTH, "Bullets")
     run(world, 1)
     assert all(max(abs(ball.x), abs(ball.y)) < 300 for ball in balls(world))
+
+
+@pytest.mark.parametrize("thrown", [1, 2, 3])
+def test_as_many_balls_swing_out_of_a_cradle_on_rods_as_swung_in(thrown):
+    """Momentum and energy are kept, so the others hang at rest."""
+    pegs = [Ball((20 * i, 0), 1, mass=0.0) for i in range(5)]
+    bobs = [Ball((20 * i, 100), mass=1.0, restitution=1.0) for i in range(5)]
+    rods = [(i, i + 5) for i in range(5)]
+    world = build(Scene(pegs + bobs, ("Contacts", "Bounce", "Rods"), rods))
+    swing, (hang, drop) = world.bodies[5:], (100 * math.sin(0.5), 100 * math.cos(0.5))
+    for i in range(thrown):
+        swing[i].pos = (20 * i - hang, drop)
+    run(world, math.pi * math.sqrt(100 / G) * (1 + 0.5**2 / 16))
+    off = [body.x - 20 * i - (hang if i >= 5 - thrown else 0) for i, body in enumerate(swing)]
+    assert off == pytest.approx([0] * 5, abs=seen().limit)
+    fastest = max(abs(body.vx) for body in swing[: 5 - thrown])
+    assert fastest < law(fall_speed(100 - drop)).limit
