@@ -15,6 +15,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 MAX_MESSAGE = 1024 * 1024  # bytes; a longer one is refused unread; the usual size is up to 250 KB
+MAX_UPLOAD = 20 * 1024**2  # bytes of a submission, and of one file in an archive
 RUNAWAY = 2000  # steps in one frame after which a program is stopped
 MAX_BODIES, MAX_TOUCHES, MAX_RODS = 80, 120, 20  # of one moment
 HEADER = struct.Struct(">I")

@@ -13,7 +13,8 @@ from pathlib import Path
 from grader.errors import Stop
 from grader.judge.course import FULL, Course
 from grader.judge.plain import read_plain
-from grader.judge.submission import MAX_BYTES, MAX_FILES, plain_files
+from grader.judge.submission import MAX_FILES, plain_files
+from grader.protocol import MAX_UPLOAD
 from grader.report.files import put_in, write_whole
 from grader.source.flaws import find_flaw
 from grader.source.regions import read_source
@@ -36,13 +37,13 @@ def pack_tree(tree: Path, course: Course = FULL, out: Path | None = None) -> tup
     files = choose_files(tree, course)
     size = sum(path.stat().st_size for path in files.values())
     target = out or tree / PACKED
-    if len(files) > MAX_FILES or size > MAX_BYTES:
+    if len(files) > MAX_FILES or size > MAX_UPLOAD:
         largest = max(files, key=lambda name: files[name].stat().st_size)
         if target.is_file() and not target.is_symlink():
             target.unlink()  # an older zip must not be handed in
         raise Stop(
             f"{len(files)} files of {size >> 20} MB are too many: the limit is {MAX_FILES} files "
-            f"of {MAX_BYTES >> 20} MB. Move what does not belong to the work out of {tree}. The "
+            f"of {MAX_UPLOAD >> 20} MB. Move what does not belong to the work out of {tree}. The "
             f"largest file is {largest}, {files[largest].stat().st_size >> 20} MB"
         )
     packed = io.BytesIO()

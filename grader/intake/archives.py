@@ -23,9 +23,10 @@ from grader.intake.found import CannotTake
 from grader.intake.names import fold, make_portable
 from grader.intake.pieces import rank_file
 from grader.intake.places import ARCHIVES, SIGNS, is_system_file
-from grader.judge.submission import IGNORED, MAX_BYTES, MAX_DEPTH, MAX_FILES
+from grader.judge.submission import IGNORED, MAX_DEPTH, MAX_FILES
 from grader.judge.wall.children import command, reaped_seconds
 from grader.judge.wall.workplace import work_folder
+from grader.protocol import MAX_UPLOAD
 from grader.text import plural
 
 # Of one submission, over all of its archives: many small ones cost no more than a large one.
@@ -47,7 +48,7 @@ class Bounds:
     """The rest of a submission's allowance, over all of its zips."""
 
     files: int = MAX_FILES
-    bytes: int = MAX_BYTES
+    bytes: int = MAX_UPLOAD
     archives: int = field(default_factory=lambda: MAX_ARCHIVES)
     packed: int = field(default_factory=lambda: MAX_ZIP)  # bytes, of archives
     listed: int = field(default_factory=lambda: MAX_DIRECTORY)  # bytes, of lists of files in zips

@@ -19,7 +19,8 @@ from grader.intake.found import CannotTake
 from grader.intake.names import fold
 from grader.intake.places import ARCHIVES, list_modules
 from grader.judge.plain import read_plain
-from grader.judge.submission import MAX_BYTES, load_given, plain_files
+from grader.judge.submission import load_given, plain_files
+from grader.protocol import MAX_UPLOAD
 from grader.source.regions import regions_in
 
 PACKAGE = "mini_engine"
@@ -32,7 +33,7 @@ ADDED = re.compile(
 )
 BEFORE = re.compile(rf"({WORD} (of|de|di|von) )+", re.I)
 MENTIONED = 5
-MOST_READ = MAX_BYTES + 1  # of a file, to compare it with another one
+MOST_READ = MAX_UPLOAD + 1  # of a file, to compare it with another one
 SIGNS = {  # the beginnings of files that are not Python
     b"pk\x03\x04": "a zip or an Office document",
     b"%pdf": "a PDF",

@@ -20,13 +20,13 @@ from pathlib import Path
 from typing import Any
 
 from grader.errors import say_error
+from grader.protocol import MAX_UPLOAD
 
 try:
     import resource
 except ImportError:  # Windows: the time that the parent waits is the only limit
     resource = None  # type: ignore[assignment]
 
-MAX_CONTENT = 20 * 1024**2  # bytes of one file: MAX_BYTES, which a submission may have in all
 MAX_UNPACKED = 200 * 1024**2  # of one archive, unpacked
 MAX_MEMBERS = 200_000
 MEMORY = 768 * 1024**2  # bytes
@@ -120,7 +120,7 @@ def read_tar(source: str) -> Files:
         return
     with tarfile.open(source) as archive:
         for member in archive:
-            if member.isreg() and member.size > MAX_CONTENT:
+            if member.isreg() and member.size > MAX_UPLOAD:
                 yield member.name, None
             elif member.isreg() and (content := archive.extractfile(member)) is not None:
                 yield member.name, content.read()
@@ -135,9 +135,9 @@ def read_single(source: str) -> tuple[str, bytes | None]:
     if opened is None:
         raise CannotRepack("the archive is broken, or of no kind that is read here: ask for a zip")
     with opened(source) as file:
-        content = file.read(MAX_CONTENT + 1)
+        content = file.read(MAX_UPLOAD + 1)
     name = Path(source).name.removeprefix(".")
-    return Path(name).stem, None if len(content) > MAX_CONTENT else content
+    return Path(name).stem, None if len(content) > MAX_UPLOAD else content
 
 
 def read_7z(source: str) -> Files:
@@ -146,12 +146,12 @@ def read_7z(source: str) -> Files:
         with py7zr.SevenZipFile(source) as archive:
             plain = [each for each in archive.list() if each.is_file and not each.is_symlink]
             for each in plain:
-                if each.uncompressed > MAX_CONTENT:
+                if each.uncompressed > MAX_UPLOAD:
                     yield each.filename, None
-            wanted = {e.filename: e.uncompressed for e in plain if e.uncompressed <= MAX_CONTENT}
+            wanted = {e.filename: e.uncompressed for e in plain if e.uncompressed <= MAX_UPLOAD}
             if sum(wanted.values()) > MAX_UNPACKED or len(wanted) > MAX_MEMBERS:
                 raise CannotRepack("the archive holds too much: ask for the program alone")
-            factory = py7zr.io.BytesIOFactory(MAX_CONTENT + 1)
+            factory = py7zr.io.BytesIOFactory(MAX_UPLOAD + 1)
             archive.extract(targets=list(wanted), factory=factory)
     except py7zr.exceptions.PasswordRequired as error:
         raise CannotRepack("the archive is encrypted: ask for one without a password") from error
@@ -170,7 +170,7 @@ def read_rar(source: str) -> Files:
                 raise CannotRepack("the archive is encrypted: ask for one without a password")
             for each in archive.infolist():
                 if each.is_file() and not each.file_redir:
-                    too_large = each.file_size > MAX_CONTENT
+                    too_large = each.file_size > MAX_UPLOAD
                     yield each.filename, None if too_large else archive.read(each)
     except rarfile.RarCannotExec as error:
         raise CannotRepack(

@@ -20,6 +20,7 @@ from grader.errors import Stop
 from grader.judge.plain import copy_plain, open_plain, size_of
 from grader.judge.result import Where
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
+from grader.protocol import MAX_UPLOAD
 from grader.source.definitions import MAX_READ, Function, Program, source_of
 from grader.source.flaws import Flaw, find_bad_bytes, find_flaw
 from grader.source.given import MISPLACED, first_difference
@@ -35,7 +36,6 @@ from grader.source.regions import (
 from grader.source.repair import OUTSIDE, HandedOut, Repairer
 
 MAX_FILES = 500
-MAX_BYTES = 20 * 1024 * 1024  # MAX_CONTENT of intake/repack.py must be equal
 MAX_SEEN = 20_000  # files and folders that are listed
 MAX_COPIES = 20  # files beside the programs that are read
 MAX_DEPTH = 40  # folders in each other
@@ -105,8 +105,8 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
     """Copy a submission within bounds, make the copy read-only, and find the TODOs in it."""
     if not path.exists():
         raise CannotGrade(f"there is no submission at {path}: name a folder or a Python file")
-    if path.is_file() and path.stat().st_size > MAX_BYTES:
-        raise CannotGrade(f"{path} has more than {MAX_BYTES >> 20} MB")
+    if path.is_file() and path.stat().st_size > MAX_UPLOAD:
+        raise CannotGrade(f"{path} has more than {MAX_UPLOAD >> 20} MB")
     submission = Submission(path.resolve().name, copy)
     copy.mkdir(parents=True)
     if path.is_file():
@@ -129,7 +129,7 @@ def copy_tree(path: Path, submission: Submission) -> None:
         try:
             with open_plain(path, inside) as file:
                 length = size_of(file)
-                if files + 1 > MAX_FILES or size + length > MAX_BYTES:
+                if files + 1 > MAX_FILES or size + length > MAX_UPLOAD:
                     submission.left_out.append(f"{inside.as_posix()}: too much")
                     continue
                 files, size = files + 1, size + length

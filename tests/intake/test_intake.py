@@ -24,7 +24,9 @@ from grader.intake.packing import open_submission, pack, read_package
 from grader.intake.roster import ClassList
 from grader.intake.systems import read_roster
 from grader.judge import submission
-from grader.judge.submission import MAX_BYTES, MAX_FILES, CannotGrade
+from grader.judge.submission import MAX_FILES, CannotGrade
+from grader.judge.task import KIT
+from grader.protocol import MAX_UPLOAD
 
 PROGRAM = {"mini_engine/__init__.py": "", "integrators.py": "x = 1\n"}
 
@@ -395,12 +397,12 @@ def test_many_archives_have_the_bounds_of_one(classroom, monkeypatch):
 
 
 def test_bombs_give_the_program_and_no_more_than_the_bounds(classroom, monkeypatch):
-    bomb = {f"{n:02}.bin": bytes(MAX_BYTES // 4) for n in range(8)}
-    inner = zipped({f"{n}.bin": bytes(MAX_BYTES // 2) for n in range(4)})
+    bomb = {f"{n:02}.bin": bytes(MAX_UPLOAD // 4) for n in range(8)}
+    inner = zipped({f"{n}.bin": bytes(MAX_UPLOAD // 2) for n in range(4)})
     for files in (bomb, {f"{n}.zip": inner for n in range(50)}):
         package = read_package(handed_in(classroom, zipped(files | PROGRAM)))
         assert {"integrators.py", "mini_engine/__init__.py"} <= {name for name, _ in package.files}
-        assert sum(len(content) for _, content in package.files) <= MAX_BYTES
+        assert sum(len(content) for _, content in package.files) <= MAX_UPLOAD
         assert package.notes
     monkeypatch.setattr(archives, "MAX_ZIP", 10)
     assert "MB" in refuse(classroom, zipped(PROGRAM))
@@ -537,3 +539,9 @@ def test_what_the_teacher_tried_in_canvas_is_nobodys(classroom):
     with open_class(classroom) as intake:
         assert intake.names == ["doejane_12"] and len(intake.notes) == 2
         assert intake.notes[0].endswith("was skipped: a test submission of the teacher")
+
+
+@pytest.mark.parametrize("page", ["class.md", "security.md"])
+def test_the_pages_for_instructors_give_the_limits_of_an_upload(page: str):
+    text = (KIT / "handouts" / "instructor" / page).read_text(encoding="utf-8")
+    assert f"{MAX_FILES} files" in text and f"{MAX_UPLOAD >> 20} MB" in text

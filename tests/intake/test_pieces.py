@@ -19,8 +19,9 @@ from grader.intake import archives, repack
 from grader.intake.found import CannotTake, Package, Work
 from grader.intake.listing import open_class
 from grader.intake.packing import read_package
-from grader.judge.submission import MAX_BYTES, plain_files
+from grader.judge.submission import plain_files
 from grader.judge.task import KIT
+from grader.protocol import MAX_UPLOAD
 
 PROGRAM: packed.Files = {
     "mini_engine/__init__.py": "from mini_engine.solver import *\n",
@@ -118,16 +119,14 @@ def test_links_in_a_tar_are_left_out(tmp_path):
 
 @pytest.mark.parametrize("kind", sample(["7z", "tar.xz"], 2))
 def test_a_bomb_of_one_file_gives_the_program_alone(tmp_path, kind):
-    # As a script, repack imports nothing of the judge, so it has a constant of its own.
-    assert repack.MAX_CONTENT == MAX_BYTES
-    bomb = bytes(repack.MAX_CONTENT + 1)
+    bomb = bytes(MAX_UPLOAD + 1)
     found = make_work(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {"big.bin": bomb}))
     package = read_package(found)
     assert names(package) == ALL and package.notes == ["left out big.bin: size limit reached"]
 
 
 def test_a_class_in_an_archive_loses_nobody_for_being_large(tmp_path):
-    large = {"ann.zip": packed.as_zip(PROGRAM), "ben.zip": bytes(repack.MAX_CONTENT + 1)}
+    large = {"ann.zip": packed.as_zip(PROGRAM), "ben.zip": bytes(MAX_UPLOAD + 1)}
     (tmp_path / "class.tgz").write_bytes(packed.as_tar(large))
     with pytest.raises(Stop, match=r"ben\.zip is too large: unpack it"):
         open_class(tmp_path / "class.tgz").__enter__()
