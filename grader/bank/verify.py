@@ -32,8 +32,9 @@ from grader.judge.passed import PASSED, PassedPrograms
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.judge.task import KIT, Options, shipped_reference
-from grader.judge.wall.children import WarmWorker, Worker, count_cores, start_worker
+from grader.judge.wall.children import WarmWorker, Worker, start_worker
 from grader.judge.wall.processes import begin_process
+from grader.judge.wall.starting import count_cores
 from grader.report.progress import Counter
 
 One = TypeVar("One")

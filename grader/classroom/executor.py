@@ -15,8 +15,9 @@ from grader.errors import Stop
 from grader.intake.found import Package
 from grader.judge.grade import grade
 from grader.judge.task import Options
-from grader.judge.wall.children import Worker, count_cores, start_worker
+from grader.judge.wall.children import Worker, start_worker
 from grader.judge.wall.outer import GRADING, Failed, Lost, WatchedProcess
+from grader.judge.wall.starting import count_cores
 from grader.judge.wall.workplace import work_folder
 from grader.report.files import as_json
 

@@ -19,7 +19,7 @@ from grader.cli.shared import (
 )
 from grader.errors import Stop
 from grader.judge.task import Options, shipped_reference
-from grader.judge.wall.children import count_cores
+from grader.judge.wall.starting import count_cores
 from grader.text import plural
 
 if TYPE_CHECKING:

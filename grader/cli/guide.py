@@ -62,7 +62,10 @@ def lead(path: Path, course: Course) -> None:
     if not (console.is_terminal and sys.stdin.isatty()):
         Screen(console, replays, tasks=load_tasks()).show(grade_shown(folder, options, replays))
         return
-    with closing(start_worker(options.spawn)) as worker, open_keys() as read_key:
+    with (
+        closing(start_worker(options.spawn, count=options.jobs)) as worker,
+        open_keys() as read_key,
+    ):
         guide = Guide(folder, options, console, worker, replays)
         with suppress(KeyboardInterrupt, Quit):
             guide.start()

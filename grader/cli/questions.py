@@ -18,7 +18,7 @@ from grader.cli.shared import (
 from grader.errors import Stop
 from grader.judge.course import read_course
 from grader.judge.task import Options, shipped_reference
-from grader.judge.wall.outer import WHOLE
+from grader.judge.wall.outer import WHOLE, go_on_within
 from grader.text import plural
 
 if TYPE_CHECKING:
@@ -51,8 +51,8 @@ def questions_command(
     A class has `grader class questions`. Exit status 0: there is a sheet, 1: there is none.
     """
     require_checkout("questions")
-    if context.obj is not None:
-        context.obj(WHOLE)
+    if context.obj:
+        go_on_within(WHOLE)
     require_folder_target(out, "--out")
     # Imported here: all of it would add a tenth of a second to every start.
     from grader.questions.making import Making, make_one

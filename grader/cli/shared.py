@@ -16,6 +16,7 @@ from grader.judge.grade import grade
 from grader.judge.result import Result
 from grader.judge.task import KIT, Options
 from grader.judge.wall.isolation import Isolation
+from grader.player.graded import grade_with_replays
 from grader.text import printable
 
 CHECKOUT = ("solution/mini_engine", "starter/mini_engine", "tests/bank", "handouts/instructor")
@@ -112,9 +113,6 @@ def grade_one(path: Path, options: Options, replays: Path | None = None) -> Resu
     try:
         if replays is None:
             return grade(path, options)
-        # Imported here: it takes 0.04 s, since it loads the modules for pages.
-        from grader.player.replay import grade_with_replays
-
         return grade_with_replays(path, options, replays)
     except KeyboardInterrupt:  # exit status 1 would say that points are missing
         raise Stop("stopped before the end; nothing is left behind") from None

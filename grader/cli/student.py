@@ -23,7 +23,7 @@ from grader.judge.course import Course, read_course
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
 from grader.judge.task import Options
-from grader.judge.wall.children import count_cores
+from grader.judge.wall.starting import count_cores
 from grader.judge.wording import command, hidden_points_note, total
 from grader.report.progress import CheckProgress
 from grader.report.screen import Screen

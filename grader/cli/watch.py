@@ -21,7 +21,7 @@ from grader.judge.rubric import load_rubric
 from grader.judge.submission import module_of, plain_files
 from grader.judge.task import Options
 from grader.judge.wall.children import Worker, start_worker
-from grader.player.replay import grade_with_replays
+from grader.player.graded import grade_with_replays
 from grader.report.progress import CheckProgress
 from grader.report.screen import LINES, Screen
 from grader.report.terminal import say
@@ -253,7 +253,7 @@ def wait_for_saves(folder: Path, most: int = 0) -> Iterator[None]:
 
 def watch_tree(folder: Path, options: Options, console: Console, replays: Path | None) -> Result:
     """Check the tree, and again after each save, until Ctrl-C; return the last result."""
-    with closing(start_worker(options.spawn)) as worker:
+    with closing(start_worker(options.spawn, count=options.jobs)) as worker:
         watched = Watch(folder, options, console, worker, replays)
         watched.start()
         say("Watching: save a file, and it is checked again. Ctrl-C ends this.", console)

@@ -24,7 +24,8 @@ from grader.intake.names import fold, make_portable
 from grader.intake.pieces import rank_file
 from grader.intake.places import ARCHIVES, SIGNS, is_system_file
 from grader.judge.submission import IGNORED, MAX_DEPTH, MAX_FILES
-from grader.judge.wall.children import command, reaped_seconds
+from grader.judge.wall.children import reaped_seconds
+from grader.judge.wall.starting import command
 from grader.judge.wall.workplace import work_folder
 from grader.protocol import MAX_UPLOAD
 from grader.text import plural

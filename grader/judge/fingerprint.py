@@ -8,7 +8,6 @@ import hashlib
 import sys
 from collections.abc import Iterator
 from functools import cache
-from importlib.metadata import version
 from pathlib import Path
 
 DECIDING = (  # of grader/
@@ -22,6 +21,8 @@ LIBRARIES = ("hypothesis", "msgspec", "pygame-ce", "pymunk", "pytest")
 @cache
 def fingerprint() -> str:
     """Return the hash of the grader and its libraries, as far as points depend on them."""
+    from importlib.metadata import version  # slow to load
+
     top = Path(__file__).parents[1]
     digest = hashlib.sha256()
     for path in deciding_files(top):

@@ -8,9 +8,6 @@ from typing import TYPE_CHECKING
 
 from msgspec import structs
 
-from grader.judge.explain.blame import CauseSearch, GivenCause, find_changes, undo
-from grader.judge.explain.misconceptions import Mistake
-from grader.judge.explain.names import Names
 from grader.judge.failures import Failing
 from grader.judge.jobs import Key
 from grader.judge.lab import Observation
@@ -27,6 +24,9 @@ from grader.source.given import GivenChange
 from grader.text import defuse
 
 if TYPE_CHECKING:
+    from grader.judge.explain.blame import GivenCause
+    from grader.judge.explain.misconceptions import Mistake
+    from grader.judge.explain.names import Names
     from grader.judge.explain.reasons import Reasons
     from grader.judge.loop import CheckLoop
 
@@ -55,9 +55,7 @@ def grading(
     reference = Reference(options.reference, load_rubric())
     with work_folder() as work:
         submission = take_in(path, work / "submission", load_rubric(), load_stubs())
-        used = worker or start_worker(options.spawn)
-        if options.jobs > 1:
-            used.helpers(options.jobs - 1)  # they load meanwhile
+        used = worker or start_worker(options.spawn, count=options.jobs)
         try:
             sandbox = sandbox_for(submission, work, used, options)
             yield Grading(options, rubric, reference, submission, sandbox)
@@ -88,12 +86,15 @@ class Grading(Task):
         """Run the checks, give back points that changed given code cost, and word the failures."""
         if self.options.isolation == "none":
             load_everything()
-        # Imported here to save 0.2 s: hypothesis loads while the worker loads.
-        from grader.judge.explain.reasons import Reasons
+        # Imported here to save 0.1 s: hypothesis loads while the worker loads.
         from grader.judge.loop import CheckLoop
 
         self.loop = CheckLoop(self)
         self.loop.run()
+        if not self.loop.failed:
+            return self.make_result(None)
+        from grader.judge.explain.reasons import Reasons  # a check that passes needs none
+
         causes = self.put_given_code_back()
         return self.make_result(Reasons(self, self.loop, causes))
 
@@ -107,7 +108,7 @@ class Grading(Task):
         """Return all answers of the submission, by TODO."""
         return {todo.id: self.loop.list_observations(todo.id) for todo in self.rubric.todos}
 
-    def make_result(self, reasons: "Reasons") -> Result:
+    def make_result(self, reasons: "Reasons | None") -> Result:
         """Return the marks, and the reasons of the checks that failed."""
         todos = [todo for todo in self.rubric.todos if self.options.wants(todo)]
         checks = {todo.id: count_guards(todo, self.pass_spoilt_scenes(todo)) for todo in todos}
@@ -124,14 +125,14 @@ class Grading(Task):
         results = [make_todo_result(todo, checks[todo.id], reasons, unfinished) for todo in todos]
         return nothing.with_todos(results).in_bounds()
 
-    def put_given_code_back(self) -> Mapping[Key, GivenCause]:
+    def put_given_code_back(self) -> "Mapping[Key, GivenCause]":
         """Run failed checks with changed given code undone; return the changes that matter.
 
         If a TODO's own check passes then, it counts as passed.
         """
+        from grader.judge.explain.blame import CauseSearch, find_changes, undo
+
         loop, failed = self.loop, self.loop.failed
-        if not failed:
-            return {}
         unusable = loop.unusable.values()
         given = attempt(lambda: find_changes(self.submission, unusable), list[GivenChange]())
         if not given:
@@ -180,23 +181,25 @@ class Grading(Task):
 
 
 def make_todo_result(
-    todo: Todo, checks: list[CheckResult], reasons: "Reasons", unfinished: set[str]
+    todo: Todo, checks: list[CheckResult], reasons: "Reasons | None", unfinished: set[str]
 ) -> TodoResult:
     """Return the result of a TODO; messages do not change its points."""
     points = sum(check.points for check in checks)
-    nothing: tuple[list[CheckResult], Mistake | None] = (checks, None)
-    worded, mistake = attempt(lambda: reasons.word(todo, checks, unfinished), nothing)
+    worded: list[CheckResult] = checks
+    mistake: Mistake | None = None
+    if reasons is not None:
+        worded, mistake = attempt(lambda: reasons.word(todo, checks, unfinished), (worded, mistake))
     named = mistake.id if mistake is not None else None
     state = state_of(worded)
     return TodoResult(todo.id, todo.title, state, points, todo.max_points, named, worded)
 
 
-def keeps_points(todo: Todo, names: Names) -> bool:
+def keeps_points(todo: Todo, names: "Names") -> bool:
     """Return whether a TODO's function has the handed-out signature and only its own code."""
     return bool(todo.path) and todo.path not in names.changed(todo.module)
 
 
-def charge_whole(loop: "CheckLoop", cause: GivenCause) -> None:
+def charge_whole(loop: "CheckLoop", cause: "GivenCause") -> None:
     """Subtract a point of the whole for changed given code that a TODO needs, unless it lost
     one."""
     whole = loop.list_outcomes("whole")

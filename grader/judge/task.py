@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from grader.judge.course import FULL, Course
-from grader.judge.explain.names import Names
 from grader.judge.lab import Lab
 from grader.judge.passed import PassedPrograms
 from grader.judge.reference import Reference
@@ -19,6 +19,9 @@ from grader.judge.wall.children import Child, Worker
 from grader.judge.wall.isolation import Isolation
 from grader.judge.wall.sandbox import Sandbox
 from grader.source.regions import python_files, shape_of
+
+if TYPE_CHECKING:
+    from grader.judge.explain.names import Names
 
 KIT = Path(__file__).parents[2]
 
@@ -85,7 +88,9 @@ class Task:
         return bool(self.reference.pieces) and todo in self.submission.functions
 
     @cached_property
-    def names(self) -> Names:
+    def names(self) -> "Names":
+        from grader.judge.explain.names import Names  # only a check that fails needs it
+
         return Names(self.submission)
 
     def new_lab(self, todo: Todo, check: Check) -> Lab:
@@ -124,6 +129,7 @@ def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) 
         loads=["numpy"] if tree.uses_numpy else [],
         trusted=options.trusted,
         shown=as_in_reference(tree.folder, options.reference),
+        programs=sorted({todo.module for todo in load_rubric().todos}),
     )
 
 

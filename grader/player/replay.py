@@ -14,11 +14,8 @@ import msgspec
 
 from grader.judge.budget import Budget, for_words
 from grader.judge.failures import Failing
-from grader.judge.grade import grading
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import CHECKS, Rubric
-from grader.judge.task import Options
-from grader.judge.wall.children import Worker
 from grader.judge.wording import list_reasons
 from grader.player.page import make_page
 from grader.player.pairing import pair_runs
@@ -31,18 +28,6 @@ MAX_DEATHS = 3  # children that ended, after which no more runs of a submission 
 RECORDED = CHECKS / "expected_runs.json"
 
 ExpectedRuns = dict[str, list[list[Run]]]  # by TODO and check: the runs of each scene
-
-
-def grade_with_replays(
-    path: Path | str, options: Options, folder: Path, worker: Worker | None = None
-) -> Result:
-    """Grade a submission, and write the replay of each failed check into `folder`."""
-    with grading(Path(path), options, worker) as run:
-        result = run.run()
-        if not run.failing and not any(folder.glob("*.html")):
-            return result
-        open_right = run.open_right if options.reference else None
-        return Replays(folder, run.sandbox.open_child, open_right).add_to(result, run.failing)
 
 
 @dataclass

@@ -2,7 +2,8 @@
 
 It never imports the submission, so one check leaves nothing behind for the next. It is the parent
 of all children and ends every process that they leave running. The judge sends it Open and End
-through `control`; requests go to each child over a socket of its own.
+through `control`; requests go to each child over a socket of its own. For checks side by side, the
+process that has loaded forks several such servers, each with its own channel.
 """
 
 import ctypes
@@ -31,21 +32,42 @@ MOST_DESCRIPTORS = 4096  # more than this process ever has; some machines allow 
 decoder = msgspec.msgpack.Decoder(Open | End)
 
 
-def main(control_fd: int, without: list[str]) -> None:
-    """Serve the judge until it closes the control channel.
+def main(descriptors: list[int], without: list[str]) -> None:
+    """Load what children need, and serve the judge on each of these control channels.
 
-    The first message names the layers of isolation around all children. `without` names layers to
-    leave out, here and in the children.
+    `without` names layers to leave out, here and in the children.
     """
     wipe_variables()
-    layers = isolate_server(control_fd, without)
-    control = Channel(socket.socket(fileno=control_fd), eager=False)
     tidy_environment("")
     warm_up()
     hide_modules()
     gc.freeze()  # what is loaded stays shared with the children
+    if len(descriptors) == 1:
+        serve_judge(descriptors[0], without)
+        return
+    for descriptor in descriptors:
+        if not os.fork():
+            for other in set(descriptors) - {descriptor}:
+                os.close(other)
+            serve_judge(descriptor, without)
+            return
+    for descriptor in descriptors:
+        os.close(descriptor)
+    while has_children():
+        os.wait()
+
+
+def serve_judge(control_fd: int, without: list[str]) -> None:
+    """Fork and end children, until the judge closes this control channel.
+
+    The first message has the number of this process and names the layers of isolation around all
+    children.
+    """
+    pid = os.getpid()
+    layers = isolate_server(control_fd, without)
+    control = Channel(socket.socket(fileno=control_fd), eager=False)
     with suppress(ChannelClosed):
-        control.send(layers)
+        control.send((pid, layers))
         while True:
             match decoder.decode(control.receive()):
                 case Open(setup):
@@ -178,5 +200,5 @@ def has_children() -> bool:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), sys.argv[2:])
+    main([int(each) for each in sys.argv[1].split(",")], sys.argv[2:])
     os._exit(0)  # the judge waits for the end: skip Python's clean-up

@@ -18,7 +18,7 @@ from command_line import start_grader
 from ruamel.yaml import YAML
 
 from grader.bank.members import make_mistake
-from grader.cli.main import Output, finish
+from grader.cli.grade import Output, finish
 from grader.judge.result import Result, is_bonus
 from grader.judge.task import KIT
 from grader.release.build import build

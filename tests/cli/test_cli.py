@@ -14,8 +14,7 @@ import pytest
 import typer
 from command_line import run_grader, start_grader
 
-from grader.cli import dev
-from grader.cli import main as cli
+from grader.cli import dev, grade, main
 from grader.cli import shared as commands
 from grader.judge.task import KIT
 
@@ -50,6 +49,21 @@ def test_the_command_line_starts_without_what_only_some_commands_need():
     assert "grader.cli.classroom" in loaded
     heavy = {"grader.intake", "grader.classroom.grading", "grader.classroom.nbgrader"}
     assert not loaded & {*heavy, "grader.report.html", "grader.report.ci", "grader.cli.watch"}
+
+
+def test_a_check_that_passes_loads_nothing_for_failures_and_other_commands():
+    code = (
+        "import sys; sys.argv = ['grader', 'check', '--todo', '8a', 'solution']\n"
+        "import grader.cli.main as cli\n"
+        "try: cli.main()\n"
+        "finally: print(*sys.modules, file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=KIT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+    loaded = set(done.stderr.split())
+    assert "grader.judge.loop" in loaded
+    needless = {"jinja2", "grader.judge.explain.meaning", "grader.cli.grade", "grader.cli.classes"}
+    assert not loaded & needless
 
 
 def test_files_in_the_current_folder_shadow_nothing(hand_in):
@@ -108,7 +122,7 @@ def test_a_folder_of_submissions_is_no_submission(tmp_path: Path, form: str):
 
 
 def test_the_students_grader_says_that_it_grades_no_class(tmp_path: Path, monkeypatch):
-    monkeypatch.setattr(cli, "find_spec", lambda name: None)
+    monkeypatch.setattr(grade, "find_spec", lambda name: None)
     done = run_grader("grade", "--class", tmp_path)
     assert done.exit_code == 2 and "--class needs the whole kit" in unwrapped(done.stderr)
 
@@ -190,7 +204,7 @@ def list_commands(group: Any, hidden: bool, before: str = "") -> Iterator[tuple[
 
 
 def test_help_leads_an_instructor_to_few_commands_and_options():
-    whole = typer.main.get_command(cli.make_app())
+    whole = typer.main.get_command(main.make_app())
     shown = dict(list_commands(whole, hidden=False))
     assert {"class grade", "grade", "release"} <= set(shown)
     assert len(shown) <= 12, list(shown)
@@ -200,7 +214,7 @@ def test_help_leads_an_instructor_to_few_commands_and_options():
 
 
 def test_course_means_one_thing_in_every_command():
-    whole = typer.main.get_command(cli.make_app())
+    whole = typer.main.get_command(main.make_app())
     every = [command for _, command in list_commands(whole, hidden=True)]
     named = [each for command in every for each in command.params if "--course" in each.opts]
     assert len(named) > 12 and {each.help for each in named} == {commands.COURSE_HELP}

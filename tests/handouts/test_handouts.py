@@ -18,7 +18,7 @@ import pytest
 
 import integrators
 import mini_engine
-from grader.cli.main import grade_command
+from grader.cli.grade import grade_command
 from grader.release.formulas import typeset
 from grader.release.pages import MEASURED, make_page
 from grader.source.regions import python_files, regions_in

@@ -22,7 +22,7 @@ from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, find_todos
 from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall.children import Child, ChildEnded
-from grader.player.replay import grade_with_replays
+from grader.player.graded import grade_with_replays
 from grader.protocol import (
     MAX_ITEMS,
     MAX_MESSAGE,

@@ -27,7 +27,7 @@ from grader.judge.rubric import load_rubric
 from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall import children
 from grader.judge.wall.children import REST_SECONDS, busy_seconds
-from grader.player.replay import grade_with_replays
+from grader.player.graded import grade_with_replays
 
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells of queues")
 

@@ -15,7 +15,7 @@ from grader.judge.rubric import Todo, load_rubric
 from grader.judge.running import fails_elsewhere
 from grader.judge.submission import Submission, load_given
 from grader.judge.task import KIT, Options, shipped_reference
-from grader.player.replay import grade_with_replays
+from grader.player.graded import grade_with_replays
 from grader.protocol import CodeLine, Raised
 from grader.report.files import as_json
 

@@ -30,10 +30,11 @@ from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall.children import ChildEnded
+from grader.player.graded import grade_with_replays
 from grader.player.page import make_page
 from grader.player.pairing import pair_runs
 from grader.player.recording import MAX_MOMENTS, Recorder, RecordingLab, record_again
-from grader.player.replay import ExpectedRuns, Replays, grade_with_replays
+from grader.player.replay import ExpectedRuns, Replays
 from grader.player.runs import Line, Replay, Run
 from grader.player.script import fold_repeats, write_polynomial, write_script
 from grader.protocol import (

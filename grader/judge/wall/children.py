@@ -16,8 +16,15 @@ import msgspec
 import psutil
 
 from grader.judge.wall.processes import end_family
+from grader.judge.wall.starting import (
+    Started,
+    clean_environment,
+    command,
+    count_cores,
+    start_clean,
+    start_warm,
+)
 from grader.protocol import (
-    ENVIRONMENT,
     NOT_A_MESSAGE,
     Answered,
     Asked,
@@ -42,13 +49,6 @@ from grader.protocol import (
     Value,
 )
 
-
-def count_cores() -> int:
-    """Return how many processors this process may use."""
-    usable = getattr(os, "sched_getaffinity", None)  # not on Windows and macOS
-    return len(usable(0)) if usable else os.cpu_count() or 1
-
-
 START_SECONDS = 60.0  # to start a child on the slowest machine
 WALL_FACTOR, WALL_EXTRA = 4, 20.0  # the last resort, s: CPU budget x factor + extra
 AHEAD = min(4, count_cores())  # processes that load while others work, without fork
@@ -61,15 +61,6 @@ LOOK_SECONDS = 1.0  # s of waiting for answers, between two checks whether the c
 
 ready_decoder = msgspec.msgpack.Decoder(Ready)
 answer_decoder = msgspec.msgpack.Decoder(Answered)
-
-BOOT = """
-import runpy, sys
-sys.orig_argv[:] = ["python"]
-sys.path.insert(0, {root!r})
-sys.argv[1:] = {args!r}
-runpy.run_module({module!r}, run_name="__main__")
-"""
-
 
 OUT_OF_TIME = (-24, -9)  # exit statuses: SIGXCPU, and SIGKILL a second later
 
@@ -265,39 +256,6 @@ class Worker(Protocol):
     def close(self) -> None: ...
 
 
-def command(module: str, *args: str) -> list[str]:
-    """Return Python in isolated mode: it reads no folder of a submission and no variable."""
-    return [sys.executable, "-I", "-c", program(module, *args)]
-
-
-def program(module: str, *args: str) -> str:
-    root = str(Path(__file__).parents[3])
-    return BOOT.format(root=root, args=list(args), module=module)
-
-
-def start_clean(
-    module: str, theirs: socket.socket, without: Sequence[str], out: int | None = None
-) -> "subprocess.Popen[bytes]":
-    """Start Python with one end of a channel, and nothing of the judge in its arguments.
-
-    A child finds the arguments and variables of its process in memory. So the program comes by
-    standard input. `out`: where it prints, as in Popen.
-    """
-    process = subprocess.Popen(
-        [sys.executable, "-I", "-"],
-        pass_fds=[theirs.fileno()],
-        stdin=subprocess.PIPE,
-        stdout=out,
-        stderr=out,
-        start_new_session=True,
-        env=clean_environment(),
-    )
-    assert process.stdin is not None
-    with suppress(OSError), process.stdin as boot:  # if it is gone, opening a child will fail
-        boot.write(program(module, str(theirs.fileno()), *without).encode())
-    return process
-
-
 def explain(cpu_seconds: int, code: int | None) -> str:
     """Return the reason why a child ended, by its exit status; None if its worker has ended too."""
     if code is None:
@@ -314,22 +272,27 @@ def explain(cpu_seconds: int, code: int | None) -> str:
 class WarmWorker:
     """A process with everything loaded that forks a child per check.
 
-    It loads while the judge does other work, until the first child is opened. Layers of isolation
-    in `without` are left out, to test the others.
+    It loads while the judge does other work, until the first child is opened. Workers that serve at
+    the same time are forks of one process, which loads once. Layers of isolation in `without` are
+    left out, to test the others.
     """
 
-    def __init__(self, without: Collection[str] = ()) -> None:
+    def __init__(
+        self, without: Collection[str] = (), count: int = 1, started: Started | None = None
+    ) -> None:
+        """Start a worker, with `count` - 1 helpers."""
         self.without = sorted(without)
         self.beside: list[WarmWorker] = []
-        self._start()
+        self._use(started or start_warm(self.without, count))
 
-    def _start(self) -> None:
-        ours, theirs = socket.socketpair()
-        with theirs:
-            self.process = start_clean("grader.worker.warm", theirs, self.without)
+    def _use(self, started: Started) -> None:
+        """Talk to the first server of a process; helpers talk to the others."""
+        self.process, (ours, *others) = started
+        self.pid = self.process.pid  # of the server, once it is known
         self.control = Channel(ours)
         self.loading = True
         self.layers: list[str] = []  # around all children, once one was opened
+        self.beside += [WarmWorker(self.without, 1, Started(self.process, [o])) for o in others]
 
     def helpers(self, count: int) -> Sequence["WarmWorker"]:
         """Return other workers, which are reused for the next grade and closed with this one."""
@@ -340,14 +303,15 @@ class WarmWorker:
     def wait_until_loaded(self) -> None:
         if self.loading:
             loaded = self.control.receive(START_SECONDS)
-            self.layers, self.loading = msgspec.msgpack.decode(loaded, type=list[str]), False
+            self.pid, self.layers = msgspec.msgpack.decode(loaded, type=tuple[int, list[str]])
+            self.loading = False
 
     def open(self, setup: ChildSetup) -> Child:
         try:
             return self._open(Open(setup), setup)
         except (ChannelClosed, ChildEnded):  # the warm process was killed: start a new one
             self._kill()
-            self._start()
+            self._use(start_warm(self.without, 1))
             return self._open(Open(setup), setup)
 
     def _open(self, message: object, setup: ChildSetup) -> Child:
@@ -367,7 +331,7 @@ class WarmWorker:
 
     def pid_of(self, child: Child) -> int:
         """Return a child's process number here: in a namespace of its own it has another one."""
-        for process in psutil.Process(self.process.pid).children(recursive=True):
+        for process in psutil.Process(self.pid).children(recursive=True):
             with suppress(OSError):
                 status = Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
                 numbers = re.search(r"^NSpid:(.*)$", status, re.MULTILINE)
@@ -398,9 +362,9 @@ class WarmWorker:
         raise ChannelTimeout
 
     def _is_stopped(self) -> bool:
-        """Return whether the warm process is stopped; in a PID namespace it is our only child."""
+        """Return whether the server is stopped; in a PID namespace it is an only child."""
         try:
-            process = psutil.Process(self.process.pid)
+            process = psutil.Process(self.pid)
             if "pid-namespace" in self.layers:
                 process = process.children()[0]
             return process.status() in STOPPED
@@ -408,19 +372,22 @@ class WarmWorker:
             return False
 
     def _kill(self) -> None:
-        """End the process with all its children, in any state."""
+        """End the server with all its children, in any state."""
         self.control.close()
-        end_family(self.process.pid)
-        self.process.wait()
+        end_family(self.pid)
+        if self.pid == self.process.pid:
+            self.process.wait()
 
     def close(self) -> None:
-        for each in self.beside:
-            each.close()
-        self.control.close()  # it then ends its children and itself
-        try:
-            self.process.wait(5)
-        except subprocess.TimeoutExpired:
-            self._kill()
+        every = [self, *self.beside]
+        for each in every:
+            each.control.close()  # the server then ends its children and itself
+        for each in every:
+            try:
+                each.process.wait(5)
+            except subprocess.TimeoutExpired:
+                end_family(each.process.pid)
+                each.process.wait()
 
 
 class SpawnWorker:
@@ -442,9 +409,8 @@ class SpawnWorker:
 
     def _start_ahead(self) -> None:
         while len(self.ahead) < AHEAD:
-            ours, theirs = socket.socketpair()
-            with theirs:
-                self.ahead.append((self._start(theirs), Channel(ours)))
+            process, (ours,) = self._start()
+            self.ahead.append((process, Channel(ours)))
 
     def open(self, setup: ChildSetup) -> Child:
         process, channel = self.ahead.pop(0)
@@ -454,20 +420,21 @@ class SpawnWorker:
         self.processes[id(child)] = process
         return child
 
-    def _start(self, theirs: socket.socket) -> "subprocess.Popen[bytes]":
-        if sys.platform == "win32":
-            process = subprocess.Popen(
-                command("grader.worker.spawned"),
-                stdin=subprocess.PIPE,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-                env=clean_environment(),
-            )
-            assert process.stdin is not None
-            process.stdin.write(theirs.share(process.pid))
-            process.stdin.close()
-            return process
-        return start_clean("grader.worker.spawned", theirs, self.without, subprocess.DEVNULL)
+    def _start(self) -> Started:
+        if sys.platform != "win32":
+            return start_clean("grader.worker.spawned", self.without, out=subprocess.DEVNULL)
+        ours, theirs = socket.socketpair()
+        process = subprocess.Popen(
+            command("grader.worker.spawned"),
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            env=clean_environment(),
+        )
+        assert process.stdin is not None
+        with theirs, process.stdin as pipe:
+            pipe.write(theirs.share(process.pid))
+        return Started(process, [ours])
 
     def pid_of(self, child: Child) -> int:
         return child.ready.pid
@@ -508,19 +475,12 @@ def reaped_seconds() -> float:
     return used.ru_utime + used.ru_stime
 
 
-def clean_environment() -> dict[str, str]:
-    """Return an environment without the instructor's tokens, paths and Python settings.
-
-    Python may need the path of libraries to start; the warm process wipes it out of its memory.
-    """
-    needed = ("PATH", "SYSTEMROOT") if sys.platform == "win32" else ("LD_LIBRARY_PATH",)
-    return {name: os.environ[name] for name in needed if name in os.environ} | ENVIRONMENT
-
-
-def start_worker(spawn: bool = False, without: Collection[str] = ()) -> Worker:
+def start_worker(spawn: bool = False, without: Collection[str] = (), count: int = 1) -> Worker:
     """Return the fastest worker of this platform, or the portable one with `spawn`.
 
-    Its children lack the layers of isolation that `without` names.
+    Its children lack the layers of isolation that `without` names. It has `count` - 1 helpers, if
+    that saves time.
     """
-    kind = SpawnWorker if spawn or not hasattr(os, "fork") else WarmWorker
-    return kind(without)
+    if spawn or not hasattr(os, "fork"):
+        return SpawnWorker(without)
+    return WarmWorker(without, count)

@@ -30,8 +30,8 @@ import psutil
 from msgspec import Struct
 
 from grader.errors import Stop, say_error
-from grader.judge.wall.children import command
 from grader.judge.wall.processes import end_family
+from grader.judge.wall.starting import command
 from grader.judge.wall.workplace import work_folder
 
 try:
