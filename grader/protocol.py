@@ -486,6 +486,7 @@ class ChildSetup(Struct, frozen=True):
     loads: list[str] = []  # slow libraries to load before the fork
     bans: list[str] = []  # allowed modules that this check forbids
     shown: list[str] = []  # folders of the submission that the child only reads, without a copy
+    programs: list[str] = []  # to compile, with the files that they name; empty for all files
 
 
 class Ready(Struct, frozen=True):

@@ -2,6 +2,7 @@
 
 import os
 import py_compile
+import re
 import sys
 from contextlib import suppress
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 from grader.protocol import ChildSetup
 
 OLD_FILE = os.O_RDONLY | getattr(os, "O_BINARY", 0)
+WORD = re.compile(r"\w+")
 NEW_FILE = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | getattr(os, "O_BINARY", 0)
 
 
@@ -67,15 +69,14 @@ def copy_file(entry: "os.DirEntry[str]", target: str) -> None:
 
 
 def compile_all(setup: ChildSetup) -> None:
-    """Compile the submission into the folder of compiled files, which other children only read.
+    """Compile the programs into the folder of compiled files, which other children only read.
 
     No line of the submission runs. A file that cannot be compiled is left out: the child that
     imports it says why. Compiling stops when the folder is full.
     """
     submission, bytecode = Path(setup.submission), Path(setup.bytecode)
     size = 0
-    sources = sorted(submission.rglob("*.py"), key=lambda path: (len(path.parts), path))
-    for source in sources[: setup.limits.scratch_files]:
+    for source in list_sources(submission, setup.programs)[: setup.limits.scratch_files]:
         inside = source.relative_to(submission)
         target = bytecode / inside.parent / f"{source.stem}.{sys.implementation.cache_tag}.pyc"
         with suppress(py_compile.PyCompileError, OSError, ValueError, MemoryError):
@@ -83,3 +84,21 @@ def compile_all(setup: ChildSetup) -> None:
             size += target.stat().st_size
         if size > setup.limits.scratch_mb * 1024 * 1024:
             return
+
+
+def list_sources(submission: Path, programs: list[str]) -> list[Path]:
+    """Return the files of the programs, and of the modules beside them that their text names."""
+    sources = sorted(submission.rglob("*.py"), key=lambda path: (len(path.parts), path))
+    if not programs:
+        return sources
+    modules: dict[str, list[Path]] = {}
+    for source in sources:
+        top = source.relative_to(submission).parts[0].removesuffix(".py")
+        modules.setdefault(top, []).append(source)
+    found: list[Path] = []
+    waiting = list(programs)
+    while waiting:
+        for source in modules.pop(waiting.pop(), ()):
+            found.append(source)
+            waiting += WORD.findall(source.read_text("utf-8", "replace"))
+    return found

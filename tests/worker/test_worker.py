@@ -22,7 +22,7 @@ from grader.protocol import (
     Returned,
     Vec,
 )
-from grader.worker.copies import compile_all
+from grader.worker.copies import compile_all, list_sources
 
 SOAK = pytest.mark.soak
 MODULE = """
@@ -266,6 +266,23 @@ def test_to_compile_runs_nothing_and_stops_when_the_folder_is_full(tmp_path: Pat
     assert not (tmp_path / "ran").exists()
 
 
+def test_programs_are_compiled_with_the_files_that_they_name(tmp_path: Path):
+    files = {
+        "engine/__init__.py": "from engine.body import Body",
+        "engine/body.py": "import helper",
+        "helper.py": "def help(): import late",
+        "late.py": "",
+        "other.py": "import engine",
+        "unused/__init__.py": "",
+    }
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    found = [each.relative_to(tmp_path).as_posix() for each in list_sources(tmp_path, ["engine"])]
+    assert sorted(found) == ["engine/__init__.py", "engine/body.py", "helper.py", "late.py"]
+    assert len(list_sources(tmp_path, [])) == len(files)
+
+
 @linux
 @forked
 def test_children_read_what_was_compiled_and_cannot_write_it(tmp_path: Path, ask: Asker):
@@ -274,6 +291,7 @@ def test_children_read_what_was_compiled_and_cannot_write_it(tmp_path: Path, ask
     tree.mkdir(parents=True)
     (tree / "hostile.py").write_text(MODULE, encoding="utf-8")
     sandbox = sandbox_for(Submission("tree", tree), work, ask.worker, Options(trusted=True))
+    sandbox.programs = ["hostile"]
     child = sandbox.open_child(5)
     child.ask(Import("hostile"))
     (compiled,) = (work / "bytecode").glob("hostile.*.pyc")

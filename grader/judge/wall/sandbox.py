@@ -32,6 +32,7 @@ class Sandbox:
     layers: list[str] = field(default_factory=list)  # of isolation around the last child
     bans: list[str] = field(default_factory=list)  # modules that children may not import, by name
     shown: list[str] = field(default_factory=list)  # folders that children need not copy
+    programs: list[str] = field(default_factory=list)  # modules that checks import
     unseen: str = ""  # a scratch folder that no child has seen
     used: list[tuple[Child, str]] = field(default_factory=list)  # children, and their folders
 
@@ -117,6 +118,7 @@ class Sandbox:
             loads=self.loads,
             bans=self.bans,
             shown=self.shown,
+            programs=self.programs,
         )
 
     def _layers_around(self, child: Child) -> list[str]:
