@@ -14,12 +14,13 @@ SOON = 10.0  # s
 MOST = 50  # balls
 WEAK = 20.0  # units/s²
 SHAKY = 0.15  # where a load of 3 g swings, a ball turns by more than 1 rad in a substep
+HEAVY = 50.0  # times its mass, what a ball in a chain may carry if the chain may be hit
 
 
 def complaints(world: WorldState) -> list[str]:
     """Return one sentence for each effect that is missing, or declared and not used."""
     told = [*missing(world, world.bodies).values(), *unused(world)]
-    return [*told, *odd_gravity(world), *shaky_rods(world)]
+    return [*told, *odd_gravity(world), *overloaded_rods(world)]
 
 
 def missing(world: WorldState, looked_at: list[Body]) -> dict[str, str]:
@@ -120,13 +121,15 @@ def unused(world: WorldState) -> list[str]:
     ]
 
 
-def shaky_rods(world: WorldState) -> list[str]:
-    """Return a sentence if a light ball on rods carries so much that it shakes faster than steps.
+def overloaded_rods(world: WorldState) -> list[str]:
+    """Return a sentence if a light ball on rods carries so much that it moves faster than steps.
 
-    What it carries is at most what is on its rods and all that are tied to them.
+    What it carries is at most what is on its rods and all that are tied to them. In a chain that
+    may hit something, a light ball is thrown about where the chain snaps tight.
     """
     rods: list[Joint] = getattr(world.effects.get("Rods"), "joints", [])
     h, g = FRAME / 2 / world.substep_count, hypot(*world.g)
+    may_hit = "Contacts" in world.effects
     load: dict[Body, float] = {}
     for _ in rods:  # at the latest after so many rounds, each ball knows the heaviest
         before = dict(load)
@@ -138,9 +141,13 @@ def shaky_rods(world: WorldState) -> list[str]:
             break
     for rod in rods:
         for body in (rod.a, rod.b):
-            if not body.is_static and h * h * g * load[body] > SHAKY * body.m * rod.rest:
+            if body.is_static:
+                continue
+            shakes = h * h * g * load[body] > SHAKY * body.m * rod.rest
+            is_thrown = may_hit and body.joint_count > 1 and load[body] > HEAVY * body.m
+            if shakes or is_thrown:
                 return [
-                    f"{body!r} is on a rod with up to {load[body]:g} kg: it may shake faster than "
+                    f"{body!r} is on a rod with up to {load[body]:g} kg: it may move faster than "
                     "the substeps can follow. Take more substeps, or masses closer to each other."
                 ]
     return []

@@ -168,3 +168,22 @@ def test_what_is_added_or_set_after_the_first_step_is_checked_in_the_next():
 def test_a_scene_in_metres_is_asked_for_its_unit():
     for gravity, unit, asked in ((9.8, 1.0, 1), (9.8, 0.01, 0), (980, 1.0, 0), (0, 1.0, 0)):
         assert len(World((0, gravity), unit=unit).check()) == asked
+
+
+@pytest.mark.parametrize(
+    ("ratio", "effects", "told"),
+    [
+        (20, ["Rods", "Contacts"], 0),
+        (100, ["Rods", "Contacts"], 1),
+        (100, ["Rods"], 0),
+        (1e5, ["Rods"], 1),
+    ],
+)
+def test_a_light_chain_with_a_heavy_ball_is_told_of_where_rods_may_stretch(ratio, effects, told):
+    world = World(effects=make(effects))
+    last = world.add(Body(Circle(5), (0, 0)))
+    for i in range(1, 5):
+        link = world.add(Body(Circle(5), (0, 50 * i), mass=ratio if i == 4 else 1))
+        world.add(Rod(last, link))
+        last = link
+    assert len([sentence for sentence in world.check() if "masses closer" in sentence]) == told
