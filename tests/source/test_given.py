@@ -171,34 +171,6 @@ def test_a_todo_keeps_its_points_where_given_code_is_to_blame(hand_in):
         assert (each.where.file, each.where.line) == (SOLVER, 69)
 
 
-BODY = "mini_engine/body.py"
-
-
-@pytest.mark.soak
-def test_changed_given_code_costs_the_whole_alone(hand_in):
-    tree = hand_in("solution")
-    change(tree, BODY, "1 / (0.5 * mass * shape", "1 / (mass * shape")  # a ring
-    only = frozenset({"4", "whole"})
-    result = grade(tree, Options(shipped_reference(), only=only, trusted=True), shared_worker())
-    lost = {todo.id: todo.points < todo.max_points for todo in result.todos}
-    assert lost == {"4": False, "whole": True}
-    whole = next(todo for todo in result.todos if todo.id == "whole")
-    assert all("check --restore" in check.meaning for check in whole.failed)
-    assert all(check.where.file == BODY for check in whole.failed)
-
-
-@pytest.mark.soak
-def test_an_import_that_is_not_allowed_costs_the_whole_alone(hand_in):
-    tree = hand_in("solution")
-    change(tree, SOLVER, "import math\n", "import math\nimport scipy\n")
-    only = frozenset({"2", "8a", "whole"})
-    result = grade(tree, Options(shipped_reference(), only=only, trusted=True), shared_worker())
-    assert {todo.id for todo in result.todos if todo.state == "passed"} == {"2", "8a"}
-    whole = next(todo for todo in result.todos if todo.id == "whole")
-    assert all("`import scipy`, was not there" in each.meaning for each in whole.failed)
-    assert whole.points <= 3  # of the other program
-
-
 def test_a_todo_that_is_done_in_given_code_earns_nothing_by_what_is_put_back(hand_in):
     """The region does nothing, and the damping of the step is in the code around it."""
     tree = hand_in("solution")
