@@ -44,6 +44,10 @@ def listen():
         server.bind(("127.0.0.1", 0))
         return True
 def abstract(name): socket.socket(socket.AF_UNIX).connect("\\0" + name); return True
+def keep(key): return libc.shmget(key, 4096, 0o1666) >= 0
+def kept(key): return libc.shmget(key, 0, 0) >= 0
+def keep_key(name): return libc.syscall(248, b"user", name.encode(), b"x", 1, -4) >= 0
+def kept_key(name): return libc.syscall(250, 10, -4, b"user", name.encode(), 0) >= 0
 def run(program): return subprocess.run([program], capture_output=True).returncode
 def fill(megabytes):
     for number in range(megabytes):
@@ -368,6 +372,18 @@ def test_a_layer_alone_refuses(
     other.write_text("x = 1\n", encoding="utf-8")
     name, *args = (str(other) if each == "OTHER" else each for each in asked)
     assert is_refused(probe(name, *args), *errors)
+
+
+@pytest.mark.parametrize(
+    ("layer", "name", "word"),
+    [("ipc-namespace", "", 77_123), ("user-namespace", "_key", "physics-grader")],
+    indirect=["layer"],
+)
+def test_nothing_is_kept_for_another_child(probe: Prober, name: str, word: int | str):
+    left = probe(f"keep{name}", word)
+    assert left is True or name
+    assert probe(f"kept{name}", word) is False
+    assert ctypes.CDLL(None).shmget(77_123, 0, 0) < 0
 
 
 # ---------------------------------------------------------------- without
