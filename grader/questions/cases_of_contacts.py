@@ -119,32 +119,4 @@ def rod(program: Program, draw: Draw) -> Case:
     )
 
 
-@maker(2, "2", scene=SEEDS, ball=range(1, 9), speed=range(90, 400))
-def sliding(program: Program, draw: Draw) -> Case:
-    """Predict the impulse that would stop the slip of a ball that can turn."""
-    with program.own.lab("mini_engine") as lab:
-        scene = Scene(lab, draw["scene"])
-        (ball, state), (floor, _) = scene.find_ball(draw["ball"]), scene.find_box(FLOOR)
-        arm = (0.0, state.radius)
-        answered = lab.call("effective_mass", ball, floor, arm, (0.0, 0.0), (1.0, 0.0))
-        total = lab.number(answered, "what effective_mass returns")
-    mass, speed = 1 / state.inv_mass, float(draw["speed"])
-    return Case(
-        f"{scene.intro} Ball {draw['ball']} of it has {digits(mass)} kg. Its lowest point slides "
-        f"over the floor at {speed:g} px/s.\n"
-        "Which impulse along the floor, without its sign, brings this point to rest, the turning "
-        "included?",
-        mass * speed / 3,
-        speed / total,
-        "kg px/s",
-        "The impulse turns the ball as well: 1/m + r² / (½ m r²) = 3/m is the change of speed per "
-        "unit of impulse.",
-        [
-            (mass * speed, "left the spin terms out"),
-            (mass * speed / 2, "took m r² for the moment of a disc, which has half of that"),
-            (3 * mass * speed, "multiplied by the sum of inverses instead of dividing"),
-        ],
-    )
-
-
-MAKERS = (impulse, rod, friction, sliding)
+MAKERS = (impulse, rod, friction)

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from functools import partial
 
 from grader.checks import exact
-from grader.judge.lab import STEP
 from grader.protocol import Rng
 from grader.questions.numbers import Case, Draw, Maker, Unsuited, maker
 from grader.questions.program import CannotAsk, Program
@@ -110,30 +109,4 @@ def moment(program: Program, draw: Draw) -> Case:
     )
 
 
-@maker(6, "7a", steps=range(20, 70))
-def fall(program: Program, draw: Draw) -> Case:
-    """Predict the speed of a body that falls in pymunk."""
-    count = draw["steps"]
-    with program.own.lab("pymunk_scene") as lab:
-        space = lab.thing(lab.call("empty_space"))
-        ball = lab.thing(lab.call("add_ball", space, Rng(12), (100.0, 100.0)), "a ball")
-        measured = lab.simulate(space, [ball], count, every=count).body(0)[-1].vy
-    kept = 0.95**STEP
-    answer = 980 * STEP * (1 - kept**count) / (1 - kept)
-    return Case(
-        f"In your `empty_space()` a ball falls from rest for {count} steps of 1/120 s. The space "
-        "keeps 0.95 of the speed per second.\nHow fast is it then?",
-        answer,
-        measured,
-        "px/s",
-        f"980 px/s² for {count}/120 s, less the percent or so that damping takes.",
-        [
-            (980.0 * count / 60, "took steps of 1/60 s"),
-            (980.0 * count, "added 980 px/s in each step: an acceleration is multiplied by dt"),
-            (490.0 * (count * STEP) ** 2, "gave the way it falls"),
-        ],
-        share=0.04,
-    )
-
-
-MAKERS = (*HALVINGS, moment, fall)
+MAKERS = (*HALVINGS, moment)

@@ -1,11 +1,10 @@
 """Make questions that ask why, about a student's own line, marked by a person.
 
-Each depends on how the student wrote a TODO: a line of a known form is found in the syntax tree and
-quoted in the question.
+Each depends on how the student wrote a TODO: a line of a known form is quoted in the question.
 """
 
 import ast
-from collections.abc import Iterator
+import re
 from functools import cache
 from pathlib import Path
 
@@ -21,41 +20,13 @@ MOST_CODE_TO_SEARCH = 8000  # characters of a function that is searched
 MOST_QUOTED = 160  # characters of a line
 
 
-class Form(Struct, frozen=True, forbid_unknown_fields=True):
-    """A form of a statement; without any field, every statement has it."""
-
-    calls: set[str] = set()
-    operators: set[str] = set()
-    is_a: set[str] = set()
-
-    def fits(self, statement: ast.stmt) -> bool:
-        if self.is_a:
-            return type(statement).__name__ in self.is_a
-        nodes = list(walk_statement(statement))
-        if self.operators:
-            return any(type(node).__name__ in self.operators for node in nodes)
-        called = {ast.unparse(node.func) for node in nodes if isinstance(node, ast.Call)}
-        names = {name.rpartition(".")[2] for name in called}
-        return not self.calls or not names.isdisjoint(self.calls)
-
-
 class Reason(Struct, frozen=True, forbid_unknown_fields=True):
-    """A question about the first statement that has one of some forms; see reasons.toml."""
+    """A question about the first line that one of some patterns fits; see reasons.toml."""
 
     name: str
     text: str
     rubric: tuple[str, ...]  # a point each
-    forms: tuple[Form, ...] = (Form(),)  # the usual one first
-
-
-def walk_statement(node: ast.stmt) -> Iterator[ast.AST]:
-    """Walk a statement without the statements in it: for an `if`, only its condition."""
-    waiting: list[ast.AST] = [node]
-    while waiting:
-        each = waiting.pop()
-        yield each
-        children = ast.iter_child_nodes(each)
-        waiting += [child for child in children if not isinstance(child, ast.stmt)]
+    lines: tuple[str, ...] = ("",)  # patterns, the usual one first
 
 
 @cache
@@ -84,26 +55,23 @@ def ask_reason(todo: str, program: Program, points: int) -> Question:
 
 
 def quote_line(program: Program, todo: str) -> str:
-    """Return the line of the student's function to ask about, as written; or None."""
-    text = program.own.find_function(FUNCTIONS[todo])
-    module = parse(text.source, MOST_CODE_TO_SEARCH) if text else None
-    if text is None or module is None or not module.body:
-        return ""
-    function = module.body[0]
-    statements = [
-        node
-        for node in ast.walk(function)
-        if isinstance(node, ast.stmt) and node is not function and not is_docstring(node)
-    ]
-    forms = load_reasons()[todo].forms
-    try:
-        node = next((each for form in forms for each in statements if form.fits(each)), None)
-    except RecursionError:  # nested deeper than usual code
-        return ""
-    if node is None:
-        return ""
-    return printable(text.source.splitlines()[node.lineno - 1]).strip()[:MOST_QUOTED]
+    """Return the line of the student's function to ask about, as written; empty for none."""
+    found = program.own.find_function(FUNCTIONS[todo])
+    lines = list_code_lines(found.source) if found else []
+    for pattern in load_reasons()[todo].lines:
+        for line in lines:
+            if re.search(pattern, line):
+                return line[:MOST_QUOTED]
+    return ""
 
 
-def is_docstring(node: ast.stmt) -> bool:
-    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+def list_code_lines(source: str) -> list[str]:
+    """Return the lines of a function without its head, docstring and comments."""
+    module = parse(source, MOST_CODE_TO_SEARCH)
+    function = module.body[0] if module and module.body else None
+    if not isinstance(function, ast.FunctionDef):
+        return []
+    body = function.body[ast.get_docstring(function, clean=False) is not None :]
+    start = body[0].lineno - 1 if body else len(source)
+    lines = (printable(line).strip() for line in source.splitlines()[start:])
+    return [line for line in lines if line and not line.startswith("#")]

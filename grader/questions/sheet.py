@@ -12,7 +12,7 @@ from grader.questions.question import Question, Sheet
 from grader.questions.reasons import ask_reason, list_reason_todos
 from grader.text import clean
 
-SLOTS = (1, 3, 5, 2, 4, 6)  # contacts, time, integrators: a sheet begins with one of each
+SLOTS = (1, 3, 5, 2, 4)  # contacts, time, integrators: a sheet begins with one of each
 Ask = tuple[str, Callable[[], Question]]  # the name of a question, and its maker
 
 
