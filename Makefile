@@ -140,6 +140,7 @@ films: $(CORE) ## Record the films of the handouts anew, once an engine has chan
 
 handouts: $(SITE) ## Make the handouts as web pages in build/handouts
 	@$(PY) handouts/make_hints.py
+	@$(PY) handouts/make_systems.py
 	@$(PY) handouts/make_site.py
 
 course-check: $(CORE) ## Check the course file, COURSE_FILE=path, and try its release

@@ -14,8 +14,9 @@ from msgspec import Struct
 
 from grader.classroom.adjustments import Adjustments, load_adjustments
 from grader.errors import Stop
+from grader.intake.learning_systems import BY_NAME
 from grader.intake.roster import ClassList
-from grader.intake.systems import BY_NAME, find_system, read_roster
+from grader.intake.systems import find_system, read_roster
 from grader.judge.course import Course, read_course
 from grader.report.files import write_whole
 

@@ -293,7 +293,7 @@ def feedback_command(
     results = known.find_results()
     from grader.classroom.dashboard import read_class, write_dashboard
     from grader.classroom.feedback import GradedClass, zip_files
-    from grader.intake.systems import BY_NAME
+    from grader.intake.learning_systems import BY_NAME
     from grader.report.files import write_whole
 
     system = BY_NAME.get(known.settings.system)
@@ -320,8 +320,9 @@ def make_feedback(known: "ClassFolder", recipient: str, graded: "GradedClass") -
     """Make each student's page for a learning system, for mail or for nbgrader."""
     from grader.classroom import feedback
     from grader.cli.classroom import require_same_class
+    from grader.intake.learning_systems import BY_NAME
     from grader.intake.listing import open_class
-    from grader.intake.systems import BY_NAME, read_roster
+    from grader.intake.systems import read_roster
 
     if recipient == "nbgrader":
         return feedback.place_for_nbgrader(graded)

@@ -12,12 +12,13 @@ from grader.errors import Stop
 from grader.intake.archives import unzip_class
 from grader.intake.found import CannotTake, Intake, Upload, Work
 from grader.intake.groups import share_work
+from grader.intake.learning_systems import SYSTEMS
 from grader.intake.lms import Lms
 from grader.intake.names import fold, make_portable
 from grader.intake.packing import pack, read_first_name
 from grader.intake.places import cut_suffix, has_program, is_archive, list_folder
 from grader.intake.roster import CALLED, ClassList, find_student
-from grader.intake.systems import ANY_OTHER, SYSTEMS
+from grader.intake.systems import ANY_OTHER
 from grader.judge.wall.outer import Allowance, Exceeded, Failed, Lost, call_each_within, call_within
 from grader.judge.wall.workplace import work_folder
 

@@ -43,10 +43,15 @@ class Page:
 class Lms:
     """A learning system; this class serves any unknown one, by a table with plain columns.
 
-    A new system overrides what differs, and is entered in `systems.py`.
+    A new system is a subclass in `learning_systems/` that overrides what differs.
     """
 
     name = "plain"
+    title = ""  # this and the next three: its row in the table of handouts/instructor/class.md
+    class_list = ""
+    download = ""
+    marks_file = ""
+    rank = 9  # systems with a lower one are asked first
     title_sign = ""  # the sign behind an assignment's title in the gradebook
     only_commas = False  # it accepts only UTF-8 with commas
     names_alone = True  # its export identifies students by their names alone

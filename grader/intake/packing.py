@@ -14,6 +14,7 @@ from msgspec import Struct
 
 from grader.intake.archives import Bounds, unzip
 from grader.intake.found import CannotTake, Package, Work
+from grader.intake.learning_systems import SYSTEMS
 from grader.intake.names import MENTIONED, make_portable, shorten_list
 from grader.intake.pieces import (
     Layout,
@@ -33,7 +34,6 @@ from grader.intake.places import (
     is_packed,
     list_modules,
 )
-from grader.intake.systems import SYSTEMS
 from grader.judge.plain import copy_plain, open_plain, size_of
 from grader.judge.submission import CannotGrade, explain_unreadable, module_of, plain_files
 from grader.judge.wall.outer import READING, Exceeded, Failed, Lost, call_within

@@ -1,4 +1,4 @@
-"""List the learning systems, and read class lists as they write them."""
+"""Read class lists as learning systems write them."""
 
 import csv
 import io
@@ -7,17 +7,10 @@ from contextlib import suppress
 from pathlib import Path
 
 from grader.errors import Stop
-from grader.intake.blackboard import Blackboard
-from grader.intake.brightspace import Brightspace
-from grader.intake.canvas import Canvas
-from grader.intake.gradescope import Gradescope
+from grader.intake.learning_systems import SYSTEMS
 from grader.intake.lms import Lms
-from grader.intake.moodle import Moodle
 from grader.intake.roster import KEYS, ClassList, Roster
 
-# The first that recognises a name or a gradebook decides.
-SYSTEMS = (Brightspace(), Blackboard(), Moodle(), Canvas(), Gradescope())
-BY_NAME: dict[str, Lms] = {each.name: each for each in SYSTEMS}
 ANY_OTHER = Lms()
 
 WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # first bytes of .xlsx and .ods, .xls

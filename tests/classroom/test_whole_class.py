@@ -22,7 +22,8 @@ from grader.classroom.batch import Run
 from grader.classroom.book import compare_results
 from grader.classroom.grading import ClassOptions, run_class
 from grader.intake import archives, repack
-from grader.intake.systems import BY_NAME, read_class_list
+from grader.intake.learning_systems import BY_NAME
+from grader.intake.systems import read_class_list
 from grader.judge.course import Course
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.task import Options

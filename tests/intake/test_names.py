@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from grader.intake.blackboard import WHO
+from grader.intake.learning_systems import SYSTEMS
+from grader.intake.learning_systems.blackboard import WHO
 from grader.intake.names import LONGEST, make_portable
 from grader.intake.pieces import is_backup, is_renamed, match_name, strip_additions
 from grader.intake.places import list_modules
 from grader.intake.roster import ClassList
-from grader.intake.systems import SYSTEMS
 
 MOST = 255  # bytes of a file's name on any disk
 

@@ -22,9 +22,9 @@ from grader.classroom.marks import Marking, Marks, Part, Parts, Scores, make_mar
 from grader.errors import Stop
 from grader.intake.dates import read_moment
 from grader.intake.found import CannotTake, Intake, Work
+from grader.intake.learning_systems.moodle import Moodle
 from grader.intake.listing import open_class
 from grader.intake.lms import Page
-from grader.intake.moodle import Moodle
 from grader.intake.packing import read_package
 from grader.intake.roster import ClassList, Roster
 from grader.intake.systems import find_system, read_roster

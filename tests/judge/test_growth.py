@@ -25,9 +25,9 @@ from grader.intake import names
 from grader.intake.archives import BadName, Bounds, check_name, unzip
 from grader.intake.dates import read_moment
 from grader.intake.found import CannotTake
+from grader.intake.learning_systems import SYSTEMS
 from grader.intake.pieces import is_renamed, name_type, rank_file, strip_additions
 from grader.intake.roster import ClassList
-from grader.intake.systems import SYSTEMS
 from grader.judge.explain.error_words import find_similar
 from grader.judge.submission import load_given
 from grader.protocol import NOT_A_MESSAGE, Answered

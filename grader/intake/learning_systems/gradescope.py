@@ -54,6 +54,13 @@ class ListedWork(Struct):
 
 class Gradescope(Lms):
     name = "gradescope"
+    title = "Gradescope"
+    class_list = "a list of your own, or *Roster, Download*: any CSV with addresses"
+    download = (
+        "`submission_123456789` and `submission_metadata.yml`: the address in that list, and "
+        "the time; one for each of those who worked together"
+    )
+    marks_file = "the columns of names, then `Grade` and `Feedback`"
     side_files = frozenset({METADATA})
 
     def is_export(self, folder: Path) -> bool:

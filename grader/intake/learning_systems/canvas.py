@@ -26,6 +26,14 @@ TRIAL = re.compile(r"studenttest_(LATE_)?\d+_.+")  # prefix of its file names
 
 class Canvas(Lms):
     name = "canvas"
+    title = "Canvas"
+    class_list = "*Grades, Export*, with `Student`, `ID`, `SIS Login ID`, `Section`"
+    download = (
+        "`doejane_LATE_1234_5678_work.zip` becomes `doejane_1234`, marked as late; loose "
+        "files of one student are one submission"
+    )
+    marks_file = "its own first columns, and the assignment's, by the title with its id"
+    rank = 4
     title_sign = "("
     names_alone = False
     takes_feedback = True

@@ -27,6 +27,20 @@ COLUMNS = ("Last Name", "First Name", "Username", "Student ID")
 
 class Blackboard(Lms):
     name = "blackboard"
+    title = "Blackboard"
+    class_list = (
+        "*Work offline, Download*, tabs or commas between, with `Username`, `Last Name`, "
+        "`First Name`"
+    )
+    download = (
+        "`Lab_ab123_attempt_2026-05-04-23-59-00_work.zip` becomes `ab123`, and the time; "
+        "loose files are put together, the last attempt counts. The receipt tells whose file "
+        "it is where a login has a `_`"
+    )
+    marks_file = (
+        "names, `Username`, and the column with its id, in the same encoding, tabs or commas"
+    )
+    rank = 2
     title_sign = "["
     names_alone = False
 

@@ -28,6 +28,20 @@ class Moodle(Lms):
     """Moodle with its grading worksheet; the export of its gradebook is a plain list."""
 
     name = "moodle"
+    title = "Moodle"
+    class_list = (
+        "the assignment's *grading worksheet*, with `Identifier`, or *Grades, Export, Plain "
+        "text*, with `Email address`, `ID number`"
+    )
+    download = (
+        "`Jane Doe_123456_assignsubmission_file_` becomes `Jane Doe_123456`; with or without "
+        "a folder each; the time from the grading worksheet"
+    )
+    marks_file = (
+        "the whole worksheet, `Grade` and `Feedback comments` filled in; for a plain list the "
+        "columns of names, then `Grade` and `Feedback`, to be mapped at import"
+    )
+    rank = 3
     only_commas = True
     names_alone = False
     takes_feedback = True

@@ -21,6 +21,16 @@ END_OF_LINE = "End-of-Line Indicator"  # the last column, a # in each row
 
 class Brightspace(Lms):
     name = "brightspace"
+    title = "Brightspace"
+    class_list = (
+        "*Grades, Export*, with both keys: `OrgDefinedId`, `Username`, `End-of-Line Indicator`"
+    )
+    download = (
+        "`123-456 - Jane Doe - May 4, 2026 1159 PM` becomes `Jane Doe_123-456`, and the time; "
+        "the last of several counts, `index.html` is left out"
+    )
+    marks_file = "`OrgDefinedId`, `Username`, `TITLE Points Grade`, `End-of-Line Indicator`"
+    rank = 1
     only_commas = True
     takes_feedback = True
     side_files = frozenset({"index.html"})  # a list of all submissions
