@@ -27,10 +27,10 @@ import msgspec
 from msgspec import Struct
 
 from grader.bank.members import (
-    Variant,
-    change_files,
+    Entry,
+    Member,
+    Regions,
     indent_like,
-    put_regions,
     read_wrong,
     solution_code,
 )
@@ -43,19 +43,17 @@ from grader.judge.wall.children import Worker
 from grader.source.regions import python_files, read_source, regions_in
 
 BANK = KIT / "tests" / "bank"
-PROGRAMS = ("mini_engine", "lab_runtime.py", "integrators.py", "pymunk_scene.py")
-
 
 # Position of the code: alone in its region, with the stub's lines above or below, or below a region
 # that holds the stub.
 Place = Literal["region", "below the stub", "above the stub", "outside"]
 
 
-class State(Variant, frozen=True, kw_only=True):
+class State(Entry, frozen=True, kw_only=True):
     """A student's code: the sheet's with some text changed, or code of its own."""
 
-    says: list[str]  # regular expressions, each of which must be found
-    never: list[str] = msgspec.field(default_factory=list)  # and these must not
+    says: tuple[str, ...]  # regular expressions, each of which must be found
+    never: tuple[str, ...] = ()  # and these must not
     place: Place = "region"
     moved: str = ""
     encoding: str = "utf-8"  # of the TODO's file
@@ -67,60 +65,61 @@ class Sheet(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 @dataclass(frozen=True)
-class Halfway:
-    """One state of one TODO."""
+class Halfway(Member):
+    """One state of one TODO; the other TODOs are those of the solution."""
 
-    todo: str
-    name: str
-    code: str  # of the region
-    state: State
-
-    def build(self, folder: Path, tree: str = "solution") -> None:
-        """Write it into `folder`, which must not exist; the other TODOs are those of the tree."""
-        for program in PROGRAMS:
-            source, target = KIT / tree / program, folder / program
-            if source.is_dir():
-                shutil.copytree(source, target, ignore=shutil.ignore_patterns("__pycache__"))
-            else:
-                folder.mkdir(parents=True, exist_ok=True)
-                shutil.copyfile(source, target)
-        put_regions({self.todo: tuple(self.lines)}, folder)
-        file = next(path for path in python_files(folder) if self.start in read_source(path))
-        if self.state.place == "outside":
-            put_below(self.code, self.todo, file)
-        change_files(self.state.files, folder)
-        if self.state.moved:
-            shutil.copyfile(file, folder / self.state.moved)
-            shutil.copyfile(KIT / "starter" / file.relative_to(folder), file)
-        file.write_text(file.read_text(encoding="utf-8"), encoding=self.state.encoding)
+    entry: State
 
     @property
-    def start(self) -> str:
-        return f"# TODO {self.todo}: "
+    def patched(self) -> frozenset[str]:
+        return frozenset({self.name.partition("-")[0]})
 
     @property
-    def lines(self) -> list[str]:
-        """Return the lines of the region."""
-        code, stub = self.code.splitlines(), dedent(handed_out().stubs[self.todo]).splitlines()
-        parts = {
-            "region": [code],
-            "below the stub": [stub, code],
-            "above the stub": [code, stub],
-            "outside": [stub],
+    def judged_by(self) -> frozenset[str]:
+        return self.patched
+
+    @property
+    def regions(self) -> Regions:
+        (todo,) = self.patched
+        code = self.entry.code.splitlines()
+        stub = dedent(handed_out().stubs[todo]).splitlines()
+        lines = {
+            "region": code,
+            "below the stub": [*stub, *code],
+            "above the stub": [*code, *stub],
+            "outside": stub,
         }
-        return [line for part in parts[self.state.place] for line in part]
+        return {todo: tuple(lines[self.entry.place])}
 
-    def complaint(self, result: Result) -> str:
+    def build(self, kit: Path, folder: Path) -> None:
+        super().build(kit, folder)
+        (todo,) = self.patched
+        start = f"# TODO {todo}: "
+        file = next(path for path in python_files(folder) if start in read_source(path))
+        if self.entry.place == "outside":
+            put_below(self.entry.code, todo, file)
+        if self.entry.moved:
+            shutil.copyfile(file, folder / self.entry.moved)
+            shutil.copyfile(kit / "starter" / file.relative_to(folder), file)
+        file.write_text(file.read_text(encoding="utf-8"), encoding=self.entry.encoding)
+
+    def complaint(self, result: Result, seconds: float) -> str:
         """Return the fault in the words of its first failure, or an empty text."""
-        first = first_failure(result)
+        first = find_failure(result)
         if first is None:
             return "nothing fails"
         words = first.meaning or f"{first.title}; expected {first.expected}; got {first.got}"
-        missing = [each for each in self.state.says if not re.search(each, words, re.IGNORECASE)]
-        wrong = [each for each in self.state.never if re.search(each, words, re.IGNORECASE)]
+        missing = [each for each in self.entry.says if not re.search(each, words, re.IGNORECASE)]
+        wrong = [each for each in self.entry.never if re.search(each, words, re.IGNORECASE)]
         if wrong:
             return f"says {', '.join(wrong)}: {words}"
         return f"does not say {', '.join(missing)}: {words}" if missing else ""
+
+    def grade(self, folder: Path, worker: Worker | None) -> Result:
+        """Grade it as students do: without the reference and without hidden checks."""
+        options = Options(reference=None, only=self.judged_by, trusted=True)
+        with grading(folder, options, worker, drop_hidden(load_rubric())) as run:
+            return run.run()
 
 
 def put_below(code: str, todo: str, file: Path) -> None:
@@ -151,22 +150,13 @@ def list_states(todo: str = "") -> Iterator[Halfway]:
 
 def make_state(todo: str, name: str, right: str, state: State) -> Halfway:
     try:
-        return Halfway(todo, f"{todo}-{name}", state.rewrite(right), state)
+        entry = msgspec.structs.replace(state, code=state.rewrite(right), change=[])
     except ValueError as error:
         raise ValueError(f"{todo}-{name}: {error}") from None
+    return Halfway("halfway", f"{todo}-{name}", "package", entry, None)
 
 
-def first_failure(result: Result) -> CheckResult | None:
+def find_failure(result: Result) -> CheckResult | None:
     """Return the first failed check, or one that passes with given code restored."""
     checks = [check for todo in result.todos for check in todo.checks]
     return next((each for each in checks if each.failed or each.meaning), None)
-
-
-def grade_state(
-    state: Halfway, folder: Path, worker: Worker | None, tree: str = "solution"
-) -> Result:
-    """Grade it as students do: without the reference and without hidden checks."""
-    state.build(folder / state.name, tree)
-    options = Options(reference=None, only=frozenset({state.todo}), trusted=True)
-    with grading(folder / state.name, options, worker, drop_hidden(load_rubric())) as run:
-        return run.run()

@@ -67,7 +67,7 @@ from grader.judge.rubric import load_rubric
 from grader.judge.task import KIT
 from grader.source.regions import Region, python_files, read_source, regions_in, replace_regions
 
-Kind = Literal["wrong", "right", "hostile", "ladder"]
+Kind = Literal["wrong", "right", "hostile", "ladder", "halfway"]
 Form = Literal["package", "single file"]
 Pairs = list[tuple[str, str]]  # old text, which must stand once, and new text
 Regions = Mapping[str, tuple[str, ...]]  # lines of code, by TODO
@@ -149,8 +149,8 @@ class Wrong(Entry, frozen=True):
     breaks: str = ""  # the promise of the lesson that it breaks in given code
     also: list[str] = []  # TODOs that may lose points too: their checks need what is broken
     state: str = ""  # the name of the half-way state, if it has one of its own
-    says: list[str] = []
-    never: list[str] = []
+    says: tuple[str, ...] = ()
+    never: tuple[str, ...] = ()
 
 
 class Attack(Entry, frozen=True):

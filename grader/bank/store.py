@@ -1,4 +1,4 @@
-"""Store members and half-way states with the expected grade, in build/verify.
+"""Store the members with the expected grade, in build/verify.
 
 Each file has a key of all its sources, and is ignored once one changes.
 """
@@ -14,7 +14,6 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
-from grader.bank.halfway import Halfway
 from grader.bank.members import BESIDES, Member
 from grader.judge.fingerprint import fingerprint
 from grader.judge.result import Result
@@ -26,11 +25,9 @@ DECIDING = ("halfway.py", "members.py", "traces.py", "verify.py")  # of this fol
 
 
 class Record(Struct, frozen=True):
-    """One member with its marks, or one half-way state without."""
-
     key: str
-    seconds: float = 0.0
-    result: Result | None = None
+    seconds: float
+    result: Result
 
 
 class Store:
@@ -40,34 +37,25 @@ class Store:
         self.folder = folder
         self.keys: dict[Path, str] = {}
 
-    def key(self, item: Member | Halfway) -> str:
+    def key(self, member: Member) -> str:
         """Return the key of the first call: files may change during grading."""
-        path = self.file(item)
+        path = self.file(member)
         if path not in self.keys:
-            self.keys[path] = make_key(item) if isinstance(item, Member) else make_state_key(item)
+            self.keys[path] = make_key(member)
         return self.keys[path]
 
-    def read(self, item: Member | Halfway) -> Record | None:
+    def read(self, member: Member) -> Record | None:
         with suppress(OSError, msgspec.DecodeError):
-            record = msgspec.json.decode(self.file(item).read_bytes(), type=Record)
-            return record if record.key == self.key(item) else None
+            record = msgspec.json.decode(self.file(member).read_bytes(), type=Record)
+            return record if record.key == self.key(member) else None
         return None
 
-    def write(
-        self, item: Member | Halfway, seconds: float = 0.0, result: Result | None = None
-    ) -> None:
-        write_whole(msgspec.json.encode(Record(self.key(item), seconds, result)), self.file(item))
+    def write(self, member: Member, seconds: float, result: Result) -> None:
+        record = Record(self.key(member), seconds, result)
+        write_whole(msgspec.json.encode(record), self.file(member))
 
-    def file(self, item: Member | Halfway) -> Path:
-        if isinstance(item, Member):
-            return self.folder / item.kind / f"{item.name} as {item.form}.json"
-        return self.folder / "halfway" / f"{item.name}.json"
-
-
-def make_state_key(state: Halfway) -> str:
-    """Hash the state, everything that its message depends on, and this machine."""
-    said = msgspec.json.encode([state.name, state.code, state.state]).decode()
-    return hash_lines([hash_surroundings(), said])
+    def file(self, member: Member) -> Path:
+        return self.folder / member.kind / f"{member.name} as {member.form}.json"
 
 
 def make_key(member: Member) -> str:

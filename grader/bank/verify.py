@@ -8,7 +8,7 @@ import atexit
 import tempfile
 import time
 from collections import Counter as Count
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, field, replace
 from functools import cache, partial
@@ -19,7 +19,7 @@ from typing import Protocol, TypeVar
 from rich.console import Console
 from rich.table import Table
 
-from grader.bank.halfway import Halfway, grade_state, list_states
+from grader.bank.halfway import Halfway, list_states
 from grader.bank.ladders import Ladder, ladders
 from grader.bank.members import Entry, Member, members
 from grader.bank.store import Store
@@ -74,22 +74,9 @@ class Verdict:
 
 
 @dataclass
-class HalfwayVerdict:
-    """A half-way state, and the fault in the words of its first failure."""
-
-    state: Halfway
-    complaint: str
-    earlier: bool = False  # judged by an earlier run
-
-    @property
-    def name(self) -> str:
-        return self.state.name
-
-
-@dataclass
 class Report:
     verdicts: list[Verdict] = field(default_factory=list)
-    halfway: list[HalfwayVerdict] = field(default_factory=list)
+    halfway: list[Verdict] = field(default_factory=list)
     complaints: list[str] = field(default_factory=list)  # about the kit itself
 
     @property
@@ -134,10 +121,11 @@ def verify(
     if not chosen and not states:
         example = "wrong/4-against-the-slip"
         raise Stop(f"nothing in the bank has {only!r} in its kind/name, such as {example}")
-    verdicts = judge_members(chosen, jobs, Store(RESULTS), fresh)
-    report.verdicts = collect("grading the bank", verdicts, len(chosen), console)
-    judged = judge_states(states, jobs, Store(RESULTS), fresh)
-    report.halfway = collect("grading half-way states", judged, len(states), console)
+    for what, some, found in (
+        ("grading the bank", chosen, report.verdicts),
+        ("grading half-way states", states, report.halfway),
+    ):
+        found += collect(what, judge(some, jobs, Store(RESULTS), fresh), len(some), console)
     order = {(m.kind, m.name, m.form): number for number, m in enumerate(chosen)}
     report.verdicts.sort(key=lambda v: order[v.member.kind, v.member.name, v.member.form])
     show(report, console)
@@ -166,35 +154,19 @@ def collect(what: str, judged: Iterable[Judged], total: int, console: Console) -
     return found
 
 
-def judge_members(chosen: list[Member], jobs: int, store: Store, fresh: bool) -> Iterator[Verdict]:
+def judge(chosen: Sequence[Member], jobs: int, store: Store, fresh: bool) -> Iterator[Verdict]:
     """Yield a verdict on each member, earlier ones first; store the sound ones."""
     to_grade = []
     for member in chosen:
         store.key(member)  # before anything is graded
         found = None if fresh else store.read(member)
-        if not found or not found.result or find_complaint(member, found.result, found.seconds):
+        if not found or find_complaint(member, found.result, found.seconds):
             to_grade.append(member)
         else:
             yield Verdict(member, found.result, found.seconds, "", earlier=True)
     for verdict in grade_all(to_grade, jobs, None if fresh else PASSED):
         if verdict.result is not None and not verdict.complaint:
             store.write(verdict.member, verdict.seconds, verdict.result)
-        yield verdict
-
-
-def judge_states(
-    states: list[Halfway], jobs: int, store: Store, fresh: bool
-) -> Iterator[HalfwayVerdict]:
-    """Yield a verdict on each half-way state, earlier ones first; store the sound ones."""
-    to_grade = []
-    for state in states:
-        if fresh or store.read(state) is None:
-            to_grade.append(state)
-        else:
-            yield HalfwayVerdict(state, "", earlier=True)
-    for verdict in run_in_processes(judge_halfway, to_grade, jobs):
-        if not verdict.complaint:
-            store.write(verdict.state)
         yield verdict
 
 
@@ -208,14 +180,13 @@ def list_trees(course: Course = FULL) -> list[Member]:
 
 
 def list_halfway(only: str, course: Course, complaints: list[str]) -> list[Halfway]:
-    """Return the half-way states of a course, or a complaint if one cannot be built."""
-    todos = {todo.id for todo in course.rubric.todos}
+    """Return the half-way states of a course; add a complaint if one cannot be built."""
     try:
-        states = [each for each in list_states() if each.todo in todos]
+        states = [each for each in list_states() if only in f"halfway/{each.name}"]
     except ValueError as error:
         complaints.append(f"half-way states: {error}")
         return []
-    return [each for each in states if only in f"halfway/{each.name}"]
+    return [each for each in states if each.belongs_to(course)]
 
 
 def check_kit() -> Iterator[str]:
@@ -270,9 +241,7 @@ def grade_member(
             member.build(KIT, submission)
         except ValueError as error:  # an edit of text that the solution no longer has
             return Verdict(member, None, 0.0, f"cannot be built: {error}")
-        todos, worker = only or member.judged_by, shared_worker()
-        reference, course = shipped_reference(), member.course
-        options = Options(reference, only=todos, trusted=True, course=course, passed=passed)
+        worker = shared_worker()
         start = time.monotonic()
         try:
             name = member.name if member.source else ""  # a tree leaves nothing on purpose
@@ -280,25 +249,23 @@ def grade_member(
                 # Without fork, a worker keeps processes ready, which look like leftovers: do not
                 # share it.
                 shared = worker if isinstance(worker, WarmWorker) else None
-                result = grade(submission, options, shared)
+                if isinstance(member, Halfway):
+                    result = member.grade(submission, shared)
+                else:
+                    options = Options(
+                        shipped_reference(),
+                        only=only or member.judged_by,
+                        trusted=True,
+                        course=member.course,
+                        passed=passed,
+                    )
+                    result = grade(submission, options, shared)
         except Exception as error:  # a crash of the judge is the worst verdict
             text = f"the judge fell over: {type(error).__name__}: {error}"
             return Verdict(member, None, time.monotonic() - start, text)
         seconds = time.monotonic() - start
         complaint = find_complaint(member, result, seconds) or traces.complaint
         return Verdict(member, result, seconds, complaint)
-
-
-def judge_halfway(state: Halfway) -> HalfwayVerdict:
-    """Grade a half-way state, with a worker of this process, and read its first failure."""
-    worker = shared_worker()
-    shared = worker if isinstance(worker, WarmWorker) else None
-    with tempfile.TemporaryDirectory(prefix="bank-") as folder:
-        try:
-            result = grade_state(state, Path(folder).resolve(), shared)
-        except ValueError as error:
-            return HalfwayVerdict(state, f"cannot be built: {error}")
-        return HalfwayVerdict(state, state.complaint(result))
 
 
 def find_complaint(member: Member, result: Result, seconds: float) -> str:

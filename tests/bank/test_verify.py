@@ -22,12 +22,11 @@ from grader.bank.halfway import list_states
 from grader.bank.store import Record, Store, make_key
 from grader.bank.members import BESIDES, Entry, Member
 from grader.bank.verify import (
-    HalfwayVerdict,
     Report,
     Verdict,
     find_complaint,
     grade_member,
-    judge_members,
+    judge,
     summarize,
 )
 from grader.judge.task import KIT
@@ -55,10 +54,10 @@ def graded_names(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 
 def test_a_run_that_was_stopped_goes_on_where_it_was(tmp_path: Path, graded_names: list[str]):
-    stopped = judge_members(BANK, 1, Store(tmp_path), fresh=False)
+    stopped = judge(BANK, 1, Store(tmp_path), fresh=False)
     first = [next(stopped), next(stopped)]
     stopped.close()
-    again = [*judge_members(BANK, 1, Store(tmp_path), fresh=False)]
+    again = [*judge(BANK, 1, Store(tmp_path), fresh=False)]
     assert graded_names == ["a", "b", "c", "d"]
     assert [each.member.name for each in again if each.earlier] == ["a", "b"]
     assert [(each.result, each.seconds) for each in again] == [(RIGHT, 1.0)] * 4
@@ -77,10 +76,10 @@ def test_what_changes_while_it_is_graded_is_graded_again(tmp_path: Path, graded_
     usual = verify.grade_all
     with monkeypatch.context() as patched:
         patched.setattr(verify, "grade_all", edit_source)
-        assert len([*judge_members([member], 1, Store(tmp_path / "kept"), fresh=True)]) == 1
+        assert len([*judge([member], 1, Store(tmp_path / "kept"), fresh=True)]) == 1
     for _ in range(2):
         assert (
-            len([*judge_members([member], 1, Store(tmp_path / "kept"), fresh=False)]) == 1
+            len([*judge([member], 1, Store(tmp_path / "kept"), fresh=False)]) == 1
         )
     assert graded_names == ["5-x", "5-x"]
 
@@ -88,7 +87,7 @@ def test_what_changes_while_it_is_graded_is_graded_again(tmp_path: Path, graded_
 def test_a_complaint_is_looked_into_again(tmp_path: Path, graded_names: list[str]):
     bad = [replace(BANK[0], name="z")]
     for _ in range(2):
-        (verdict,) = judge_members(bad, 1, Store(tmp_path), fresh=False)
+        (verdict,) = judge(bad, 1, Store(tmp_path), fresh=False)
         assert verdict.complaint and not verdict.earlier
     assert graded_names == ["z", "z"]
 
@@ -97,9 +96,9 @@ def test_marks_that_are_no_longer_the_right_ones_are_not_taken_over(tmp_path: Pa
     failed = CheckResult("falls", "It falls", "unit", "not yet", 0, 1)
     todo = TodoResult("5", "Damping", "not yet", 0, 1, None, [failed])
     Store(tmp_path).write(BANK[0], 1.0, replace_in(RIGHT, todos=[todo]))
-    (verdict,) = judge_members(BANK[:1], 1, Store(tmp_path), fresh=False)
+    (verdict,) = judge(BANK[:1], 1, Store(tmp_path), fresh=False)
     assert graded_names == ["a"] and verdict.result == RIGHT
-    list(judge_members(BANK[:1], 1, Store(tmp_path), fresh=True))
+    list(judge(BANK[:1], 1, Store(tmp_path), fresh=True))
     assert graded_names == ["a", "a"]
 
 
@@ -169,22 +168,10 @@ def test_verify_grades_once_and_says_so(tmp_path: Path, monkeypatch: pytest.Monk
     assert table.findall(told[0]) == table.findall(told[1]) != []
 
 
-def test_a_half_way_state_is_judged_again_once_its_words_change(tmp_path: Path, monkeypatch):
+def test_what_a_half_way_state_must_say_is_in_the_key():
     state = next(list_states("5"))
-    monkeypatch.setattr(
-        verify,
-        "run_in_processes",
-        lambda judge, states, jobs: [HalfwayVerdict(each, "") for each in states],
-    )
-    other = replace(state, state=replace_in(state.state, says=["another"]))
-    store = Store(tmp_path)
-    earlier = [
-        [each.earlier for each in verify.judge_states([each], 1, store, fresh)]
-        for each, fresh in [(state, False), (state, False), (state, True)]
-    ]
-    assert earlier == [[False], [True], [False]]
-    (verdict,) = verify.judge_states([other], 1, Store(tmp_path), fresh=False)
-    assert not verdict.earlier
+    other = replace(state, entry=replace_in(state.entry, says=("another",)))
+    assert make_key(state) != make_key(other)
 
 
 # ---------------------------------------------------------------- counts
@@ -207,7 +194,7 @@ def test_an_edit_that_no_longer_fits_the_solution_is_a_complaint():
     path = KIT / "tests" / "bank" / "wrong" / "5.toml"
     member = Member("wrong", "5-gone", "package", Entry(change=[("no such line", "")]), path)
     table = io.StringIO()
-    verdicts = [*judge_members([member], 1, Store(path.parent / "none"), fresh=False)]
+    verdicts = [*judge([member], 1, Store(path.parent / "none"), fresh=False)]
     verify.show(Report(verdicts), Console(file=table, width=200))
     assert "cannot be built: 'no such line' stands there 0 times, not once" in table.getvalue()
 
