@@ -71,16 +71,16 @@ class Halfway(Member):
     entry: State
 
     @property
-    def patched(self) -> frozenset[str]:
+    def replaced_todos(self) -> frozenset[str]:
         return frozenset({self.name.partition("-")[0]})
 
     @property
     def judged_by(self) -> frozenset[str]:
-        return self.patched
+        return self.replaced_todos
 
     @property
     def regions(self) -> Regions:
-        (todo,) = self.patched
+        (todo,) = self.replaced_todos
         code = self.entry.code.splitlines()
         stub = dedent(handed_out().stubs[todo]).splitlines()
         lines = {
@@ -93,7 +93,7 @@ class Halfway(Member):
 
     def build(self, kit: Path, folder: Path) -> None:
         super().build(kit, folder)
-        (todo,) = self.patched
+        (todo,) = self.replaced_todos
         start = f"# TODO {todo}: "
         file = next(path for path in python_files(folder) if start in read_source(path))
         if self.entry.place == "outside":

@@ -40,7 +40,7 @@ class Ladder:
         return ""
 
 
-def ladders(graded: Iterable[tuple[Member, Result | None]]) -> list[Ladder]:
+def list_ladders(graded: Iterable[tuple[Member, Result | None]]) -> list[Ladder]:
     """Return the ladders with graded rungs."""
     found: dict[Path, Ladder] = {}
     for member, result in graded:

@@ -192,11 +192,11 @@ class Member:
             return regions_of(self.source)
         return {
             todo: tuple(self.entry.rewrite(solution_code()[todo]).split("\n"))
-            for todo in self.patched
+            for todo in self.replaced_todos
         }
 
     @property
-    def patched(self) -> frozenset[str]:
+    def replaced_todos(self) -> frozenset[str]:
         """Return the TODOs whose regions it replaces, even if its edits do not fit the solution."""
         if self.source is not None and self.source.suffix == ".py":
             return frozenset(regions_of(self.source))
@@ -212,7 +212,7 @@ class Member:
     @property
     def is_patch(self) -> bool:
         """Return whether it replaces the regions of TODOs."""
-        return bool(self.patched)
+        return bool(self.replaced_todos)
 
     @property
     def breach(self) -> Wrong | None:
@@ -222,7 +222,7 @@ class Member:
     @property
     def todos(self) -> frozenset[str]:
         """Return the TODOs whose regions it replaces, or "whole" for the program as a whole."""
-        return frozenset({"whole"}) if self.breach else self.patched
+        return frozenset({"whole"}) if self.breach else self.replaced_todos
 
     @property
     def bonus(self) -> bool:
@@ -281,7 +281,7 @@ class Member:
         if self.form == "single file":
             use_single_file(kit, folder)
         if self.name == CONSTANTS:
-            for rung in constants(kit):
+            for rung in list_constants(kit):
                 put_regions(rung.regions, folder)
         put_regions(self.regions, folder)
         edit_tree(self.entry, folder)
@@ -343,7 +343,7 @@ def base_of(member: Member, kit: Path) -> Member:
 # ---------------------------------------------------------------- reading the bank
 
 
-def members(kit: Path, course: Course = FULL) -> Iterator[Member]:
+def list_members(kit: Path, course: Course = FULL) -> Iterator[Member]:
     """Yield the members that concern a course.
 
     Attacks target the judge, not a course: they are graded on every TODO.
@@ -361,12 +361,12 @@ def every_member(kit: Path) -> Iterator[Member]:
     yield from lesson_members(bank)
     yield from wrong_members(bank)
     yield from right_variants(bank)
-    yield from (each for each in submissions(bank, "right") if not is_of_lesson(each.name))
-    yield from submissions(bank, "hostile")
-    yield from attacks(bank)
+    yield from (each for each in list_submissions(bank, "right") if not is_of_lesson(each.name))
+    yield from list_submissions(bank, "hostile")
+    yield from list_attacks(bank)
     yield Member("right", "single-file", "single file", Entry(), None)
-    yield from rungs(bank)
-    if any(constants(kit)):
+    yield from list_rungs(bank)
+    if any(list_constants(kit)):
         yield Member("ladder", CONSTANTS, "package", Entry(base="starter"), None)
 
 
@@ -376,7 +376,7 @@ def is_of_lesson(name: str) -> bool:
 
 def lesson_members(bank: Path) -> Iterator[Member]:
     """Yield the lesson's programs as printed, and the variants of them."""
-    yield from (each for each in submissions(bank, "right") if is_of_lesson(each.name))
+    yield from (each for each in list_submissions(bank, "right") if is_of_lesson(each.name))
     sheet = bank / "lesson.toml"
     entries = msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Printed])
     for name, entry in entries.items():
@@ -384,7 +384,7 @@ def lesson_members(bank: Path) -> Iterator[Member]:
 
 
 def wrong_members(bank: Path) -> Iterator[Member]:
-    for sheet in sheets(bank / "wrong"):
+    for sheet in list_sheets(bank / "wrong"):
         for name, entry in read_wrong(sheet).items():
             member = Member("wrong", f"{sheet.stem}-{name}", "package", entry, sheet)
             yield member
@@ -400,18 +400,18 @@ def read_wrong(sheet: Path) -> dict[str, Wrong]:
 
 def right_variants(bank: Path) -> Iterator[Member]:
     """Yield the right members that differ from the solution in one TODO."""
-    for sheet in sheets(bank / "right"):
+    for sheet in list_sheets(bank / "right"):
         entries = msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Entry])
         for name, entry in entries.items():
             yield Member("right", f"{sheet.stem}-{name}", "package", entry, sheet)
 
 
-def sheets(folder: Path) -> list[Path]:
+def list_sheets(folder: Path) -> list[Path]:
     """Return the files that hold members of one TODO each."""
     return [path for path in sorted(folder.glob("*.toml")) if IS_TODO.fullmatch(path.stem)]
 
 
-def submissions(bank: Path, kind: Literal["right", "hostile"]) -> Iterator[Member]:
+def list_submissions(bank: Path, kind: Literal["right", "hostile"]) -> Iterator[Member]:
     """Yield the members that have a file or folder of their own, or only marks in bank.toml."""
     names = {path.stem for path in (bank / kind).glob("*")} | set(read_marks(bank, kind))
     for name in sorted(names):
@@ -419,7 +419,7 @@ def submissions(bank: Path, kind: Literal["right", "hostile"]) -> Iterator[Membe
             yield read_submission(bank, kind, name)
 
 
-def attacks(bank: Path) -> Iterator[Member]:
+def list_attacks(bank: Path) -> Iterator[Member]:
     """Yield the hostile members that attack in the region of one TODO."""
     sheet = bank / "hostile" / f"{ATTACKED}.toml"
     entries = msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Attack])
@@ -450,7 +450,7 @@ def parse_marks(text: bytes) -> dict[str, dict[str, Entry]]:
     return msgspec.toml.decode(text, type=dict[str, dict[str, Entry]])
 
 
-def rungs(bank: Path) -> Iterator[Member]:
+def list_rungs(bank: Path) -> Iterator[Member]:
     """Yield each rung of each ladder, lowest first."""
     for sheet in sorted((bank / "ladders").glob("*.toml")):
         mistakes = read_wrong(bank / "wrong" / sheet.name)
@@ -464,9 +464,9 @@ def read_rungs(sheet: Path) -> dict[str, Rung]:
     return msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Rung])
 
 
-def constants(kit: Path) -> Iterator[Member]:
+def list_constants(kit: Path) -> Iterator[Member]:
     """Yield the rungs that give the same answer to every question."""
-    for rung in rungs(kit / "tests" / "bank"):
+    for rung in list_rungs(kit / "tests" / "bank"):
         if re.match(r"\w+-\d+-constant", rung.name):
             yield rung
 

@@ -30,7 +30,7 @@ from grader.judge.lab import Observation
 from grader.judge.result import CheckResult, Result
 from grader.judge.rubric import Rubric, load_rubric
 from grader.judge.task import KIT, Options, shipped_reference
-from grader.source.definitions import function_named, statements
+from grader.source.definitions import find_function, statements
 from grader.source.operators import make_changes, names_in, normalize
 from grader.source.regions import Region, python_files, read_source, regions_in
 
@@ -59,7 +59,7 @@ def mutants_of(todo: str) -> tuple[Mutant, ...]:
     """Make every mutant of one TODO of the solution, each other code."""
     text, region = regions_of("solution")[todo]
     path = next(each.function or "" for each in load_rubric().todos if each.id == todo)
-    function = function_named(statements(text), path.partition(":")[2])
+    function = find_function(statements(text), path.partition(":")[2])
     assert function is not None
     scope = msgspec.structs.replace(
         SCOPES.get(todo, Scope()),

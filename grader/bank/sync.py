@@ -11,7 +11,7 @@ from pathlib import Path
 
 from grader.errors import Stop
 from grader.judge.rubric import CHECKS, load_rubric
-from grader.source.definitions import function_named, source_of, statements
+from grader.source.definitions import find_function, source_of, statements
 from grader.source.regions import regions_in, replace_regions
 
 LAID_IN = {"accuracy.py", "experiments", "stable_engine"}
@@ -141,7 +141,7 @@ def read_stub_sources(starter: dict[str, str]) -> dict[str, str]:
             stubs[region.id] = "\n".join(region.lines)
             ids.add(region.id)
         for todo, name in functions.items():
-            found = function_named(body, name) if name and todo in ids else None
+            found = find_function(body, name) if name and todo in ids else None
             if found is not None:
                 stubs[f"def {todo}"] = source_of(text, found)
     return dict(sorted(stubs.items()))

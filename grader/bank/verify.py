@@ -20,8 +20,8 @@ from rich.console import Console
 from rich.table import Table
 
 from grader.bank.halfway import Halfway, list_states
-from grader.bank.ladders import Ladder, ladders
-from grader.bank.members import Entry, Member, members
+from grader.bank.ladders import Ladder, list_ladders
+from grader.bank.members import Entry, Member, list_members
 from grader.bank.store import Store
 from grader.bank.sync import sync
 from grader.bank.traces import watch_traces
@@ -81,7 +81,7 @@ class Report:
 
     @property
     def ladders(self) -> list[Ladder]:
-        return ladders((each.member, each.result) for each in self.verdicts)
+        return list_ladders((each.member, each.result) for each in self.verdicts)
 
     @property
     def sound(self) -> bool:
@@ -115,7 +115,7 @@ def verify(
     """
     course = course.as_rated
     report = Report(complaints=list(check_kit()))
-    everything = [*list_trees(course), *members(KIT, course)]
+    everything = [*list_trees(course), *list_members(KIT, course)]
     chosen = [each for each in everything if only in f"{each.kind}/{each.name}"]
     states = list_halfway(only, course, report.complaints)
     if not chosen and not states:
@@ -138,7 +138,7 @@ def count_unproven(course: Course) -> int:
     It grades by the whole rubric, so one `verify` serves every course.
     """
     results = Store(RESULTS)
-    all_of_them = [*list_trees(course.as_rated), *members(KIT, course.as_rated)]
+    all_of_them = [*list_trees(course.as_rated), *list_members(KIT, course.as_rated)]
     return sum(results.read(replace(each, course=FULL)) is None for each in all_of_them)
 
 

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 from rich.console import Console
 from rich.table import Table
 
-from grader.bank.members import members
+from grader.bank.members import list_members
 from grader.judge.task import KIT
 
 
@@ -76,7 +76,7 @@ def prepare(tested: Tested, size: int) -> None:
     """Lay out a kit's own solution, and a class of this kit's bank, spread over all of it."""
     without = shutil.ignore_patterns("__pycache__")
     shutil.copytree(tested.kit / "solution", tested.work / "tree", ignore=without)
-    chosen = [each for each in members(KIT) if each.kind in ("wrong", "right")]
+    chosen = [each for each in list_members(KIT) if each.kind in ("wrong", "right")]
     for number in range(size):
         member = chosen[number * len(chosen) // size]
         member.build(KIT, tested.work / "class" / f"{number:04}-{member.name}")

@@ -173,7 +173,7 @@ def push_ends(rod: Rod, impulse: float) -> tuple[Pair, Pair]:
 
 
 @recorded.oracle()
-def rod_solved(rod: Rod) -> tuple[Pair, Pair]:
+def solve_rod(rod: Rod) -> tuple[Pair, Pair]:
     """Return the velocities of A and B after a pass over the rod."""
     return push_ends(rod, (rod.bias - rod.speed) / rod.k)
 
@@ -191,7 +191,7 @@ class Spring(NamedTuple):
 
 
 @recorded.oracle()
-def spring_applied(spring: Spring) -> tuple[Pair, Pair]:
+def apply_spring(spring: Spring) -> tuple[Pair, Pair]:
     """Return the velocities of A and B after a step of the spring's force (Hooke's law)."""
     rod = spring.rod
     force = spring.stiffness * spring.stretch + spring.damping * rod.speed
@@ -214,14 +214,14 @@ class Discs(NamedTuple):
 
 
 @recorded.oracle()
-def clamped(value: float, limit: float) -> float:
+def clamp(value: float, limit: float) -> float:
     return max(-limit, min(limit, value))
 
 
 @recorded.oracle()
 def friction(mu: Pair, k: float, closing: float, slip: float) -> float:
     """Return the friction impulse on B in a step, along its slip, kg px/s; k in 1/kg."""
-    return clamped(-slip / k, math.sqrt(mu[0] * mu[1]) * max(closing / k, 0.0))
+    return clamp(-slip / k, math.sqrt(mu[0] * mu[1]) * max(closing / k, 0.0))
 
 
 # ---------------------------------------------------------------- integrators

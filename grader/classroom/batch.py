@@ -115,7 +115,7 @@ class Run:
         """Return an outcome with bonus, lateness, decisions, and its mark of an earlier run."""
         decisions = self.adjustments
         outcome = msgspec.structs.replace(outcome, bonus_by_hand=decisions.sum_bonus(found))
-        added = 0 if outcome.trouble else self.course.added(outcome.bonus, outcome.points)
+        added = 0 if outcome.trouble else self.course.count_bonus(outcome.bonus, outcome.points)
         final = decisions.decide(found, None if outcome.trouble else outcome.points + added)
         counted = [f"bonus: +{added}"] if added and not final.by_hand else []
         outcome = msgspec.structs.replace(

@@ -187,7 +187,7 @@ def make_outcome(name: str, result: bytes, seconds: float, key: str) -> Outcome:
         points=decoded.points,
         max_points=decoded.max_points,
         todos={todo.id: todo.points for todo in decoded.todos},
-        left=[todo.id for todo in decoded.counted if todo.state != "passed"],
+        left=[todo.id for todo in decoded.main_todos if todo.state != "passed"],
         final=decoded.points,
         seconds=round(seconds, 3),
         graded=datetime.now(UTC).replace(microsecond=0),
@@ -227,7 +227,7 @@ def compare_todos(old: TodoResult, new: TodoResult) -> Iterator[str]:
 
 def list_broken(result: Result) -> list[str]:
     lost: dict[str, str] = {}
-    for todo in result.counted:
+    for todo in result.main_todos:
         for check in todo.checks:
             if check.state == "error" and check.ran.startswith("import "):
                 lost.setdefault(check.ran, check.got.partition("\n")[0][:100])

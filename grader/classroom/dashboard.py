@@ -161,7 +161,7 @@ def shorten_result(result: Result) -> Result:
 
 def count_rates(entries: list[Entry]) -> list[Rate]:
     """Return a rate for each TODO that any result shows, in the order of the results."""
-    shown = {todo.id for each in entries if each.brief for todo in each.brief.shown}
+    shown = {todo.id for each in entries if each.brief for todo in each.brief.todos_to_show}
     ids = [id for id in dict.fromkeys(id for each in entries for id in each.todos) if id in shown]
     rates = []
     for id in ids:

@@ -127,7 +127,7 @@ def tabulate_class(outcomes: list[Outcome]) -> Table:
 
 def tabulate_rates(results: list[Outcome], course: Course) -> Table:
     table = Table("TODO", "passed by", box=None)
-    for todo in course.rubric.counted:
+    for todo in course.rubric.main_todos:
         graded = [each for each in results if todo.id in each.todos]
         if graded:
             passed = sum(todo.id not in each.left for each in graded)

@@ -87,7 +87,7 @@ def describe_class(made: "ClassFolder") -> list[str]:
     """Return lines on the course, students and submissions of a class."""
     course, students = made.course, len(made.list_people().names)
     listed = f"{plural(students, 'student')} in {made.roster}" if made.roster else "no class list"
-    counted = course.rubric.counted
+    counted = course.rubric.main_todos
     bonus = [todo.id for todo in course.rubric.todos if todo not in counted]
     todos = ", ".join(todo.id for todo in counted) + f"; bonus {', '.join(bonus)}" * bool(bonus)
     here = "" if made.submissions.exists() else ", not there yet"

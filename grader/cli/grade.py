@@ -133,7 +133,7 @@ def refuse_outputs(path: Path | None, class_: bool, output: Output, options: Opt
         folder, out = path.resolve(), output.out.resolve()
         if out.is_relative_to(folder):
             raise Stop(f"--out {output.out} is in the class, {path}: name a folder outside it")
-    wanted = [todo for todo in options.course.rubric.counted if options.wants(todo)]
+    wanted = [todo for todo in options.course.rubric.main_todos if options.wants(todo)]
     most = sum(todo.max_points for todo in wanted)
     if output.at_least is not None and output.at_least > most:
         words = f"can never be reached: there are {most} points here"
@@ -157,7 +157,7 @@ def finish(result: Result, output: Output) -> NoReturn:
         write_json(result, output.out / f"{result.submission}.json")
         write_report(result, output.out / f"{result.submission}.html")
     at_least = output.at_least
-    enough = result.complete if at_least is None else result.points >= at_least
+    enough = result.has_full_marks if at_least is None else result.points >= at_least
     raise typer.Exit(0 if enough else 1)
 
 

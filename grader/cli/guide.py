@@ -92,13 +92,13 @@ class Guide(Watch):
         self.todo = choose_todo(self.result, touched)
         screen = Screen(self.console, self.replays, lines - 1, self.tasks)
         screen.show(self.result, touched)
-        if self.result.complete:
+        if self.result.has_full_marks:
             hand_in = command("hand-in") + write_due(self.options.course)
             say(f"All checks pass. To hand in: {hand_in}", self.console, style="bold")
         self.show_keys()
 
     def show_keys(self) -> None:
-        at_end = self.result.complete and self.todo is None
+        at_end = self.result.has_full_marks and self.todo is None
         say(KEYS_AT_THE_END if at_end else KEYS, self.console, style="bright_black")
 
     def press(self, key: str) -> None:
@@ -111,7 +111,7 @@ class Guide(Watch):
             "p": self.show_printed,
             "q": self.quit,
         }
-        if self.result.complete:
+        if self.result.has_full_marks:
             keys |= at_end
         if key in keys:
             keys[key]()

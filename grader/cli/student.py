@@ -73,9 +73,9 @@ def check_command(
     else:
         result = grade_shown(folder, options, replays)
         show_all(result, console, replays) if whole else show_first(result, folder, replays)
-        if whole or result.complete:
+        if whole or result.has_full_marks:
             say(f"To hand in: {command('hand-in')}{write_due(taken)}", console)
-    raise typer.Exit(0 if result.complete or not status else 1)
+    raise typer.Exit(0 if result.has_full_marks or not status else 1)
 
 
 def split_words(words: list[str]) -> tuple[list[str], Path]:
@@ -94,7 +94,7 @@ def grade_shown(folder: Path, options: Options, replays: Path | None) -> Result:
 
 def show_first(result: Result, folder: Path, replays: Path | None) -> None:
     Screen(console, replays).show(result, notes=list_notes(folder, result))
-    if result.complete and (words := hidden_points_note(result)):
+    if result.has_full_marks and (words := hidden_points_note(result)):
         say(words, console)
 
 
@@ -151,7 +151,7 @@ def describe_progress(folder: Path, options: Options) -> str:
         result = grade_shown(folder, options, None)
     except Stop as error:
         return f"The checks cannot run: {clean(str(error))}."
-    left = [todo.id for todo in result.counted if todo.state != "passed"]
+    left = [todo.id for todo in result.main_todos if todo.state != "passed"]
     points = " ".join(total(result).split())
     if not left:
         return f"All checks pass: {points}."

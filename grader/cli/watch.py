@@ -25,7 +25,7 @@ from grader.player.graded import grade_with_replays
 from grader.report.progress import CheckProgress
 from grader.report.screen import LINES, Screen
 from grader.report.terminal import say
-from grader.source.definitions import function_named, source_of, statements
+from grader.source.definitions import find_function, source_of, statements
 from grader.source.flaws import find_flaw
 from grader.source.regions import read_source
 from grader.text import clean
@@ -192,7 +192,7 @@ def read_functions(file: str, text: str) -> dict[str, str]:
     found = {}
     for todo in load_rubric().todos:
         if todo.function and todo.module == module_of(Path(file)):
-            function = function_named(body, todo.function.partition(":")[2])
+            function = find_function(body, todo.function.partition(":")[2])
             if function is not None:
                 found[todo.id] = source_of(text, function)
     return found

@@ -135,7 +135,7 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
         return choose_todos(todos, tuple(self.points.items()))
 
     @property
-    def given(self) -> list[Todo]:
+    def given_todos(self) -> list[Todo]:
         """Return the TODOs that the course gives students with their code."""
         asked = {todo.id for todo in self.rubric.todos}
         return [todo for todo in load_rubric().todos if todo.function and todo.id not in asked]
@@ -150,7 +150,7 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
         """Return this course with the rubric's points, at least one per check."""
         return structs.replace(self, points={})
 
-    def added(self, bonus: int, points: int) -> int:
+    def count_bonus(self, bonus: int, points: int) -> int:
         """Return how many points of a bonus count besides `points`."""
         if self.bonus == "fill up":
             return min(bonus, max(self.rubric.max_points - points, 0))
@@ -160,7 +160,7 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
     def most(self) -> int:
         """Return the maximum of a mark, with the part of the bonus that counts."""
         bonus = sum(todo.max_points for todo in self.rubric.todos if todo.bonus)
-        return self.rubric.max_points + self.added(bonus, self.rubric.max_points)
+        return self.rubric.max_points + self.count_bonus(bonus, self.rubric.max_points)
 
 
 FULL = Course()

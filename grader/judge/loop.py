@@ -107,7 +107,7 @@ class CheckLoop:
             return refuse(job, flaw)
         todo, begun = job.todo, self.submission.begun
         waiting = [each for each in job.check.needs if not begun.get(each, True)]
-        todos = [each.id for each in self.rubric.counted if each.function]
+        todos = [each.id for each in self.rubric.main_todos if each.function]
         if todo.function and not begun.get(todo.id, True):
             where = self.submission.where.get(todo.id)
             meaning = self.submission.remarks.get(todo.id, "")
@@ -206,7 +206,7 @@ class CheckLoop:
         Return none if all started TODOs have failed: such a program shows nothing of its own.
         """
         failed = {id for (id, _), each in self.outcomes.items() if each.result.state != "passed"}
-        begun = [todo.id for todo in self.rubric.counted if self.submission.begun.get(todo.id)]
+        begun = [todo.id for todo in self.rubric.main_todos if self.submission.begun.get(todo.id)]
         return frozenset(failed if any(id not in failed for id in begun) else ())
 
     # ------------------------------------------------------------ programs that have passed

@@ -52,7 +52,7 @@ def program_key(
     """
     program, tree = submission.program, submission.folder
     started = [*todo.modules, *(f"{module}.__main__" for module in todo.modules)]
-    loaded = {program.paths[part] for module in started for part in program.loaded(module)}
+    loaded = {program.paths[part] for module in started for part in program.list_loaded(module)}
     texts = {path: program.texts[path] for path in loaded}
     for piece in right:
         defined = program.definition(*piece.target.split(":"))

@@ -125,20 +125,20 @@ class Result(Struct, frozen=True):
         return found
 
     @property
-    def counted(self) -> list[TodoResult]:
+    def main_todos(self) -> list[TodoResult]:
         """Return the TODOs whose points add up to those of the result."""
         return [todo for todo in self.todos if not todo.bonus]
 
     @property
-    def shown(self) -> list[TodoResult]:
+    def todos_to_show(self) -> list[TodoResult]:
         """Return the TODOs for reports: bonus tasks once started, or if there is nothing else."""
         begun = [todo for todo in self.todos if todo.bonus and todo.state != "not started"]
-        return [*self.counted, *begun] if self.counted else self.todos
+        return [*self.main_todos, *begun] if self.main_todos else self.todos
 
     @property
-    def complete(self) -> bool:
+    def has_full_marks(self) -> bool:
         """Return whether it has full marks; of bonus tasks only if there is nothing else."""
-        asked = self.counted or self.todos
+        asked = self.main_todos or self.todos
         earned = all(todo.points == todo.max_points for todo in asked)
         return earned and self.points == self.max_points
 

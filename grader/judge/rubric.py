@@ -60,18 +60,18 @@ class Rubric(Struct, frozen=True, forbid_unknown_fields=True):
     todos: list[Todo]
 
     @property
-    def counted(self) -> list[Todo]:
+    def main_todos(self) -> list[Todo]:
         """Return the TODOs of the assignment itself, without the bonus tasks."""
         return [todo for todo in self.todos if not todo.bonus]
 
     @property
     def max_points(self) -> int:
-        return sum(todo.max_points for todo in self.counted)
+        return sum(todo.max_points for todo in self.main_todos)
 
     @property
     def hidden_points(self) -> int:
         """Return the points of the checks that a student's copy lacks."""
-        return sum(todo.hidden_points for todo in self.counted)
+        return sum(todo.hidden_points for todo in self.main_todos)
 
 
 @cache

@@ -279,7 +279,7 @@ def repair_programs(submission: Submission, texts: dict[Path, str]) -> Program:
     started = [*modules, *(f"{module}.__main__" for module in modules)]
     while True:
         program = Program(texts)
-        loaded = dict.fromkeys(part for module in started for part in program.loaded(module))
+        loaded = dict.fromkeys(part for module in started for part in program.list_loaded(module))
         refused = {
             path: flaw
             for name in loaded
@@ -401,7 +401,7 @@ def find_copies(
     """Return by TODO a file that no program loads, with other code than the stub."""
     program = submission.program
     modules = dict.fromkeys(todo.module for todo in load_rubric().todos)
-    loaded = {program.paths[part] for module in modules for part in program.loaded(module)}
+    loaded = {program.paths[part] for module in modules for part in program.list_loaded(module)}
     others = [path for path in texts if path not in loaded and not path.stem.endswith("_old")]
     with_regions = (path for path in others if ids and "# END TODO" in texts[path])
     return {

@@ -63,7 +63,7 @@ def task_of(todo: TodoResult) -> str:
 
 def total(result: Result) -> str:
     """Return the points and the bonus; the bonus alone if there is nothing else."""
-    if not result.counted:
+    if not result.main_todos:
         return f"{result.bonus} bonus"
     bonus = f"  and {result.bonus} bonus" if result.bonus else ""
     return f"{result.points} / {result.max_points}{bonus}"
@@ -77,7 +77,7 @@ def points_in_words(result: Result) -> str:
 def hidden_points_note(result: Result) -> str:
     """Mention the points that a student's copy lacks checks for; empty if it lacks none."""
     here = {todo.id for todo in result.todos}
-    points = sum(todo.hidden_points for todo in load_rubric().counted if todo.id in here)
+    points = sum(todo.hidden_points for todo in load_rubric().main_todos if todo.id in here)
     words = f"Your instructor runs more checks, for {plural(points, 'more point')}."
     return words if points else ""
 

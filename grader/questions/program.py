@@ -133,7 +133,7 @@ def open_program(
         found = result or run.run()
         right = {todo.id for todo in found.todos if todo.state == "passed" and todo.id in asked}
         own = Tree(run.submission, run.sandbox)
-        given = frozenset(todo.id for todo in options.course.given if not todo.bonus)
+        given = frozenset(todo.id for todo in options.course.given_todos if not todo.bonus)
         known = options.reference is not None
         reference = Tree(run.right_submission, run.right_sandbox) if known else None
         yield Program(own, reference, frozenset(right), given)
@@ -141,4 +141,4 @@ def open_program(
 
 def list_askable(course: Course) -> frozenset[str]:
     """Return the TODOs of a course that questions can be about: those of its programs, no bonus."""
-    return frozenset(todo.id for todo in course.rubric.counted if todo.function)
+    return frozenset(todo.id for todo in course.rubric.main_todos if todo.function)

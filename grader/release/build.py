@@ -22,7 +22,7 @@ import msgspec
 from rich.console import Console
 
 from grader import __version__
-from grader.bank.members import members
+from grader.bank.members import list_members
 from grader.bank.sync import is_laid_in
 from grader.bank.verify import check_kit, count_unproven
 from grader.errors import Stop
@@ -81,7 +81,7 @@ def release(out: Path, console: Console, fresh: bool = False, course: Course = F
 
 def build_wrong_members(folder: Path, course: Course) -> Iterator[Tree]:
     """Build the bank's wrong members of a course one after the other."""
-    for member in members(KIT, course):
+    for member in list_members(KIT, course):
         if member.kind == "wrong" and member.form == "package" and member.is_patch:
             member.build(KIT, folder / member.name)
             yield folder / member.name, member.todos

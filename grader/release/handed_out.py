@@ -26,7 +26,7 @@ def fill_given(path: Path, solution: Path, course: Course) -> bytes:
         return choose_examples(path.read_text(encoding="utf-8"), course).encode()
     if path.suffix != ".py":
         return path.read_bytes()
-    given = {todo.id for todo in course.given}
+    given = {todo.id for todo in course.given_todos}
     text = read_source(path)
     regions = [region for region in regions_in(text) if region.id in given]
     if not regions:

@@ -57,7 +57,7 @@ def cut_readme(text: str, course: Course) -> str:
 
     The file is plain Markdown without conditions: parts name the TODO or program they depend on.
     """
-    given = {todo.id for todo in course.given}
+    given = {todo.id for todo in course.given_todos}
     every = {todo.module for todo in load_rubric().todos} - set(course.modules)
     names = [*(f"TODO {id}" for id in given), *map(name_command, every), *map(name_program, every)]
     if not names:
@@ -118,7 +118,7 @@ def drop_dead_links(text: str, names: Iterable[str]) -> str:
 
 def list_words(course: Course) -> dict[str, Any]:
     todos = {todo.id: todo for todo in course.rubric.todos}
-    tasks = [todo for todo in course.rubric.counted if todo.function]
+    tasks = [todo for todo in course.rubric.main_todos if todo.function]
     bonus = [todo for todo in course.rubric.todos if todo.bonus]
     ids = [todo.id for todo in tasks]
     return {

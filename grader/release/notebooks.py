@@ -68,7 +68,7 @@ def encode_notebook(notebook: Cell) -> str:
 def make_engine_notebook(rubric: Rubric) -> Cell:
     """Make a notebook with a cell for each TODO, worth its points, without bonus tasks."""
     cells = [make_cell("title", "markdown", INTRO, {})]
-    for todo in rubric.counted:
+    for todo in rubric.main_todos:
         name = f"TODO {todo.id}" if todo.function else "The whole"
         text = f"### {name}: {todo.title}\n\n{plural(todo.max_points, 'point')}"
         if todo.function:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import msgspec
 
-from grader.bank.members import members
+from grader.bank.members import list_members
 from grader.bank.store import hash_contents, hash_lines, hash_surroundings, make_key
 from grader.judge.course import Course
 from grader.judge.task import KIT
@@ -53,5 +53,5 @@ def make_record_key(course: Course) -> str:
     rooms = [KIT / "grader" / room for room in RECORDING]
     code = [row for room in rooms for row in hash_contents(room, "__pycache__")]
     asked = msgspec.json.encode([course, course.rubric]).decode()
-    wrong = [make_key(member) for member in members(KIT, course) if member.kind == "wrong"]
+    wrong = [make_key(member) for member in list_members(KIT, course) if member.kind == "wrong"]
     return hash_lines([hash_surroundings(), asked, *code, *wrong])

@@ -193,25 +193,25 @@ def choose_todo(result: Result, touched: Collection[str] = ()) -> TodoResult | N
     Bonus tasks come last.
     """
     states = (*FAILED, "not started")
-    left = [todo for todo in result.counted or result.todos if todo.state in states]
-    left = left or [todo for todo in result.shown if todo.state in FAILED]
+    left = [todo for todo in result.main_todos or result.todos if todo.state in states]
+    left = left or [todo for todo in result.todos_to_show if todo.state in FAILED]
 
     def rank(todo: TodoResult) -> tuple[bool, ...]:
         is_last, is_later = todo.id == "whole", todo.id != FIRST
         return not todo.failed, todo.id not in touched, not todo.remark, is_last, is_later
 
-    begun = [todo for todo in result.shown if todo.id in touched and todo.failed]
+    begun = [todo for todo in result.todos_to_show if todo.id in touched and todo.failed]
     return min([*begun, *left], key=rank, default=None)
 
 
 def list_remarks(result: Result) -> list[str]:
     """Return, once each, the reasons why TODOs with code count as not started."""
-    found = dict.fromkeys(todo.remark for todo in result.shown if todo.remark)
+    found = dict.fromkeys(todo.remark for todo in result.todos_to_show if todo.remark)
     return [*islice(found, MOST_REMARKS)]
 
 
 def list_ids(result: Result, state: State, apart: TodoResult | None) -> str:
-    ids = [todo.id for todo in result.shown if todo.state == state and todo is not apart]
+    ids = [todo.id for todo in result.todos_to_show if todo.state == state and todo is not apart]
     if apart is not None and state in FAILED:
         ids = [id for id in ids if id != "whole"]  # it cannot pass while another TODO fails
     return f"{state.upper():<{STATES}}{' '.join(ids)}" if ids else ""

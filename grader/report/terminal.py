@@ -57,7 +57,7 @@ class Printer:
     printed: set[tuple[str, ...]] = field(default_factory=set)  # reasons
 
     def print(self, result: Result) -> None:
-        for todo in result.shown:
+        for todo in result.todos_to_show:
             self.print_todo(todo)
         words = f"{clean(result.submission)}: {total(result)}"
         say(words, self.console, style="bold")
@@ -154,7 +154,7 @@ def show_all(result: Result, console: Console, replays: Path | None = None) -> N
         say(words, console)
     console.print()
     for state, meaning in MEANINGS.items():
-        if any(todo.state == state for todo in result.shown):
+        if any(todo.state == state for todo in result.todos_to_show):
             say(f"{state.upper():<{STATES}}{meaning}", console, STATES, "bright_black")
     show_next(result, console)
 
@@ -164,7 +164,7 @@ def show_next(result: Result, console: Console) -> None:
 
     Bonus tasks come last.
     """
-    todos = result.counted or result.todos
+    todos = result.main_todos or result.todos
     left = [todo for todo in todos if todo.state in (*FAILED, "not started")]
     if not left:
         return

@@ -17,7 +17,7 @@ from heapq import merge
 from pathlib import Path, PurePath
 from typing import TypeVar
 
-from grader.source.flaws import misplaced
+from grader.source.flaws import find_misplaced
 from grader.source.regions import parse
 
 MAX_READ = 1024 * 1024  # characters of a submission that are parsed, in all
@@ -76,7 +76,7 @@ class Module:
     """The bindings of a module's names, and the modules that its import loads."""
 
     empty: bool = True  # without statements, or not Python
-    refused: bool = False  # it may not be Python, or have misplaced statements
+    refused: bool = False  # it may not be Python, or have find_misplaced statements
     names: dict[str, list[tuple[int, Binding]]] = field(default_factory=lambda: defaultdict(list))
     stars: list[tuple[int, Binding]] = field(default_factory=list)
     imports: dict[str, None] = field(default_factory=dict)
@@ -102,7 +102,7 @@ class Program:
         self.texts = texts
         self.paths: dict[str, Path] = {}  # by the dotted name of a module
         for path in sorted(texts, key=lambda each: each.name != "__init__.py"):
-            self.paths.setdefault(dotted(path), path)  # a package hides a file of its name
+            self.paths.setdefault(name_module(path), path)  # a package hides a file of its name
         self.depth = max((name.count(".") + 1 for name in self.paths), default=0)
         self.modules: dict[str, Module] = {}
         self.unread: list[Path] = []
@@ -126,10 +126,10 @@ class Program:
         if found is not None and found.function is not None:
             return found
         # A package may not import the name itself: search all parts that it loads.
-        others = (self._bound(each, path) for each in self.loaded(module))
+        others = (self._bound(each, path) for each in self.list_loaded(module))
         return next((each for each in others if each and each.function), found)
 
-    def loaded(self, module: str) -> list[str]:
+    def list_loaded(self, module: str) -> list[str]:
         """Return the names of the submission's modules that importing `module` loads."""
         if module not in self.parts:
             seen: set[str] = set()
@@ -192,7 +192,7 @@ class Program:
             return Module()
         self.read += len(text)
         tree = statements(text)
-        module = Module(not tree, not tree or any(misplaced(ast.Module(tree, []))))
+        module = Module(not tree, not tree or any(find_misplaced(ast.Module(tree, []))))
         module.imports = dict.fromkeys(self._imports(name, tree))
         for number, node in enumerate(top_level(tree)):
             match node:
@@ -329,7 +329,7 @@ def dotted_name(node: ast.expr) -> str:
     return ".".join([node.id, *reversed(parts)]) if isinstance(node, ast.Name) else ""
 
 
-def dotted(path: PurePath) -> str:
+def name_module(path: PurePath) -> str:
     """Return the name by which a file is imported, from the submission's folder."""
     parts = path.with_suffix("").parts
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
@@ -362,7 +362,7 @@ def statements(text: str) -> list[ast.stmt]:
     return tree.body if tree else []
 
 
-def function_named(body: list[ast.stmt], path: str) -> ast.FunctionDef | None:
+def find_function(body: list[ast.stmt], path: str) -> ast.FunctionDef | None:
     """Return the definition of `name` or `Class.name` among the statements of a file."""
     owner, _, name = path.rpartition(".")
     if owner:

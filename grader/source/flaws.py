@@ -100,7 +100,7 @@ def find_flaw(text: str) -> Flaw | None:
         return flaw_at(text, 1, str(error))
     except (RecursionError, MemoryError):
         return None
-    return next((flaw_at(text, line, why) for line, why in misplaced(tree)), None)
+    return next((flaw_at(text, line, why) for line, why in find_misplaced(tree)), None)
 
 
 def flaw_at(text: str, line: int, message: str) -> Flaw:
@@ -112,7 +112,7 @@ def flaw_at(text: str, line: int, message: str) -> Flaw:
     return Flaw(line, said, shown)
 
 
-def misplaced(tree: ast.Module) -> Iterator[tuple[int, str]]:
+def find_misplaced(tree: ast.Module) -> Iterator[tuple[int, str]]:
     """Yield the lines of statements outside the block that they need, with a message."""
     waiting: list[tuple[ast.AST, bool, bool]] = [(tree, False, False)]
     while waiting:

@@ -12,7 +12,7 @@ from functools import cached_property
 from itertools import pairwise
 from typing import TypeGuard
 
-from grader.source.definitions import function_named, statements
+from grader.source.definitions import find_function, statements
 from grader.source.flaws import MAX_LINE
 from grader.source.regions import Region, read_regions
 
@@ -81,7 +81,7 @@ class RegionCode:
 
     @cached_property
     def function(self) -> ast.FunctionDef | None:
-        return function_named(statements(self.text), self.path)
+        return find_function(statements(self.text), self.path)
 
     @cached_property
     def nodes(self) -> list[ast.AST]:

@@ -29,11 +29,11 @@ from grader.bank.mutants import (
     regions_of,
 )
 from grader.bank.slips import SCOPES, Scale, Scope, make_slips
-from grader.checks.exact import Disc, Rect, Rod, rod_solved
+from grader.checks.exact import Disc, Rect, Rod, solve_rod
 from grader.judge.explain import misconceptions
 from grader.judge.lab import Observation
 from grader.judge.rubric import load_rubric
-from grader.source.definitions import function_named, statements
+from grader.source.definitions import find_function, statements
 from grader.source.operators import OPERATORS, make_changes
 from grader.source.regions import replace_regions
 from mini_engine import game_loop, scenes
@@ -185,7 +185,7 @@ def test_an_exception_is_an_answer_that_a_mistake_can_be_told_by():
 def test_a_division_by_a_k_of_0_is_told_from_one_that_always_fails():
     rod = Rod(3.0, 1.0, 50.0, (60.0, 0.0), (5.0, 0.0), (0.0, 7.0), 1 / 120)
     still = rod._replace(mass_a=0.0, mass_b=0.0)
-    solved = Observation("rod", (rod,), (*rod_solved(rod), rod.offset))
+    solved = Observation("rod", (rod,), (*solve_rod(rod), rod.offset))
     failed = Observation("rod", (still,), "ZeroDivisionError")
     found = misconceptions.name_mistake("3", [solved, failed])
     assert found is not None and found.id == "divides-by-a-k-of-0"

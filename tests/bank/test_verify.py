@@ -155,7 +155,7 @@ def test_every_file_of_a_folder_counts_but_those_left_out(tmp_path: Path):
 def test_verify_grades_once_and_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     some = [each for each in bank() if each.todos == {"8a"}]
     monkeypatch.setattr(verify, "RESULTS", tmp_path)
-    monkeypatch.setattr(verify, "members", lambda *_: some)
+    monkeypatch.setattr(verify, "list_members", lambda *_: some)
     monkeypatch.setattr(verify, "check_kit", lambda: [])  # test_bank.py asks it
     told = []
     for _ in range(2):

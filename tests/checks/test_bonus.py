@@ -115,9 +115,9 @@ def test_a_program_older_than_the_bonus_tasks_has_not_started_them(tmp_path: Pat
 
 def test_only_what_was_asked_decides_whether_a_result_is_complete(with_bonus: Result):
     first, second = ([t for t in with_bonus.todos if t.id == name] for name in ("B1", "B2"))
-    assert with_bonus.complete
-    assert not msgspec.structs.replace(with_bonus, todos=first).complete
-    assert msgspec.structs.replace(with_bonus, todos=second).complete
+    assert with_bonus.has_full_marks
+    assert not msgspec.structs.replace(with_bonus, todos=first).has_full_marks
+    assert msgspec.structs.replace(with_bonus, todos=second).has_full_marks
 
 
 # ---------------------------------------------------------------- reports and sums

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from grader.bank.members import attacks
+from grader.bank.members import list_attacks
 from grader.classroom import dashboard, similarity
 from grader.classroom.dashboard import read_class, write_dashboard
 from grader.classroom.grading import ClassOptions, run_class
@@ -79,7 +79,7 @@ def film_without_end(folder: Path) -> None:
 
 
 def answer_by_the_megabyte(folder: Path) -> None:
-    found = {each.name: each for each in attacks(KIT / "tests" / "bank")}
+    found = {each.name: each for each in list_attacks(KIT / "tests" / "bank")}
     found["answers-by-the-megabyte"].build(KIT, folder)
 
 

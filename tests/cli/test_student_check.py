@@ -45,7 +45,7 @@ def test_a_fresh_tree_shows_every_todo_and_where_to_begin(hand_in):
     tree = hand_in("starter")
     done = start_grader("check", cwd=tree)
     assert done.returncode == 1 and done.stderr == "" and "\x1b" not in done.stdout
-    todos = " ".join(todo.id for todo in load_rubric().counted)
+    todos = " ".join(todo.id for todo in load_rubric().main_todos)
     assert done.stdout.startswith(f"NOT STARTED {todos} ") and len(done.stdout.splitlines()) == 4
     assert "B1" not in done.stdout  # a bonus task is shown once it is started
     lines = (tree / INTEGRATORS).read_text(encoding="utf-8").splitlines()

@@ -5,7 +5,7 @@ from functools import cache
 
 from msgspec.structs import replace as replace_in
 
-from grader.bank.members import Member, members
+from grader.bank.members import Member, list_members
 from grader.bank.verify import Verdict, grade_member
 from grader.judge.result import is_bonus
 from grader.judge.task import KIT
@@ -13,7 +13,7 @@ from grader.judge.task import KIT
 
 @cache
 def bank() -> tuple[Member, ...]:
-    return (*members(KIT),)
+    return (*list_members(KIT),)
 
 
 def member_named(name: str) -> Member:

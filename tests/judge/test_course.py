@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 from rich.console import Console
 from whole_bank import bank
 
-from grader.bank.members import members
+from grader.bank.members import list_members
 from grader.bank.verify import grade_member, shared_worker, verify
 from grader.classroom.adjustments import load_adjustments
 from grader.classroom.batch import Run
@@ -67,7 +67,7 @@ def test_the_shipped_course_and_an_empty_file_are_all_there_is(tmp_path: Path):
     (tmp_path / "course.toml").touch()
     assert read_course(tmp_path / "course.toml").rubric == load_rubric() == FULL.rubric
     shipped = read_course(KIT / "course.toml")
-    assert (shipped.rubric, shipped.out_of, shipped.given) == (FULL.rubric, 100, [])
+    assert (shipped.rubric, shipped.out_of, shipped.given_todos) == (FULL.rubric, 100, [])
     assert (shipped.bonus, shipped.due, shipped.visible) == ("apart", None, None)
 
 
@@ -119,11 +119,11 @@ def test_the_whole_program_has_the_checks_of_its_programs():
 
 def test_bonus_tasks_are_left_out_or_added():
     assert not any(todo.bonus for todo in Course(bonus="left out").rubric.todos)
-    assert [Course(bonus=5).added(points, 100) for points in (0, 4, 9)] == [0, 4, 5]
+    assert [Course(bonus=5).count_bonus(points, 100) for points in (0, 4, 9)] == [0, 4, 5]
     fills = Course(bonus="fill up")
-    assert [fills.added(9, points) for points in (80, 95, 100)] == [9, 5, 0]
+    assert [fills.count_bonus(9, points) for points in (80, 95, 100)] == [9, 5, 0]
     assert fills.most == fills.rubric.max_points == 100
-    assert Course().added(9, 0) == 0
+    assert Course().count_bonus(9, 0) == 0
 
 
 # ---------------------------------------------------------------- mistakes in the file
@@ -346,7 +346,7 @@ def test_what_is_left_out_comes_done_with_a_line_that_says_so(course: Course):
     texts = {name: files[name].decode() for name in files if name.endswith(".py")}
     left = {region.id for text in texts.values() for region in regions_in(text)}
     assert left == {todo.id for todo in course.rubric.todos if todo.function}
-    for todo in course.given:
+    for todo in course.given_todos:
         (text,) = (text for text in texts.values() if f"what TODO {todo.id} asks for" in text)
         assert not re.search(rf"# (END )?TODO {todo.id}\b", text)
         compile(text, todo.id, "exec")
@@ -373,7 +373,7 @@ def test_the_pages_of_a_course_of_one_task_name_no_other(todo: str):
     """With one bonus task there is a page for it, without some of the linked sections."""
     course = Course(todos=tuple(dict.fromkeys(("1", todo))))
     texts = make_handouts(KIT / "handouts", course)
-    others = "|".join({each.id for each in course.given if each.bonus})
+    others = "|".join({each.id for each in course.given_todos if each.bonus})
     for name, text in texts.items():
         for _, page, at in re.findall(r"(?<!!)\[([^\]]+)\]\(([\w-]+\.md)?#([\w-]+)\)", text):
             there = texts[page or name]
@@ -388,7 +388,7 @@ def test_the_pages_of_a_course_of_one_task_name_no_other(todo: str):
 @pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
 def test_the_lab_sheet_has_the_courses_todos_and_points(course: Course):
     sheet = make_handouts(KIT / "handouts", course)["lab-sheet.md"]
-    tasks = [todo for todo in course.rubric.counted if todo.function]
+    tasks = [todo for todo in course.rubric.main_todos if todo.function]
     rows = re.findall(r"^\| \[(\w+)\]\([^)]*\) \| \d+ \| (\d+) \|", sheet, re.M)
     assert rows == [(todo.id, str(todo.max_points)) for todo in tasks]
     assert re.findall(r"^## TODO (\w+):", sheet, re.M) == [todo.id for todo in tasks]
@@ -506,7 +506,7 @@ def test_code_that_is_given_is_no_secret_and_the_rest_is():
 
 
 def test_verify_leaves_out_what_the_course_leaves_out():
-    engine = [*members(KIT, COURSES["engine"])]
+    engine = [*list_members(KIT, COURSES["engine"])]
     assert {"4-clamps-the-increment", "starts-threads"} <= {each.name for each in engine}
     wrong = {each.name for each in engine if each.kind == "wrong"}
     assert {name.partition("-")[0] for name in wrong} == set("123456")
@@ -517,7 +517,7 @@ def test_verify_leaves_out_what_the_course_leaves_out():
 
 def test_a_member_is_graded_by_the_course():
     course = COURSES[CHEAP]
-    every = members(KIT, course.as_rated)
+    every = list_members(KIT, course.as_rated)
     verdict = grade_member(next(each for each in every if each.name == "8a-position-first"))
     assert verdict.complaint == "" and verdict.result is not None
     assert {todo.id for todo in verdict.result.todos} <= set(course.todos or ())
@@ -540,5 +540,5 @@ def test_the_release_of_a_course_builds(course: Course, tmp_path: Path):
     sheet = (tmp_path / "work" / "physics-engine" / "handouts" / "lab-sheet.html").read_text(
         "utf-8"
     )
-    for todo in course.given:
+    for todo in course.given_todos:
         assert not re.search(rf"TODO[= ]{todo.id}\b", sheet)

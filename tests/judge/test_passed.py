@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.bank.members import members
+from grader.bank.members import list_members
 from grader.bank.verify import grade_member, shared_worker
 from grader.judge.grade import grade
 from grader.judge.passed import PassedPrograms, program_key
@@ -86,7 +86,7 @@ def test_the_bank_gets_the_same_results_without_a_memory(tmp_path: Path):
     """Grade every member, without a time limit."""
     passed = PassedPrograms(tmp_path / "passed")
     differ = []
-    for member in members(KIT):
+    for member in list_members(KIT):
         with_memory, without = (grade_member(member, passed=each) for each in (passed, None))
         if with_memory.result != without.result:
             differ.append(f"{member.kind}/{member.name} as {member.form}")

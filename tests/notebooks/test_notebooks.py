@@ -82,7 +82,7 @@ def test_a_notebook_holds_no_traces_of_a_run(name):
 def test_the_engine_notebook_has_the_rubrics_todos_and_points():
     assert read(SOURCE / "engine.ipynb") == make_engine_notebook(load_rubric())
     points = {c["id"]: details(c)["points"] for c in cells("engine") if "task" in kind(c)}
-    assert points == {f"todo-{todo.id}": todo.max_points for todo in load_rubric().counted}
+    assert points == {f"todo-{todo.id}": todo.max_points for todo in load_rubric().main_todos}
     assert sum(points.values()) == 100
 
 

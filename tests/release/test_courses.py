@@ -100,7 +100,7 @@ ODDER = ("1,B4", "7b", "6,whole", "2", "4,5,B1,B6", "7a,8b,whole", "5,B3")
 def test_nothing_asks_for_what_a_course_leaves_out(names: str):
     """Exceptions are pages that say a TODO is given, and the program of effects."""
     course = Course(todos=tuple(names.split(",")))
-    left = [todo.id for todo in course.given]
+    left = [todo.id for todo in course.given_todos]
     about = re.compile(
         rf"(?<!what )(?:TODOs? |TODO=|--todo |grader (?:check|hint) )({'|'.join(left)})\b"
     )

@@ -13,7 +13,7 @@ from grader.source.regions import python_files, regions_in
 
 HERE = Path(__file__).parent
 SOLUTION, STARTER = (HERE.parents[1] / name for name in ("solution", "starter"))
-TODOS = [todo.id for todo in load_rubric().counted if todo.function]
+TODOS = [todo.id for todo in load_rubric().main_todos if todo.function]
 BONUS = [todo.id for todo in load_rubric().todos if todo.bonus]
 MINI, PYMUNK, INTEGRATORS = ["-m", "mini_engine"], ["pymunk_scene.py"], ["integrators.py"]
 

@@ -50,7 +50,7 @@ def test_the_refusal_comes_before_a_line_of_it_runs(monkeypatch: pytest.MonkeyPa
         grade(KIT / "solution", options)
     with pytest.raises(CannotGrade, match="cannot confine files and network"):
         grade(KIT / "solution", replace(options, isolation="strict"))
-    assert grade(KIT / "solution", replace(options, trusted=True)).complete
+    assert grade(KIT / "solution", replace(options, trusted=True)).has_full_marks
 
 
 @pytest.mark.soak

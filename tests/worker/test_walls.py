@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from test_security import SWITCHES, expected_layers
 
-from grader.bank.members import attacks, put_regions
+from grader.bank.members import list_attacks, put_regions
 from grader.judge.submission import Submission
 from grader.judge.task import KIT, Options, sandbox_for
 from grader.judge.wall.children import Worker, start_worker
@@ -29,7 +29,7 @@ pytestmark = pytest.mark.skipif(
 STOPPED_BY = tomllib.loads(Path(__file__).with_name("walls.toml").read_text("utf-8"))["stopped_by"]
 MEMBERS = {
     each.name: each
-    for each in attacks(KIT / "tests" / "bank")
+    for each in list_attacks(KIT / "tests" / "bank")
     if "refused: no points" in "\n".join(each.regions["8a"])
 }
 NAMESPACES = {"user-namespace", "network-namespace", "pid-namespace"}

@@ -105,7 +105,7 @@ def want_exact(
     lab: Lab, rod: Rod, spins: Pair = STILL, at: Pair = STILL
 ) -> tuple[BodyValue, BodyValue]:
     ends = solve(lab, rod, spins, at)
-    answer, right = velocities(ends), exact.rod_solved(rod)
+    answer, right = velocities(ends), exact.solve_rod(rod)
     most = rounding(rod, math.hypot(*at))
     good = all(math.dist(*each) <= most for each in zip(answer, right, strict=True))
     want_answer(lab, good, say_both, right, answer)
@@ -250,7 +250,7 @@ def any_rod_reaches_its_speed_and_keeps_the_momentum(
 
 def want_passes(lab: Lab, rod: Rod, spins: Pair, surfaces: tuple[Surface, Surface]) -> None:
     """Insist on the speed, the momentum and a static end at rest after each of two passes."""
-    lab.ran(f"2 x solve at 1/{1 / rod.dt:g} s on a rod, {described(rod)}")
+    lab.ran(f"2 x solve at 1/{1 / rod.dt:g} s on a rod, {describe(rod)}")
     still = (spins[0] * (rod.mass_a > 0), spins[1] * (rod.mass_b > 0))
     joint, a, b = join(lab, rod, still, surfaces=surfaces)
     for _ in range(2):
@@ -268,7 +268,7 @@ def want_passes(lab: Lab, rod: Rod, spins: Pair, surfaces: tuple[Surface, Surfac
 
 def want_both_rods(lab: Lab, rod: Rod, other: Rod, turned: bool) -> None:
     """Insist on the right speeds in three passes over two rods that share a ball."""
-    lab.ran(f"3 x solve on two rods that share a ball: {described(rod)}; {described(other)}")
+    lab.ran(f"3 x solve on two rods that share a ball: {describe(rod)}; {describe(other)}")
     joint, a, b = join(lab, rod)
     x, y = rod.offset
     c = lab.circle((x + other.length, y), 10.0, other.mass_b, vel=other.vel_b)
@@ -286,7 +286,7 @@ def want_both_rods(lab: Lab, rod: Rod, other: Rod, turned: bool) -> None:
             want_solved(lab, now, vel[first], vel[end], away)
 
 
-def described(rod: Rod) -> str:
+def describe(rod: Rod) -> str:
     return (
         f"one {rod.length:g} px long from {weight(rod.mass_a)}, {rod.vel_a} px/s, to "
         f"{weight(rod.mass_b)}, {rod.vel_b} px/s, {in_px(rod.offset)} away"

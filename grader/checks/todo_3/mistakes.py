@@ -17,7 +17,7 @@ Answer = tuple[Pair, Pair, Pair]  # velocities of A and B, px/s; B as seen from 
 
 
 def solve_rod(rod: Rod) -> Answer:
-    ends = exact.rod_solved(rod) if rod.k else (rod.vel_a, rod.vel_b)
+    ends = exact.solve_rod(rod) if rod.k else (rod.vel_a, rod.vel_b)
     return (*ends, rod.offset)
 
 
@@ -167,13 +167,13 @@ def share_equally(rod: Rod) -> Ends:
 
 
 def change_in_place(rod: Rod) -> Ends:
-    a, (x, y) = exact.rod_solved(rod)
+    a, (x, y) = exact.solve_rod(rod)
     return a, (x - rod.vel_a[0], y - rod.vel_a[1])
 
 
 def nothing_if_exact(rod: Rod) -> Ends:
     is_exact = abs(length_error(rod)) <= 1e-9 * rod.length
-    return (rod.vel_a, rod.vel_b) if is_exact else exact.rod_solved(rod)
+    return (rod.vel_a, rod.vel_b) if is_exact else exact.solve_rod(rod)
 
 
 MODELS: Models = (

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 
 from grader.checks import exact
-from grader.checks.exact import Pair, clamped
+from grader.checks.exact import Pair, clamp
 from grader.checks.mistakes import Models, register
 from grader.judge.explain.misconceptions import Undecided, truth
 
@@ -34,7 +34,7 @@ def right_limit(mu: Pair, jn: float) -> float:
 
 
 def right_rule(total: float, wanted: float, limit: float) -> float:
-    return clamped(wanted, limit)
+    return clamp(wanted, limit)
 
 
 def with_both(limit_of: Limit, rule: Rule) -> Model:
@@ -80,7 +80,7 @@ def against_the_slip(total: float, wanted: float, limit: float) -> float:
 
 def limit_grows_with_the_slip(mu: Pair, k: float, closing: float, slip: float) -> float:
     def rule(total: float, wanted: float, limit: float) -> float:
-        return clamped(wanted, limit * (slip + k * total))
+        return clamp(wanted, limit * (slip + k * total))
 
     return with_both(right_limit, rule)(mu, k, closing, slip)
 
@@ -105,7 +105,7 @@ def keep_wanted(applied: Rule) -> Model:
 
 
 def apply_overshoot(stored: float, wanted: float, limit: float) -> float:
-    return wanted - clamped(wanted, limit)
+    return wanted - clamp(wanted, limit)
 
 
 def apply_change(stored: float, wanted: float, limit: float) -> float:
@@ -129,7 +129,7 @@ LIMITS: dict[str, Limit] = {
     "jn-counts-twice": lambda mu, jn: right_limit(mu, jn) * jn,
 }
 RULES: tuple[tuple[str, Rule], ...] = (
-    ("clamps-the-increment", lambda total, wanted, limit: total + clamped(wanted - total, limit)),
+    ("clamps-the-increment", lambda total, wanted, limit: total + clamp(wanted - total, limit)),
     ("lets-go-beyond-the-limit", lambda total, wanted, limit: wanted * (abs(wanted) <= limit)),
     ("clamps-from-above-only", lambda total, wanted, limit: min(limit, wanted)),
     ("clamps-from-below-only", lambda total, wanted, limit: max(-limit, wanted)),

@@ -71,7 +71,7 @@ def apply_once(
     lab.tell(joint, "apply", rod.dt, changes=changes, sees=(a, b))
     answer = velocities((lab.state(a), lab.state(b)))
     lab.saw("spring", (spring,), answer)
-    right = exact.spring_applied(spring)
+    right = exact.apply_spring(spring)
     good = are_close(spring, answer, right, math.hypot(*place))
     want_answer(lab, good, say, right, answer)
 

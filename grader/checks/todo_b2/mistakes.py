@@ -9,7 +9,7 @@ from grader.judge.explain.misconceptions import Undecided, truth
 
 Ends = tuple[Pair, Pair]  # velocities of A and B, px/s
 
-truth("spring", exact.spring_applied)
+truth("spring", exact.apply_spring)
 
 
 def pull_ends(spring: Spring, force: float) -> Ends:
@@ -80,7 +80,7 @@ MODELS: Models = (
     ),
     ("pulls-when-squeezed", lambda s: pull_ends(s, s.stiffness * abs(s.stretch) + brake(s))),
     ("damps-by-the-whole-speed", lambda s: pull_ends(s, hold(s) + s.damping * whole_speed(s))),
-    ("moves-only-a", lambda s: (exact.spring_applied(s)[0], s.rod.vel_b)),
-    ("moves-only-b", lambda s: (s.rod.vel_a, exact.spring_applied(s)[1])),
+    ("moves-only-a", lambda s: (exact.apply_spring(s)[0], s.rod.vel_b)),
+    ("moves-only-b", lambda s: (s.rod.vel_a, exact.apply_spring(s)[1])),
 )
 register("B2", "spring", MODELS)

@@ -59,10 +59,10 @@ class Picture:
     """A photo of the window, and the discs in the steps that it may show."""
 
     def __init__(self, photo: Photo, moments: list[list[Disc]]) -> None:
-        self.colours = decompressed(photo)
+        self.colours = decompress(photo)
         self.moments = moments
         self.discs = moments[-1]  # until the step that it shows is found
-        self.covered = covered(disc for discs in moments for disc in discs)
+        self.covered = mark_covered(disc for discs in moments for disc in discs)
 
     def __getitem__(self, point: Pair) -> tuple[int, ...]:
         """Return the colour at a point."""
@@ -79,7 +79,7 @@ def pixel(point: Pair) -> int:
     return SIZE[0] * round(point[1]) + round(point[0])
 
 
-def covered(discs: Iterable[Disc]) -> bytearray:
+def mark_covered(discs: Iterable[Disc]) -> bytearray:
     """Return for each pixel of the window whether one of the discs may have coloured it."""
     width, height = SIZE
     pixels = bytearray(width * height)
@@ -94,7 +94,7 @@ def covered(discs: Iterable[Disc]) -> bytearray:
 
 def want_pictures(lab: Lab, played: Played, movers: Sequence[Mover], frames: Sequence[int]) -> None:
     """Insist that at the end of these frames the window shows the simulated state."""
-    photos = [each for each in played.photos if decompressed(each)]
+    photos = [each for each in played.photos if decompress(each)]
     lab.want(
         [each.frame for each in photos] == list(frames),
         "a window of 900 x 600 px that shows a new picture in each frame",
@@ -107,7 +107,7 @@ def want_pictures(lab: Lab, played: Played, movers: Sequence[Mover], frames: Seq
     want_turning_spokes(lab, shown)
 
 
-def decompressed(photo: Photo) -> bytes:
+def decompress(photo: Photo) -> bytes:
     """Return the colours of a photo; empty unless it covers the whole window."""
     length = 3 * SIZE[0] * SIZE[1]
     if (photo.width, photo.height) != SIZE:

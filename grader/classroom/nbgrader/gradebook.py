@@ -93,7 +93,7 @@ def write_marks(book: Any, cells: list[Any], student: str, result: Result) -> En
             notes.append(f"{cell.name}: {todo.max_points} points here, {cell.max_score:g} there")
         if write_mark(book, cell, student, todo):
             notes.append(f"{cell.name}: a mark given by hand counts instead")
-    extra = {f"todo-{todo.id}" for todo in result.counted} - {cell.name for cell in cells}
+    extra = {f"todo-{todo.id}" for todo in result.main_todos} - {cell.name for cell in cells}
     notes += [f"{name}: no such cell in the notebook" for name in sorted(extra)]
     notebook = book.find_submission_notebook(ENGINE, ASSIGNMENT, student)
     return EngineMark(student, notebook.score, notebook.max_score, tuple(notes))

@@ -78,7 +78,7 @@ class Error:
     @property
     def around(self) -> set[str]:
         """Return the names that the file defines outside its functions."""
-        return {*imported_names(self.body), *bound(self.body)}
+        return {*imported_names(self.body), *list_bound(self.body)}
 
     def nodes(self) -> Iterator[ast.AST]:
         """Yield the nodes that begin in the line."""
@@ -384,7 +384,7 @@ def explain_pair(match: Match, error: Error) -> str:
 # ---------------------------------------------------------------- given code
 
 
-def bound(body: Collection[ast.stmt]) -> Iterator[str]:
+def list_bound(body: Collection[ast.stmt]) -> Iterator[str]:
     """Yield the functions, classes and variables that statements define."""
     for node in body:
         match node:
@@ -400,7 +400,7 @@ def bound(body: Collection[ast.stmt]) -> Iterator[str]:
 def stub_names(todo: str) -> frozenset[str]:
     """Return the variables that the stub of a TODO sets, for the lines below it."""
     body = statements("\n".join(map(str.strip, handed_out().stubs.get(todo, "").splitlines())))
-    return frozenset(bound(body))
+    return frozenset(list_bound(body))
 
 
 def own_attributes(error: Error) -> set[str]:
@@ -412,7 +412,7 @@ def own_attributes(error: Error) -> set[str]:
 
 
 def attributes_of(node: ast.ClassDef) -> set[str]:
-    found = set(bound(node.body))
+    found = set(list_bound(node.body))
     for each in ast.walk(node):
         match each:
             case ast.Attribute(value=ast.Name(id="self"), attr=name, ctx=ast.Store()):

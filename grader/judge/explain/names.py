@@ -45,7 +45,7 @@ class Signature:
         return self.path.rpartition(".")[0]
 
     @property
-    def shown(self) -> str:
+    def call(self) -> str:
         names = self.names[1:] if self.owner and self.names[:1] == ("self",) else self.names
         return f"{self.name}({', '.join(names)})"
 
@@ -172,7 +172,7 @@ def compare_arguments(meant: Signature, found: Signature) -> str:
     if found.open or found.names == meant.names:
         return ""
     if sorted(found.names) == sorted(meant.names):
-        return f"It is {found.shown} here, and it is called as {meant.shown}: keep the order."
+        return f"It is {found.call} here, and it is called as {meant.call}: keep the order."
     if found.least > len(meant.names) or len(found.names) < meant.least:
-        return f"It is {found.shown} here, and it is called as {meant.shown}: keep its arguments."
+        return f"It is {found.call} here, and it is called as {meant.call}: keep its arguments."
     return ""

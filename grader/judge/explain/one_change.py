@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import chain, combinations, islice
 
-from grader.source.definitions import function_named, statements
+from grader.source.definitions import find_function, statements
 from grader.source.operators import (
     Offer,
     Place,
@@ -84,7 +84,7 @@ def find_mend(
     changed text of the file, and `has_time` returns whether there is time for another one.
     """
     file, todo, path = about
-    function = function_named(statements(text), path)
+    function = find_function(statements(text), path)
     regions = [each for each in regions_in(text) if each.id == todo]
     if function is None or len(regions) != 1:
         return None

@@ -77,7 +77,7 @@ def render(result: Result, replays: Mapping[str, str], standing: Standing | None
 
 def list_failed_first(result: Result) -> list[TodoResult]:
     """Return the TODOs, with passed ones last."""
-    return sorted(result.shown, key=lambda todo: todo.state == "passed")
+    return sorted(result.todos_to_show, key=lambda todo: todo.state == "passed")
 
 
 def find_replays(result: Result, folder: Path) -> dict[str, str]:

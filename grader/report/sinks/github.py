@@ -18,7 +18,7 @@ def write_annotations(result: Result, inside: str = "") -> str:
 
     A bonus task is a warning. `inside` is the submission's folder in the repository.
     """
-    todos = [todo for todo in result.shown if todo.failed]
+    todos = [todo for todo in result.todos_to_show if todo.failed]
     lines = [
         write_annotation("error" if number < SHOWN and not todo.bonus else "warning", todo, inside)
         for number, todo in enumerate(todos)

@@ -15,7 +15,7 @@ def write_gradescope(result: Result, course: Course = FULL) -> bytes:
 
     The score includes the bonus only if the course adds it; the output names the bonus.
     """
-    score: float = result.points + course.added(result.bonus, result.points)
+    score: float = result.points + course.count_bonus(result.bonus, result.points)
     output = points_in_words(result)
     if course.out_of is not None and course.out_of != result.max_points:
         score = round(score * course.out_of / result.max_points, 2)
@@ -28,7 +28,7 @@ def write_gradescope(result: Result, course: Course = FULL) -> bytes:
         "stdout_visibility": "hidden",
         "tests": [
             make_test(todo, check, number)
-            for todo in result.shown
+            for todo in result.todos_to_show
             for number, check in enumerate(todo.checks, 1)
         ],
         "extra_data": {

@@ -17,8 +17,8 @@ TAGS: dict[State, str] = {
 def write_junit(result: Result) -> bytes:
     """Return a suite per TODO and a case per check, in the form of the schema junit-10."""
     root = ET.Element("testsuites", name=clean(result.submission))
-    add_counts(root, result.shown)
-    for todo in result.shown:
+    add_counts(root, result.todos_to_show)
+    for todo in result.todos_to_show:
         suite = ET.SubElement(root, "testsuite", name=add_task(todo, todo.title))
         add_counts(suite, [todo])
         suite.set("skipped", str(count([todo], "skipped")))

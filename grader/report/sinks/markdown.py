@@ -29,10 +29,10 @@ def write_markdown(result: Result) -> str:
         "",
         "| TODO | | state | points |",
         "|---|---|---|--:|",
-        *map(write_row, result.shown),
+        *map(write_row, result.todos_to_show),
         *(["", elsewhere] if elsewhere else []),
-        *(f"\n{escape_markdown(note)}" for todo in result.shown for note in todo.notes),
-        *limit([explain(todo, check) for todo in result.shown for check in todo.failed]),
+        *(f"\n{escape_markdown(note)}" for todo in result.todos_to_show for note in todo.notes),
+        *limit([explain(todo, check) for todo in result.todos_to_show for check in todo.failed]),
         "",
         f"Isolation: {', '.join(result.isolation)}.",
     ]

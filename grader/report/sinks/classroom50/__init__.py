@@ -39,7 +39,7 @@ def write_classroom50(result: Result, environment: Mapping[str, str]) -> bytes:
         "datetime": datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
         "score": result.points,
         "max-score": result.max_points,
-        "tests": [make_test(todo) for todo in result.shown],
+        "tests": [make_test(todo) for todo in result.todos_to_show],
     }
     return msgspec.json.format(msgspec.json.encode(marks)) + b"\n"
 
