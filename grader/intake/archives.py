@@ -22,7 +22,7 @@ from grader.intake import repack
 from grader.intake.found import CannotTake
 from grader.intake.names import fold, make_portable
 from grader.intake.pieces import rank_file
-from grader.intake.places import ARCHIVES, SIGNS, is_system_file
+from grader.intake.places import SIGNS, is_system_file
 from grader.judge.submission import IGNORED, MAX_DEPTH, MAX_FILES
 from grader.judge.wall.children import reaped_seconds
 from grader.judge.wall.starting import command
@@ -37,7 +37,6 @@ MAX_DIRECTORY = 16 * 1024**2  # bytes of the lists of files in zips: about 200,0
 MAX_SECONDS = repack.SECONDS  # of processor time, for archives that are no zip
 MAX_CLASS = 20 * MAX_DIRECTORY  # the same, of the zip of a class
 LONGEST_PATH, SHORT = 2000, 30  # bytes of a path in the zip of a class, and of a folder that is cut
-WORK = {".py", ".ipynb", "", *ARCHIVES}  # suffixes of work; a file without one may be an archive
 DRIVE = re.compile(r"[A-Za-z]:")  # with which a name on Windows begins
 SPARED = 100  # files of the allowance for the lab's own alone
 OWN_WAY = "the zip is packed in an unusual way: ask for one as desktops make it"
@@ -55,7 +54,6 @@ class Bounds:
     listed: int = field(default_factory=lambda: MAX_DIRECTORY)  # bytes, of lists of files in zips
     seconds: float = field(default_factory=lambda: MAX_SECONDS)
     left_out: list[str] = field(default_factory=list)
-    misnamed: list[str] = field(default_factory=list)  # left out for names that some systems refuse
 
     def take(self, name: str, length: int, spared: int = 0) -> bool:
         """Take a file if it fits, with room for `spared` others after it."""
@@ -80,17 +78,12 @@ class Bounds:
 
     @property
     def notes(self) -> list[str]:
-        """Return a note for each reason to skip files."""
-        skipped = {
-            "size limit reached": self.left_out,
-            "a name not for every system": list(map(repr, self.misnamed)),
-        }
-        return [f"left out {count_files(names)}: {why}" for why, names in skipped.items() if names]
-
-
-def count_files(names: list[str]) -> str:
-    more = len(names) - 1
-    return names[0] + (f" and {plural(more, 'more file')}" if more else "")
+        """Return a note on the files that did not fit, if there are any."""
+        if not self.left_out:
+            return []
+        first, *others = self.left_out
+        more = f" and {plural(len(others), 'more file')}" if others else ""
+        return [f"left out {first}{more}: size limit reached"]
 
 
 def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
@@ -98,8 +91,8 @@ def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
     bounds.open_one()
     with open_archive(path, bounds) as (archive, too_large):
         bounds.left_out += too_large
-        members = name_members(archive, bounds.misnamed)
-        if not members and not bounds.misnamed:
+        members = name_members(archive)
+        if not members:
             raise CannotTake("the archive holds no file, or is cut off")
         environments = {name.parent for name, _ in members if name.name == "pyvenv.cfg"}
         folder.mkdir(parents=True, exist_ok=True)
@@ -235,20 +228,11 @@ def list_members(archive: zipfile.ZipFile) -> Iterator[zipfile.ZipInfo]:
             yield member
 
 
-def name_members(
-    archive: zipfile.ZipFile, misnamed: list[str]
-) -> list[tuple[PurePosixPath, zipfile.ZipInfo]]:
-    """Return the files and their names; raises CannotTake where two files share a name and differ.
-
-    Other files with a name that some systems refuse are added to `misnamed` instead.
-    """
+def name_members(archive: zipfile.ZipFile) -> list[tuple[PurePosixPath, zipfile.ZipInfo]]:
+    """Return the files and their names; raises CannotTake where two share a name and differ."""
     found: dict[str, tuple[PurePosixPath, zipfile.ZipInfo]] = {}
     for member in list_members(archive):
-        try:
-            name = PurePosixPath(check_name(decode_name(member)))
-        except BadName as error:
-            misnamed.append(str(error))
-            continue
+        name = PurePosixPath(check_name(decode_name(member)))
         other, first = found.get(fold(name.as_posix()), (name, member))
         if other != name:
             raise CannotTake(f"{other} and {name} differ in case alone: ask for other names")
@@ -267,25 +251,13 @@ def decode_name(member: zipfile.ZipInfo) -> str:
     return unicodedata.normalize("NFC", name.replace("\\", "/"))
 
 
-class BadName(Exception):
-    """Raised for a name that some systems refuse, of a file that cannot be work."""
-
-
 def check_name(name: str) -> str:
-    """Return the name, if it stays inside its folder and every system takes it.
-
-    Raises CannotTake for a file that may be work, and BadName for any other.
-    """
+    """Return the name as every system takes it; raise CannotTake if it leaves its folder."""
     parts = [part for part in name.split("/") if part not in ("", ".")]
     if len(parts) > MAX_DEPTH:
         raise CannotTake(f"the archive has more than {MAX_DEPTH} folders in each other")
     if name.startswith("/") or ".." in parts or DRIVE.match(name):
         raise CannotTake(f"the archive reaches outside its folder, with {name[:100]!r}")
-    for part in parts:
-        if make_portable(part) != part.strip(" .") and not is_system_file(part):
-            if PurePosixPath(name).suffix.lower() not in WORK:
-                raise BadName(name[:100])
-            raise CannotTake(f"the archive holds {part[:100]!r}, a name not for every system")
     return "/".join(part if is_system_file(part) else make_portable(part) for part in parts)
 
 

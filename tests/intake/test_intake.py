@@ -332,19 +332,17 @@ def test_names_become_file_names_of_every_system(words, name):
 
 
 OUTSIDE = ["../up.py", "a/../../up.py", "/etc/up.py", "C:/up.py", "..\\up.py", "\\\\host\\up.py"]
-UNPORTABLE = ["aux.py", "a/com1.zip", "what?.py", "lab: last/more.py", "x" * 200]
+UNPORTABLE = ["aux.py", "what?.txt", "lab: last/more.py", 'the "floor".png', f"{'x' * 200}.py"]
 
 
-def test_names_that_not_every_system_takes_are_refused_or_left_out(classroom):
+def test_names_that_not_every_system_takes_are_changed_or_refused(classroom):
     for name in OUTSIDE:
         assert "outside" in refuse(classroom, zipped(PROGRAM | {name: "x"})), name
-    for name in UNPORTABLE:
-        assert "not for every system" in refuse(classroom, zipped(PROGRAM | {name: "x"})), name
     assert "case alone" in refuse(classroom, zipped(PROGRAM | {"Integrators.py": "x"}))
-    for name in ("a/com1.txt", 'the "floor".png', "at 10:30.png", "note: b.md"):
+    for name in UNPORTABLE:
         package = read_package(handed_in(classroom, zipped(PROGRAM | {name: "x"})))
-        assert [file for file, _ in package.files] == sorted(PROGRAM)
-        assert package.notes == [f"left out {name!r}: a name not for every system"]
+        (other,) = {file for file, _ in package.files} - set(PROGRAM)
+        assert other == "/".join(map(make_portable, name.split("/"))) and not package.notes
 
 
 def test_broken_encrypted_and_unusual_zips_are_refused(classroom):
@@ -375,8 +373,7 @@ def test_a_zip_that_lists_too_many_files_is_not_even_listed(classroom, monkeypat
 
 def test_a_short_list_is_read_where_another_end_is_hidden_in_it(classroom):
     name = "PK\x05\x06" + "\xff" * 16
-    with pytest.raises(CannotTake, match="not for every system"):
-        read_package(handed_in(classroom, zipped(PROGRAM | {name: "x"})))
+    assert len(names_in(handed_in(classroom, zipped(PROGRAM | {name: "x"})))) == 3
 
 
 def test_many_archives_have_the_bounds_of_one(classroom, monkeypatch):
@@ -408,15 +405,6 @@ def test_bombs_give_the_program_and_no_more_than_the_bounds(classroom, monkeypat
     assert "MB" in refuse(classroom, zipped(PROGRAM))
 
 
-def test_more_files_than_may_be_are_left_out_and_named(classroom):
-    many = {f"data/{n}.txt": "" for n in range(MAX_FILES + 100)}
-    package = read_package(handed_in(classroom, zipped(many | PROGRAM)))
-    assert MAX_FILES - archives.SPARED <= len(package.files) <= MAX_FILES
-    (note,) = package.notes
-    assert "more files: size limit reached" in note
-    assert {"integrators.py"} < {name for name, _ in package.files}
-
-
 def test_a_size_that_lies_gives_no_more_than_it_says(classroom):
     content = bytearray(zipped(PROGRAM | {"z.bin": bytes(100_000)}))
     at = content.rindex(b"PK\x01\x02") + 24
@@ -439,18 +427,6 @@ def test_links_environments_and_system_files_in_a_zip_are_left_out(classroom):
             archive.writestr(f"node_modules/{number}.py", "")
     package = read_package(handed_in(classroom, content.getvalue()))
     assert [name for name, _ in package.files] == sorted(PROGRAM) and not package.notes
-
-
-def test_names_are_read_in_utf_8_and_in_the_old_dos_letters(classroom):
-    content = zipped(PROGRAM | {"möbius.txt": ""})
-    unsaid = content
-    for sign, place in ((b"PK\x01\x02", 8), (b"PK\x03\x04", 6)):  # as macOS writes them
-        at = unsaid.rindex(sign) + place
-        flags = int.from_bytes(unsaid[at : at + 2], "little") & ~0x800
-        unsaid = unsaid[:at] + flags.to_bytes(2, "little") + unsaid[at + 2 :]
-    dos = zipped(PROGRAM | {"m#bius.txt": ""}).replace(b"m#bius", b"m\x94bius")
-    for each in (content, unsaid, dos):
-        assert "möbius.txt" in names_in(handed_in(classroom, each))
 
 
 def test_a_file_that_is_also_a_folder_is_refused(classroom):

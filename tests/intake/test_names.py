@@ -84,29 +84,6 @@ def test_many_names_of_any_parts_are_read(name: str):
     read_name(name)
 
 
-@pytest.mark.parametrize(
-    ("name", "plain"),
-    [
-        ("solver copy 2.py", "solver.py"),
-        ("solver - copy (3).py", "solver.py"),
-        ("solver -  Copy.py", "solver.py"),
-        ("solver copy 12345.py", "solver.py"),
-        ("solver (1) (2).py", "solver.py"),
-        ("solver-1-2.py", "solver.py"),
-        ("solver 2 copy.py", "solver.py"),
-        ("copy of copy of solver.py", "solver.py"),
-        ("solver 12345.py", "solver 12345.py"),
-        ("solver-copy.py", "solver-copy.py"),
-        ("solver2.py", "solver2.py"),
-        ("solver_1.py", "solver_1.py"),
-        ("my solver.py", "my solver.py"),
-        ("solver-old.py", "solver-old.py"),
-    ],
-)
-def test_additions_to_a_name_are_left_out(name: str, plain: str):
-    assert strip_additions(name) == plain
-
-
 def test_a_receipt_is_read_whatever_stands_in_it():
     (match,) = WHO.finditer("Name: Anna (Ann) Becker  (abecker)  \nAssignment: Lab")
     assert (match["name"].strip(), match["user"]) == ("Anna (Ann) Becker", "abecker")

@@ -140,7 +140,13 @@ def raw_zip(name: bytes) -> bytes:
 
 @pytest.mark.parametrize(
     ("name", "letters"),
-    [("課題/", "shift-jis"), ("ソ表/", "shift-jis"), ("作业/", "gbk"), ("Übung/", "cp437")],
+    [
+        ("課題/", "shift-jis"),
+        ("ソ表/", "shift-jis"),
+        ("作业/", "gbk"),
+        ("Übung/", "cp437"),
+        ("Übung/", "utf-8"),
+    ],
 )
 def test_names_in_old_letters_hide_no_program(tmp_path: Path, name: str, letters: str):
     classes.put(tmp_path / "work.zip", raw_zip(name.encode(letters) + b"integrators.py"))

@@ -3,7 +3,6 @@
 import csv
 import io
 
-import msgspec
 import pytest
 
 from grader.classroom.marks import (
@@ -57,19 +56,6 @@ def test_canvas_gets_its_columns_back_with_one_mark_each(tmp_path):
         ["O'Brien, Ben", "18", "s-18", "ben", "B", "0"],
     ]
     assert made.given == 2 and made.notes == ["ben: nothing handed in"]
-
-
-def test_a_list_without_points_possible_or_the_column_works_too(tmp_path):
-    text = "Student,ID,SIS Login ID,Section\nZoe,17,zoe,A\n"
-    roster = read_list(tmp_path, text)
-    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, MARKING))
-    assert rows(made)[0][-1] == "Physics engine" and rows(made)[1] == [
-        "Zoe",
-        "17",
-        "zoe",
-        "A",
-        "86.0",
-    ]
 
 
 def test_a_byte_order_mark_and_semicolons_come_back_as_they_came(tmp_path):
@@ -137,16 +123,6 @@ def test_the_total_and_the_decimals_are_the_instructors():
     marking = Marking("x", {"engine": 1}, total=20, decimals=0)
     assert compute_mark({"engine": Part(72, 100)}, marking) == "14"
     assert compute_mark({"engine": Part(72.5, 100)}, marking) == "15"
-
-
-def test_a_mark_that_waits_for_a_person_is_left_empty_and_named(tmp_path):
-    marking = msgspec.structs.replace(MARKING, shares={"engine": 70, "quiz": 20, "journal": 10})
-    roster = read_list(tmp_path, CANVAS)
-    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, marking))
-    assert rows(made)[2][-1] == "" and made.given == 1
-    assert made.notes[0] == "zoe: no mark yet, journal must be graded by hand"
-    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, marking, so_far=True))
-    assert rows(made)[2][-1] == "76.0"
 
 
 def test_who_is_not_in_the_list_is_named(tmp_path):
