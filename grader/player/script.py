@@ -300,12 +300,20 @@ def write_script(
     if plays:
         imports, body = write_play(translator.module, *plays[-1])
     else:
-        body = list(fold_repeats(write_calls(steps)))
+        body = list(fold_repeats(write_calls(end_with_answer(steps))))
         imports = list(write_imports(translator, "\n".join(body)))
     comments = [f"# {write_comment(each)}" for each in words if each]
     head = [f"# {write_comment(title)}", "# Run it in the folder of your own files.", "import sys"]
     begin = ['sys.path.insert(0, "")  # your own files come first', ""]
     return "\n".join([*head, *begin, *imports, "", *body, *comments, ""])
+
+
+def end_with_answer(steps: Sequence[Step]) -> Sequence[Step]:
+    """Leave out what a check set after the last answer, which is the one that it judged."""
+    last = len(steps)
+    while last and isinstance(steps[last - 1].request, Set) and steps[last - 1].silent:
+        last -= 1
+    return steps[:last]
 
 
 def write_imports(translator: Translator, body: str) -> Iterator[str]:

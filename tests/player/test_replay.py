@@ -36,14 +36,22 @@ from grader.player.pairing import pair_runs
 from grader.player.recording import MAX_MOMENTS, Recorder, RecordingLab, record_again
 from grader.player.replay import ExpectedRuns, Replays
 from grader.player.runs import Line, Replay, Run
-from grader.player.script import fold_repeats, write_polynomial, write_script
+from grader.player.script import (
+    Step,
+    Translator,
+    fold_repeats,
+    write_polynomial,
+    write_script,
+)
 from grader.protocol import (
     Answered,
     BodyLook,
     BodyRow,
+    Call,
     Moment,
     Record,
     Returned,
+    Set,
     ShapeLook,
     Vec,
     WithMoments,
@@ -340,6 +348,15 @@ def test_the_script_shows_the_mistake_in_the_tree_as_it_is(
         assert re.search(pattern, done.stdout, re.MULTILINE), done.stdout
         printed.append(done.stdout)
     assert printed[0] != printed[1]
+
+
+def test_a_script_ends_with_the_answer_that_was_judged():
+    """A check may set fields of the object after it."""
+    asked = Step(Call("mini_engine:circle_box"), ["contact = circle_box(ball, box)"], silent=False)
+    later = Step(Set(1, {"jn": 12.0}), ["contact.jn = 12.0"], silent=True)
+    lines = write_script("A check", Translator("mini_engine"), [asked, later], []).splitlines()
+    assert lines[-1] == "print(contact and (contact.normal, contact.depth, contact.point))"
+    assert "contact.jn = 12.0" not in lines
 
 
 def test_names_begin_at_one_and_agree_with_the_picture(pages: Path):
