@@ -15,7 +15,7 @@ import msgspec
 import pytest
 from command_line import run_grader
 from conftest import KIT
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from rich.console import Console
 from whole_bank import bank
@@ -86,6 +86,7 @@ def test_a_date_without_a_zone_is_over_where_it_is_over_last(
     assert read_course(tmp_path / "course.toml").due == datetime.fromisoformat(due)
 
 
+@settings(max_examples=30)
 @given(st.lists(st.integers(1, 9), min_size=1, max_size=12), st.integers(1, 60))
 def test_points_are_spread_in_whole_numbers(weights: list[int], points: int):
     shares = spread_points(points, weights)

@@ -285,7 +285,7 @@ def test_work_grows_little_faster_than_any_input(kind: str):
     ],
 )
 def test_a_comment_is_found_in_time_among_lines_of_one_text(unit: str):
-    check_growth(find_comment, Shape("x = 1\n", unit, ""), 80_000)
+    check_growth(find_comment, Shape("x = 1\n", unit, ""), 40_000)
 
 
 @pytest.mark.parametrize("start", ["#TODO", "# END TODO ", "    # todo "])

@@ -56,11 +56,11 @@ def sleep() -> int:
         (loop_elsewhere, "0.5 s of processor time"),
         (eat, "200 MB of memory"),
         (gulp, "200 MB of memory"),
-        (sleep, "2 s"),
+        (sleep, "1 s"),
     ],
 )
 def test_a_limit_ends_the_work_with_a_sentence(work: Callable[[], int], limit: str):
-    allowance = replace(LITTLE, seconds=2) if work is sleep else LITTLE
+    allowance = replace(LITTLE, seconds=1) if work is sleep else LITTLE
     with pytest.raises(Exceeded) as raised:
         call_within(allowance, int, work)
     assert str(raised.value) == f"needs manual review: reading it takes more than {limit}"

@@ -158,7 +158,7 @@ def test_an_endless_loop_uses_up_its_processor_time(ask: Asker):
 
 
 def test_waiting_for_nothing_is_noticed_before_the_last_resort(ask: Asker, monkeypatch):
-    monkeypatch.setattr(children, "REST_SECONDS", 2.0)
+    monkeypatch.setattr(children, "REST_SECONDS", 0.5)
     with pytest.raises(ChildEnded, match="it sleeps"):
         ask("wait_for_nothing")
 
