@@ -262,7 +262,7 @@ def foretells_answers(todo: str, name: str, answers: Sequence[Observation]) -> b
 
 def is_right(answer: Observation) -> bool:
     try:
-        right = misconceptions.right_models[answer.about](*answer.inputs)
+        right = misconceptions.kinds[answer.about].right(*answer.inputs)
     except Undecided:
         return True
     return misconceptions.are_close(right, answer.answer)

@@ -32,12 +32,18 @@ class RecordedMistake(Struct, frozen=True):
     apart: bool = True
 
 
+class RecordedKind(Struct, frozen=True):
+    """A kind of question; see Kind."""
+
+    right: Answers
+    traits: Answers
+    parts: dict[str, list[int]]
+    apart: bool
+
+
 class RecordedAnswers(Struct, frozen=True):
     oracles: dict[str, Answers] = {}
-    right: dict[str, Answers] = {}  # the right answers, by kind of question
-    traits: dict[str, Answers] = {}  # of the questions
-    parts: dict[str, dict[str, list[int]]] = {}  # of the answers
-    separate: list[str] = []  # kinds of questions in which a mistake may affect only one part
+    kinds: dict[str, RecordedKind] = {}
     mistakes: list[RecordedMistake] = []
 
 

@@ -24,7 +24,14 @@ from grader.judge.course import FULL, Course
 from grader.judge.explain import misconceptions
 from grader.judge.grade import grading
 from grader.judge.lab import Observation
-from grader.judge.recorded import Answers, RecordedAnswers, RecordedMistake, key, oracles
+from grader.judge.recorded import (
+    Answers,
+    RecordedAnswers,
+    RecordedKind,
+    RecordedMistake,
+    key,
+    oracles,
+)
 from grader.judge.rubric import CHECKS, Check, Rubric, drop_hidden, load_rubric
 from grader.judge.task import KIT, Options
 from grader.judge.wall.children import Worker, start_worker
@@ -221,18 +228,16 @@ def record_answers(wrong: Iterable[Tree], rubric: Rubric) -> RecordedAnswers:
         for each in misconceptions.known_mistakes
         if each.todo == todo
     ]
-    right, traits = (
-        {about: ask_model(model, about, seen) for about, model in models.items()}
-        for models in (misconceptions.right_models, misconceptions.trait_models)
-    )
-    return RecordedAnswers(
-        notes,
-        right,
-        traits,
-        misconceptions.part_names,
-        sorted(misconceptions.separate_questions),
-        mistakes,
-    )
+    kinds = {
+        about: RecordedKind(
+            ask_model(kind.right, about, seen),
+            ask_model(kind.traits, about, seen),
+            kind.parts,
+            kind.apart,
+        )
+        for about, kind in misconceptions.kinds.items()
+    }
+    return RecordedAnswers(notes, kinds, mistakes)
 
 
 def drop_properties(rubric: Rubric) -> Rubric:

@@ -76,7 +76,7 @@ class Module:
     """The bindings of a module's names, and the modules that its import loads."""
 
     empty: bool = True  # without statements, or not Python
-    refused: bool = False  # it may not be Python, or have find_misplaced statements
+    refused: bool = False  # it may not be Python, or have misplaced statements
     names: dict[str, list[tuple[int, Binding]]] = field(default_factory=lambda: defaultdict(list))
     stars: list[tuple[int, Binding]] = field(default_factory=list)
     imports: dict[str, None] = field(default_factory=dict)

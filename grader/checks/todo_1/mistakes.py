@@ -7,7 +7,7 @@ from functools import partial
 from grader.checks import exact
 from grader.checks.exact import Disc, Rect, Touch
 from grader.checks.mistakes import Models, register
-from grader.judge.explain.misconceptions import Undecided, mistake, truth
+from grader.judge.explain.misconceptions import Kind, Undecided, kinds, mistake
 
 Answer = Touch | str | None  # a str is the name of an exception
 Right = Touch | None
@@ -60,8 +60,8 @@ def describe_place(disc: Disc, rect: Rect) -> dict[str, str]:
 
 PARTS = {"the normal": [0, 1], "the depth": [2], "the point": [3, 4]}
 
-truth("circle_box", find_contact, describe_place, PARTS)
-truth("order", lambda disc, rect: (True, True), describe_place)  # A is the circle, B the box
+kinds["circle_box"] = Kind(find_contact, describe_place, PARTS)
+kinds["order"] = Kind(lambda disc, rect: (True, True), describe_place)  # A is the circle, B the box
 
 
 # ---------------------------------------------------------------- right but in one case

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from grader.checks import exact
 from grader.checks.exact import Lever, Pair, cross, inverse
 from grader.checks.mistakes import Models, register
-from grader.judge.explain.misconceptions import truth
+from grader.judge.explain.misconceptions import Kind, kinds
 
 
 def describe_turning(a: Lever, b: Lever, axis: Pair) -> dict[str, str]:
@@ -30,7 +30,7 @@ def turning_way(lever: Lever, axis: Pair) -> str:
     return f"has a cross product {'above' if turns > 0 else 'below'} 0"
 
 
-truth("effective_mass", exact.effective_mass, describe_turning, {"the sum": [0]})
+kinds["effective_mass"] = Kind(exact.effective_mass, describe_turning, {"the sum": [0]})
 
 
 class Side(NamedTuple):

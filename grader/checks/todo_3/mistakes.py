@@ -10,7 +10,7 @@ from collections.abc import Callable
 from grader.checks import exact
 from grader.checks.exact import Pair, Rod, inverse
 from grader.checks.mistakes import Models, register
-from grader.judge.explain.misconceptions import Undecided, truth
+from grader.judge.explain.misconceptions import Kind, Undecided, kinds
 
 Ends = tuple[Pair, Pair]
 Answer = tuple[Pair, Pair, Pair]  # velocities of A and B, px/s; B as seen from A, px
@@ -46,7 +46,7 @@ def describe_rod(rod: Rod) -> dict[str, str]:
 
 PARTS = {"the velocity of A": [0, 1], "the velocity of B": [2, 3], "the position of B": [4, 5]}
 
-truth("rod", solve_rod, describe_rod, PARTS, apart=True)
+kinds["rod"] = Kind(solve_rod, describe_rod, PARTS, apart=True)
 
 
 Impulse = Callable[[Rod], float]

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from grader.checks import exact
 from grader.checks.exact import Pair, clamp
 from grader.checks.mistakes import Models, register
-from grader.judge.explain.misconceptions import Undecided, truth
+from grader.judge.explain.misconceptions import Kind, Undecided, kinds
 
 Limit = Callable[[Pair, float], float]  # both frictions, jn -> the limit
 Rule = Callable[[float, float, float], float]  # total so far, total wanted, limit -> new total
@@ -26,7 +26,7 @@ def describe_slip(mu: Pair, k: float, closing: float, slip: float) -> dict[str, 
     }
 
 
-truth("friction", exact.friction, describe_slip, {"the friction": []})
+kinds["friction"] = Kind(exact.friction, describe_slip, {"the friction": []})
 
 
 def right_limit(mu: Pair, jn: float) -> float:

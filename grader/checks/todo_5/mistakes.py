@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from grader.checks import exact
 from grader.checks.mistakes import register
-from grader.judge.explain.misconceptions import truth
+from grader.judge.explain.misconceptions import Kind, kinds
 
 Shares = tuple[float, float]
 Model = Callable[[float, float, float, int], Shares]  # both rates, dt, the number of steps
@@ -24,7 +24,9 @@ def describe_rates(linear: float, angular: float, dt: float, steps: int) -> dict
     return words
 
 
-truth("damping", keep_shares, describe_rates, {"the speed": [0], "the spin": [1]}, apart=True)
+kinds["damping"] = Kind(
+    keep_shares, describe_rates, {"the speed": [0], "the spin": [1]}, apart=True
+)
 
 
 def left_out_at_zero(model: Model) -> Model:

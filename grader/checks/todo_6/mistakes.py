@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 
 from grader.checks.mistakes import Models, register
-from grader.judge.explain.misconceptions import Undecided, truth
+from grader.judge.explain.misconceptions import Kind, Undecided, kinds
 from grader.judge.lab import STEP as STEP_SECONDS
 from grader.protocol import MAX_STEP_SIZES, RUNAWAY
 
@@ -86,7 +86,7 @@ def at_most(most: int) -> Callable[[Held], int]:
     return lambda held: min(count_whole_steps(held), most)
 
 
-truth("frames", accumulate())
+kinds["frames"] = Kind(accumulate())
 
 
 # ---------------------------------------------------------------- loops of another kind
@@ -213,7 +213,7 @@ MODELS: Models = (
 )
 register("6 7d", "frames", MODELS)  # of both programs
 
-truth("said", lambda ran: ran)
+kinds["said"] = Kind(lambda ran: ran)
 SAID: Models = (
     ("steps-are-not-counted", lambda ran: 0),
     ("steps-are-counted-down", lambda ran: -ran),

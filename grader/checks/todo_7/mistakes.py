@@ -7,12 +7,12 @@ import math
 
 from grader.checks import exact
 from grader.checks.mistakes import Models, register
-from grader.judge.explain.misconceptions import Model, Undecided, always, are_close, truth
+from grader.judge.explain.misconceptions import Kind, Model, Undecided, always, are_close, kinds
 from grader.judge.lab import STEP, Pair
 
 # ---------------------------------------------------------------- 7a: the gravity, px/s²
 
-truth("gravity", always((0.0, 980.0)))
+kinds["gravity"] = Kind(always((0.0, 980.0)))
 GRAVITIES = {
     "no-gravity": [(0.0, 0.0)],
     "gravity-points-up": [(0.0, -980.0)],
@@ -26,7 +26,7 @@ register("7a", "gravity", ((name, always(g)) for name, some in GRAVITIES.items()
 
 # ---------------------------------------------------------------- 7b: the moment of a ball
 
-truth("moment", lambda radius, mass: exact.disc_moment(mass, radius))
+kinds["moment"] = Kind(lambda radius, mass: exact.disc_moment(mass, radius))
 MOMENTS: Models = (
     ("moment-is-infinite", lambda radius, mass: math.inf),
     ("moment-of-a-ring", lambda radius, mass: mass * radius**2),
@@ -60,7 +60,7 @@ def pin(far_end: Pair, on_bob: Pair = (0.0, 0.0), moves: bool = False) -> Rod:
     return "PinJoint", far_end, (BOB[0] + on_bob[0], BOB[1] + on_bob[1]), moves
 
 
-truth("rods", always([pin(PIVOT)]))
+kinds["rods"] = Kind(always([pin(PIVOT)]))
 JOINTS: dict[str, list[Rod]] = {  # one of them instead of the right one
     "rod-from-the-corner": [pin(CORNER)],
     "bob-anchor-in-screen-coordinates": [pin(PIVOT, BOB), pin(PIVOT, PIVOT), pin(CORNER, BOB)],
@@ -87,7 +87,7 @@ def length_off(off: int) -> Model:
     return model
 
 
-truth("length", length_off(0))
+kinds["length"] = Kind(length_off(0))
 register("7c", "length", [("rod-is-too-short", length_off(-1)), ("rod-is-too-long", length_off(1))])
 register("7c", "rods", [("joint-is-not-in-the-space", always([]))])
 register("7c", "rods", ((name, always([each])) for name, some in JOINTS.items() for each in some))

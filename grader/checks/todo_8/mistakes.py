@@ -8,7 +8,7 @@ from itertools import product
 from grader.checks import exact
 from grader.checks.exact import Accel, State, polynomial
 from grader.checks.mistakes import Models, register
-from grader.judge.explain.misconceptions import mistake, truth
+from grader.judge.explain.misconceptions import Kind, kinds, mistake
 
 SAMPLES = "samples of accel"
 Force = Sequence[float]
@@ -68,7 +68,7 @@ def from_force(step: Step) -> Callable[[float, float, float, Force], State]:
 
 
 for about, right in METHODS.values():
-    truth(about, from_force(right), describe_step, {"x": [0], "v": [1]}, apart=True)
+    kinds[about] = Kind(from_force(right), describe_step, {"x": [0], "v": [1]}, apart=True)
 
 
 def midpoint(x: float, v: float, dt: float, accel: Accel) -> State:
@@ -284,8 +284,7 @@ def weigh_samples(sources: Sources, weights: Sequence[float], speeds: Sources = 
     return model
 
 
-truth(
-    SAMPLES,
+kinds[SAMPLES] = Kind(
     lambda *given: find_places(USUAL)(*take_accel(*given)),
     describe_step,
     {f"the position of k{n + 1}": [n] for n in range(4)},

@@ -25,7 +25,7 @@ from grader.checks.todo_b1.checks import (
     SPINNING,
     STATIC,
 )
-from grader.judge.explain.misconceptions import Undecided, truth
+from grader.judge.explain.misconceptions import Kind, Undecided, kinds
 
 HELD, ANEW = (ON_A_ROD, ON_A_SPRING), (AFTER_A_PUSH, AFTER_THE_AIR)
 HIT, LEFT = (AFTER_A_HIT, AFTER_A_SPIN), (FLOOR_GONE, CARRIED_AWAY, ONE_OF_TWO_GONE)
@@ -33,7 +33,7 @@ AWAKE = (AT_FIRST, STATIC, FLYING, ROLLING, SPINNING, *HELD, *ANEW, *HIT, *LEFT)
 ASLEEP = (AT_REST, LONG_AT_REST, CREEPING, ANOTHER_HIT, IN_TURN, CHEAP)
 RIGHT = dict.fromkeys(AWAKE, False) | dict.fromkeys(ASLEEP, True)
 
-truth("sleep", RIGHT.__getitem__)
+kinds["sleep"] = Kind(RIGHT.__getitem__)
 
 
 def wrong_at(*moments: str, unsure: Collection[str] = ()) -> Callable[[str], bool]:

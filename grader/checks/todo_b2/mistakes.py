@@ -5,11 +5,11 @@ import math
 from grader.checks import exact
 from grader.checks.exact import Pair, Spring
 from grader.checks.mistakes import Models, register
-from grader.judge.explain.misconceptions import Undecided, truth
+from grader.judge.explain.misconceptions import Kind, Undecided, kinds
 
 Ends = tuple[Pair, Pair]  # velocities of A and B, px/s
 
-truth("spring", exact.apply_spring)
+kinds["spring"] = Kind(exact.apply_spring)
 
 
 def pull_ends(spring: Spring, force: float) -> Ends:

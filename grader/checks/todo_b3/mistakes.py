@@ -6,7 +6,7 @@ from itertools import product
 
 from grader.checks.exact import Disc, Rect
 from grader.checks.mistakes import Models, register
-from grader.judge.explain.misconceptions import always, truth
+from grader.judge.explain.misconceptions import Kind, always, kinds
 
 CELL = 48.0  # px; for another size, no mistake is named
 
@@ -15,8 +15,8 @@ Cells = set[tuple[int, int]]
 Pairs = list[tuple[int, int]]
 Model = Callable[[Sequence[Disc], Sequence[Rect], Pairs], Pairs]
 
-truth("contacts", lambda balls, boxes, touching: touching)
-truth("comparison of all", always(False))
+kinds["contacts"] = Kind(lambda balls, boxes, touching: touching)
+kinds["comparison of all"] = Kind(always(False))
 
 
 def grid(cells_of: Callable[[Bounds], Cells]) -> Model:

@@ -6,11 +6,11 @@ new space, after hits in another.
 """
 
 from grader.checks.mistakes import Models, register
-from grader.judge.explain.misconceptions import Undecided, always, truth
+from grader.judge.explain.misconceptions import Kind, Undecided, always, kinds
 
-truth("hits", lambda what, steps: int(what != "leave"))
-truth("others", always([0, 0, 0]))
-truth("afresh", always(0))
+kinds["hits"] = Kind(lambda what, steps: int(what != "leave"))
+kinds["others"] = Kind(always([0, 0, 0]))
+kinds["afresh"] = Kind(always(0))
 
 OTHERS: Models = (
     ("counts-what-balls-hit", always([2, 1, 0])),  # a touch of two balls is one of each

@@ -3,7 +3,7 @@
 from grader.checks import exact
 from grader.checks.exact import Pair, Place
 from grader.checks.mistakes import Models, register
-from grader.judge.explain.misconceptions import truth
+from grader.judge.explain.misconceptions import Kind, kinds
 from grader.judge.lab import STEP
 
 
@@ -13,7 +13,7 @@ def find_place(before: Place, now: Place, share: float) -> Pair:
     return x, y
 
 
-truth("between", find_place)
+kinds["between"] = Kind(find_place)
 
 MODELS: Models = (
     ("share-turned-round", lambda before, now, share: find_place(now, before, share)),

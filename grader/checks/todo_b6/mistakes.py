@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from grader.checks.mistakes import Models, register
 from grader.checks.todo_b6.checks import CLICKS
-from grader.judge.explain.misconceptions import always, truth
+from grader.judge.explain.misconceptions import Kind, always, kinds
 
 HEAVY = 10.0
 
@@ -16,7 +16,7 @@ def heavy_where(held: Callable[[set[str]], bool]) -> Callable[[], list[float]]:
 
 LEFT, RIGHT = "left shift", "right shift"
 
-truth("heaviness", heavy_where(lambda keys: LEFT in keys or RIGHT in keys))
+kinds["heaviness"] = Kind(heavy_where(lambda keys: LEFT in keys or RIGHT in keys))
 
 MODELS: Models = (
     ("always-heavy", heavy_where(lambda keys: True)),

@@ -108,8 +108,8 @@ def want_a_total_that_is_clamped(lab: Lab) -> None:
     """Insist that a pass can reduce the impulse of an earlier one.
 
     A disc falls into a shallow groove between two large ones. Each side that is solved pushes it a
-    little off the other one. With totals clamp the next pass draws it back, and after two passes
-    a sixteenth of its speed is left at the most; with clamp changes it leaves at a quarter.
+    little off the other one. With totals clamped the next pass draws it back, and after two passes
+    a sixteenth of its speed is left at the most; with clamped changes it leaves at a quarter.
     """
     speed = lab.about(20.0, 4.0)
     lab.ran(f"a disc that falls at {speed:g} px/s into a groove between two large ones, one step")
@@ -119,7 +119,7 @@ def want_a_total_that_is_clamped(lab: Lab) -> None:
     after = lab.simulate(lab.world(*sides, disc), [disc], 1).body(0)[0]
     lab.want(
         after.speed < 0.1 * speed,
-        "a disc that comes to rest: the total is clamp, not the change of each pass",
+        "a disc that comes to rest: the total is clamped, not the change of each pass",
         f"it leaves at ({after.vx:.3g}, {after.vy:.3g}) px/s",
     )
 

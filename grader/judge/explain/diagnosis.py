@@ -15,11 +15,10 @@ from grader.judge.explain.misconceptions import (
     Undecided,
     are_close,
     keep_simplest,
+    kinds,
     known_mistakes,
     load_known,
-    part_names,
     predict,
-    separate_questions,
 )
 from grader.judge.explain.narrowing import FEWEST, Narrowing, Question, join, narrow, read_questions
 from grader.judge.lab import Observation
@@ -177,7 +176,7 @@ class Diagnosis:
             clause = where if self.shows_elsewhere(mistake, numbers) else ""
             more = self.find_changes(mistake, numbers) - changed
             part = (
-                join(name for name in part_names[mistake.about] if name in changed) if more else ""
+                join(name for name in kinds[mistake.about].parts if name in changed) if more else ""
             )
             found.append(Finding(mistake, clause, part, changed, shows))
         return found if self.is_complete(found, wrong, covered) else []
@@ -208,7 +207,7 @@ class Diagnosis:
                 are_close(predicted.parts[name], each.parts[name]) for each, predicted in decided
             )
         )
-        may_be_in_a_part = mistake.apart and mistake.about in separate_questions
+        may_be_in_a_part = mistake.apart and kinds[mistake.about].apart
         return matching if matching == changed or may_be_in_a_part else frozenset()
 
     def find_changes(self, mistake: Mistake, numbers: list[int]) -> frozenset[str]:

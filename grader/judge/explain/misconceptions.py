@@ -8,7 +8,7 @@ import importlib
 import math
 from collections.abc import Callable, Collection, Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
@@ -34,22 +34,13 @@ class Mistake:
     apart: bool = True  # it may affect only one part of an answer
 
 
-known_mistakes: list[Mistake] = []
-# By kind of question:
-right_models: dict[str, Model] = {}
-trait_models: dict[str, Model] = {}  # traits that distinguish questions, in words
-part_names: dict[str, Parts] = {}
-separate_questions: set[str] = set()  # a mistake may affect only one part of an answer
+def no_traits(*inputs: Any) -> dict[str, str]:
+    return {}
 
 
-def truth(
-    about: str,
-    model: Model,
-    traits: Model | None = None,
-    parts: Parts | None = None,
-    apart: bool = False,
-) -> None:
-    """Register the right model of a kind of question.
+@dataclass(frozen=True)
+class Kind:
+    """A kind of question.
 
     `traits` describes a question by a dict of clauses, such as {"place": "the centre is inside the
     box"}. Mistakes are searched in questions with the same trait, in this order. A trait that
@@ -57,13 +48,15 @@ def truth(
     positions of their numbers, or all numbers without positions. Parts computed by separate code
     are `apart`: a mistake may affect only one of them.
     """
-    right_models[about] = model
-    if traits is not None:
-        trait_models[about] = traits
-    if parts is not None:
-        part_names[about] = parts
-    if apart:
-        separate_questions.add(about)
+
+    right: Model
+    traits: Model = no_traits
+    parts: Parts = field(default_factory=dict)
+    apart: bool = False
+
+
+known_mistakes: list[Mistake] = []
+kinds: dict[str, Kind] = {}  # by their names
 
 
 def mistake(
@@ -72,8 +65,8 @@ def mistake(
     """Register a mistake by models of its answers; one of them must explain a submission's.
 
     Several TODOs are separated by spaces. If two mistakes explain the same answers, the first one
-    is named. With `apart` False, it is never in one part of an answer alone, even where `truth`
-    allows that.
+    is named. With `apart` False, it is never in one part of an answer alone, even where its
+    kind of question allows that.
     """
     for model in models:
         for todo in todos.split():
@@ -105,9 +98,9 @@ def register_recorded(table: RecordedAnswers, todo: str) -> None:
         if each.todo == todo:
             model = answer_from(each.answers)
             mistake(todo, each.about, each.id, each.meaning, model, apart=each.apart)
-    for about, answers in table.right.items():
-        traits = answer_from(table.traits[about]) if about in table.traits else None
-        truth(about, answer_from(answers), traits, table.parts.get(about), about in table.separate)
+    for about, kind in table.kinds.items():
+        right, traits = answer_from(kind.right), answer_from(kind.traits)
+        kinds[about] = Kind(right, traits, kind.parts, kind.apart)
 
 
 def answer_from(answers: Answers) -> Model:
@@ -144,7 +137,7 @@ def name_mistake(todo: str, observations: Sequence[Observation]) -> Mistake | No
 
 def says_nothing(observations: Sequence[Observation]) -> bool:
     """Return whether all answers with several parts are missing, which fits many mistakes."""
-    answers = [each.answer for each in observations if each.about in part_names]
+    answers = [each.answer for each in observations if kinds[each.about].parts]
     return bool(answers) and all(each is None for each in answers)
 
 
@@ -170,7 +163,7 @@ def explains(mistake: Mistake, observations: Iterable[Observation]) -> bool:
         with suppress(Undecided):
             if not are_close(predict(mistake.model, each.inputs), each.answer):
                 return False
-            right = right_models[mistake.about]
+            right = kinds[mistake.about].right
             is_wrong = is_wrong or not are_close(predict(right, each.inputs), each.answer)
     return is_wrong
 

@@ -14,10 +14,8 @@ from typing import Any
 from grader.judge.explain.misconceptions import (
     Undecided,
     are_close,
-    part_names,
+    kinds,
     predict,
-    right_models,
-    trait_models,
 )
 from grader.judge.lab import Observation
 from grader.judge.recorded import key
@@ -68,7 +66,7 @@ class Question:
         """Return the names of the wrong parts."""
         if are_close(self.answer, self.right):
             return frozenset()
-        names = [] if self.misfit else part_names.get(self.about, {})
+        names = [] if self.misfit else kinds[self.about].parts
         off = [name for name in names if not are_close(self.parts[name], self.right_parts[name])]
         return frozenset(off) or frozenset({WHOLE})
 
@@ -78,13 +76,12 @@ def read_questions(observations: Sequence[Observation]) -> Iterator[Question]:
     found = set()
     for each in observations:
         name = each.about, key(each.inputs)
-        if name in found or each.about not in right_models:
+        if name in found or each.about not in kinds:
             continue
         found.add(name)
-        model = trait_models.get(each.about)
         try:
-            right = predict(right_models[each.about], each.inputs)
-            traits = predict(model, each.inputs) if model else {}
+            right = predict(kinds[each.about].right, each.inputs)
+            traits = predict(kinds[each.about].traits, each.inputs)
         except Undecided:
             continue
         yield Question(each.about, each.inputs, traits, each.answer, right)
@@ -93,7 +90,7 @@ def read_questions(observations: Sequence[Observation]) -> Iterator[Question]:
 def split(about: str, answer: Any) -> dict[str, Any]:
     """Return the parts of an answer; each is the whole answer if that is of another kind."""
     numbers, found = flatten(answer), {WHOLE: answer}
-    for name, places in part_names.get(about, {}).items():
+    for name, places in kinds[about].parts.items():
         has = places and len(numbers) > max(places)
         found[name] = [numbers[place] for place in places] if has else answer
     return found
@@ -178,7 +175,7 @@ def narrow(questions: Sequence[Question], first: Question, parts: frozenset[str]
     if first.misfit:
         return narrow_misfit(same, first)
     answered = [each for each in same if not each.misfit]
-    names = list(part_names.get(first.about, {}))
+    names = list(kinds[first.about].parts)
     wrong = [found for name in names if name in parts and (found := narrow_part(answered, name))]
     fine = [name for name in names if not any(name in each.wrong for each in answered)]
     return Narrowing(tuple(wrong), tuple(fine), first)
