@@ -31,9 +31,9 @@ touch.figure("accumulator", (figure) => {
       figure.rect(x, 214, ((room - 14) * waiting) / (1000 * laws.STEP), 16, "orange");
       figure.text(x, 248, `${waiting.toFixed(1)}`, { color: "grey", size: 12 });
     });
-    const lost = length.value - frames[0].main_todos;
-    const share = (100 * frames[0].main_todos) / length.value;
-    const mean = frames[0].main_todos / (1000 * laws.STEP);
+    const lost = length.value - frames[0].counted;
+    const share = (100 * frames[0].counted) / length.value;
+    const mean = frames[0].counted / (1000 * laws.STEP);
     const steps = `A frame pays for ${mean.toFixed(2)} steps of 8.33 ms on average.`;
     figure.say(
       lost > 0
