@@ -7,7 +7,7 @@ from .body import Body
 from .contact import Contact
 
 ROOM = 0.1  # radii, on each side of a body that can move
-CROWD = 1  # near pairs for each such body; of more, many are not worth their looks
+SWEEP = 3  # looks at near pairs, for each such body: they cost as much as a sweep
 LONGEST = 0.5  # s, that a room covers
 SHUFFLED = 8  # steps, after which the order of the sweep has changed much
 WIDER = 1.1  # times, must bodies be spread along the other axis for the sweep to change to it
@@ -66,6 +66,12 @@ class Bounds:
         self.left, self.right = self.left + min(fall_x, 0.0), self.right + max(fall_x, 0.0)
         self.top, self.bottom = self.top + min(fall_y, 0.0), self.bottom + max(fall_y, 0.0)
 
+    def find_start(self, dt: float) -> None:
+        """Work out where a body was dt seconds ago, that flew straight out of its room."""
+        body = self.body
+        body.last_x = max(self.left, min(body.x - body.vx * dt, self.right))
+        body.last_y = max(self.top, min(body.y - body.vy * dt, self.bottom))
+
     def update_box(self, upright: bool, margin: float) -> None:
         """Work out the box. Low ends are moved out by margin px."""
         hx, hy = self.body.hx, self.body.hy
@@ -91,7 +97,7 @@ class BroadPhase:
 
     Each body has room to move, and pairs are near whose boxes with all their room overlap. So no
     other pair can touch until a body has left its room; only then the sweep is made anew. Rooms are
-    longer the longer the last ones lasted, and shorter where too many pairs are near.
+    longer the longer the last ones lasted, and shorter where too many pairs are near in vain.
 
     The sweep goes along the axis on which the bodies that can move are spread wider. It meets each
     box where it begins; the boxes that began before and have not ended are the only ones it can be
@@ -110,6 +116,7 @@ class BroadPhase:
         self.upright = False  # whether the sweep goes along y
         self.ahead = LONGEST  # s, that rooms cover
         self.age = 0.0  # s, of the rooms
+        self.looks = 0  # at pairs that did not touch, since the last sweep
 
     def take(self, bodies: list[Body]) -> None:
         """Begin anew, with these bodies."""
@@ -145,7 +152,7 @@ class BroadPhase:
         else:
             ahead = min(2 * self.ahead, LONGEST)
         self.is_sorted = self.is_sorted and self.age < SHUFFLED * dt
-        self.ahead, self.age = ahead, 0.0
+        self.ahead, self.age, self.looks = ahead, 0.0, 0
         fall_x, fall_y = g[0] * ahead * ahead / 2, g[1] * ahead * ahead / 2
         for one in self.moving:
             one.make_room(back, ahead)
@@ -153,11 +160,17 @@ class BroadPhase:
             if not (one.body in held or one.body.idle):
                 one.make_room_to_fall(fall_x, fall_y)
         self.pairs = self.sweep(margin)
-        self.is_stale = self.is_crowded() and ahead > dt  # then the next step has smaller rooms
+        self.is_stale = False
+
+    def add_looks(self, count: int, dt: float) -> None:
+        """Count looks at pairs that did not touch. After many, the next step has smaller rooms."""
+        self.looks += count
+        if self.is_crowded() and self.ahead > dt:
+            self.is_stale = True
 
     def is_crowded(self) -> bool:
-        """Return whether too many pairs are near."""
-        return len(self.pairs) > CROWD * len(self.moving)
+        """Return whether looks in vain have cost more than a sweep."""
+        return self.looks > SWEEP * len(self.moving)
 
     def sweep(self, margin: float) -> list[Pair]:
         """Return the pairs whose boxes come within margin px, one of the two able to move."""
@@ -184,7 +197,8 @@ class BroadPhase:
             a, first = one.body, int((side_low - top) * per_px) if side_low > top else 0
             last = int((side_high - top) * per_px) if side_high < bottom else count
             first_lane = one.first_lane = lanes[first]
-            for lane in lanes[first : last + 1]:
+            for index in range(first, min(last + 1, count)):
+                lane = lanes[index]
                 if len(lane) > FEW:
                     lane[:] = [other for other in lane if other.high > low]
                 for other in lane:

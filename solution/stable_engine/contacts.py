@@ -72,7 +72,6 @@ class Contacts(Effect):
         self.broad_phase = BroadPhase()
         self.crowd: dict[Contact, None] = {}  # of balls that are put apart
         self.near: list[Body] = []  # can move, and are near others
-        self.alone: list[Body] = []  # can move, and are near nobody
         self.beside_static: list[Body] = []  # balls that are near static bodies
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
         self.groups: list[Group] = []  # those of them that hold any contact
@@ -94,8 +93,6 @@ class Contacts(Effect):
         self.changed = phase.is_stale or self.any_moved()
         if phase.is_stale:
             self.renew_pairs(dt)
-        for body in self.alone:
-            body.last_x, body.last_y = body.x, body.y
         if self.changed:
             for body in self.near:
                 body.last_x, body.last_y = body.x, body.y
@@ -118,10 +115,7 @@ class Contacts(Effect):
         phase.renew(self.world.g, held, dt, self.last_dt if self.lets_none_pass else 0.0, margin)
         if self.ignored:
             phase.pairs = [p for p in phase.pairs if pair_number(p.a, p.b) not in self.ignored]
-        self.near.clear()
-        self.alone.clear()
-        for one in phase.moving:
-            (self.near if one.near else self.alone).append(one.body)
+        self.near = [one.body for one in phase.moving if one.near]
         self.beside_static = list(dict.fromkeys([p.a for p in phase.pairs if not p.b.inv_mass]))
         for c in self.touching:
             self.unpaired[pair_number(c.a, c.b)] = c
@@ -176,6 +170,7 @@ class Contacts(Effect):
                 statics.append(c)
         self.touching, self.balls.contacts, self.statics.contacts = touching, balls, statics
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
+        self.broad_phase.add_looks(len(self.broad_phase.pairs) - len(touching), dt)
         if self.unpaired:
             self.end_unpaired()
 
@@ -343,8 +338,11 @@ class Contacts(Effect):
             self.part_crowd(h * self.world.substep_count)
         self.begun = []
         self.flown, self.last_dt = {}, h * self.world.substep_count
-        leavers = [one.body for one in self.broad_phase.find_leavers(self.last_dt)]
-        for body in dict.fromkeys([*self.beside_static, *leavers]):
+        for one in self.broad_phase.find_leavers(self.last_dt):
+            if not one.near:
+                one.find_start(self.last_dt)
+            self.stop_core(one.body, h)
+        for body in self.beside_static:
             self.stop_core(body, h)
         for _ in range(CORNER_PASSES if self.statics.contacts else 0):
             put_back = []
