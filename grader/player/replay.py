@@ -19,8 +19,8 @@ from grader.judge.rubric import CHECKS, Rubric
 from grader.judge.wording import list_reasons
 from grader.player.page import make_page
 from grader.player.pairing import pair_runs
-from grader.player.recording import OpenChild, record_again
-from grader.player.runs import Run
+from grader.player.recording import OpenChild, Recorder, record_again
+from grader.player.runs import Replay, Run
 from grader.player.script import write_script
 
 MAX_CHARACTERS, MAX_TOGETHER = 3_000_000, 20_000_000  # of a page and of all pages; usually 30,000
@@ -85,23 +85,32 @@ class Replays:
         self.budget.charge_for_words(lab.connection)
         self.deaths += lab.ended
         recorder = lab.recorder
-        count = len(recorder.scenes)
-        right = self._expected_scenes(failing)[:count]
-        for shown in (recorder.scenes_to_show(), slice(None)):
-            yours = [run for runs in recorder.scenes[shown] for run in runs]
-            if not any(run.lines for run in yours):
-                return None
-            expected = [run for runs in right[shown] for run in runs] if len(right) == count else []
-            steps = [step for steps in recorder.steps[shown] for step in steps]
-            both = pair_runs(yours, expected, exact=self.open_reference is not None)
-            if both.parting or check.kind != "property":
-                break  # a property may fail in an earlier experiment than its last
+        shown, both = self._choose_scenes(recorder, self._expected_scenes(failing))
+        if not any(scene.lines for scene in both.scenes):
+            return None
+        steps = [step for steps in recorder.steps[shown] for step in steps]
         task = f"TODO {todo.id}, {todo.title}" if failing.todo.function else todo.title
         title = f"{task}: {check.title}"
         words = [f"Expected: {check.expected}", f"Got: {check.got}"]
         again = write_script(title, recorder.translator, steps, words)
         made = [make_page(title, list_reasons(check), both, again), again]
         return made if len(made[0]) <= MAX_CHARACTERS else None
+
+    def _choose_scenes(self, recorder: Recorder, right: list[list[Run]]) -> tuple[slice, Replay]:
+        """Return the scenes to show, and both runs of them.
+
+        A check may go on after the scene in which it fails, so the last one may show nothing.
+        """
+        count = len(recorder.scenes)
+        last = recorder.scenes_to_show()
+        for shown in (last, *(slice(n, n + 1) for n in range(count)), slice(None), last):
+            yours = [run for runs in recorder.scenes[shown] for run in runs]
+            known = right[:count] if len(right) >= count else []
+            expected = [run for runs in known[shown] for run in runs]
+            both = pair_runs(yours, expected, exact=self.open_reference is not None)
+            if both.parting:
+                break
+        return shown, both
 
     def _expected_scenes(self, failing: Failing) -> list[list[Run]]:
         """Return the scenes of the right run: of the reference, or recorded before."""

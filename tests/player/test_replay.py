@@ -350,6 +350,17 @@ def test_the_script_shows_the_mistake_in_the_tree_as_it_is(
     assert printed[0] != printed[1]
 
 
+def test_the_scene_of_a_forbidden_change_is_shown(tmp_path: Path):
+    """The check ends two scenes later, where nothing is wrong."""
+    (member,) = [m for m in bank() if (m.name, m.form) == ("1-lifts-the-circle-out", "package")]
+    member.build(KIT, tmp_path / "tree")
+    options = Options(shipped_reference(), only=frozenset({"1"}))
+    grade_with_replays(tmp_path / "tree", options, tmp_path / "pages", shared_worker())
+    shown = read_replay(tmp_path / "pages/1-a_centre_inside_leaves_by_the_nearest_face.html")
+    assert shown["parting"] is not None
+    assert "at (5, -15)" in shown["scenes"][0]["experiment"]
+
+
 def test_a_script_ends_with_the_answer_that_was_judged():
     """A check may set fields of the object after it."""
     asked = Step(Call("mini_engine:circle_box"), ["contact = circle_box(ball, box)"], silent=False)
