@@ -263,7 +263,7 @@ def open_assignment(address: str, known: ClassFolder) -> Any:
         )
     requester = Requester(match["base"], token)
     session = requester._session  # without a timeout of its own
-    session.request = partial(session.request, timeout=PATIENCE)
+    session.request = partial(session.request, timeout=PATIENCE)  # pyright: ignore
     course = Course(requester, {"id": int(match["course"])})
     assignment = ask(lambda: course.get_assignment(int(match["assignment"])))
     total, worth = mark_engine(known.marks, known.course).total, assignment.points_possible

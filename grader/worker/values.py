@@ -103,9 +103,12 @@ def read_state(body: Any) -> list[float]:
 
 def read_ends(joint: Any) -> Ends:
     """Return the two ends of a rod or spring of either engine, px."""
-    if isinstance(joint, pymunk.Constraint):
-        return *joint.a.local_to_world(joint.anchor_a), *joint.b.local_to_world(joint.anchor_b)
-    return *field_pair(field(joint, "a"), "pos"), *field_pair(field(joint, "b"), "pos")
+    if isinstance(joint, pymunk.constraints.Constraint):
+        start = joint.a.local_to_world(joint.anchor_a)
+        end = joint.b.local_to_world(joint.anchor_b)
+    else:
+        start, end = field_pair(field(joint, "a"), "pos"), field_pair(field(joint, "b"), "pos")
+    return start.x, start.y, end.x, end.y
 
 
 def shape_order(shape: pymunk.Shape) -> tuple[float, float]:

@@ -48,6 +48,14 @@ def with_step(right: Step, seconds: float) -> Step:
     return lambda x, v, dt, a: right(x, v, seconds, a)
 
 
+def with_answers_swapped(right: Step) -> Step:
+    def swapped(x: float, v: float, dt: float, a: Accel) -> State:
+        x, v = right(x, v, dt, a)
+        return v, x
+
+    return swapped
+
+
 def list_common(right: Step) -> Iterator[tuple[str, str, Step]]:
     """Yield mistakes that any method may have: a name, a sentence and a model."""
     spring = "The acceleration of the lesson's spring is used for every force: call accel(x)."
@@ -56,7 +64,7 @@ def list_common(right: Step) -> Iterator[tuple[str, str, Step]]:
         words = f"Every step is taken to last 1/{rate} s; it lasts dt."
         yield f"step-of-1-{rate}", words, with_step(right, 1 / rate)
     words = "The pair is the wrong way round: return x first, then v."
-    yield "velocity-returned-first", words, lambda x, v, dt, a: right(x, v, dt, a)[::-1]
+    yield "velocity-returned-first", words, with_answers_swapped(right)
     words = "x is returned unchanged: it must move."
     yield "x-is-not-moved", words, lambda x, v, dt, a: (x, right(x, v, dt, a)[1])
     words = "v is returned unchanged: the acceleration must change it."

@@ -245,6 +245,7 @@ class Worker(Protocol):
 
     def helpers(self, count: int) -> Sequence["Worker"]:
         """Return at most `count` other workers, which open children at the same time."""
+        ...
 
     def open(self, setup: ChildSetup) -> Child: ...
 
