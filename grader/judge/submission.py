@@ -124,6 +124,7 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
 def copy_tree(path: Path, submission: Submission) -> None:
     """Copy plain files within the bounds, the lab's first, without links and hidden files."""
     files = size = 0
+    made = {Path()}  # folders
     for inside in sorted((each.relative_to(path) for each in plain_files(path)), key=weight):
         target = submission.folder / inside
         try:
@@ -133,7 +134,9 @@ def copy_tree(path: Path, submission: Submission) -> None:
                     submission.left_out.append(f"{inside.as_posix()}: too much")
                     continue
                 files, size = files + 1, size + length
-                target.parent.mkdir(parents=True, exist_ok=True)
+                if inside.parent not in made:
+                    target.parent.mkdir(parents=True, exist_ok=True)
+                    made.add(inside.parent)
                 copy_plain(file, target, length)
         except OSError as error:  # such as a path that is too long
             if error.errno in FULL:

@@ -4,8 +4,9 @@ A folder often holds other files too: a copy of the starter, a second try, notes
 follows imports from the program's module to the definition.
 
 A text may be written to cost much time and memory. So one file is parsed at a time, and no tree is
-kept. Sizes of files are limited, each and in sum. A name is looked up once in each module. Names
-that are too long, or have too many aliases, count as unknown.
+kept; outlines of small files are kept for the next grade. Sizes of files are limited, each and in
+sum. A name is looked up once in each module. Names that are too long, or have too many aliases,
+count as unknown.
 """
 
 import ast
@@ -13,6 +14,7 @@ import textwrap
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from heapq import merge
 from pathlib import Path, PurePath
 from typing import TypeVar
@@ -20,6 +22,7 @@ from typing import TypeVar
 from grader.source.flaws import find_misplaced
 from grader.source.regions import parse
 
+MAX_KEPT = 16 * 1024  # characters of a file whose outline is kept
 MAX_READ = 1024 * 1024  # characters of a submission that are parsed, in all
 MAX_CALLED = 200  # names followed from a function
 MAX_HOPS = 50  # from module to module, or from alias to alias; real names need three
@@ -71,15 +74,15 @@ Binding = Function | Class | Alias | Imported
 Try = TypeVar("Try")
 
 
-@dataclass
+@dataclass(frozen=True)
 class Module:
-    """The bindings of a module's names, and the modules that its import loads."""
+    """The outline of a module: the bindings of its names, and its imports."""
 
     empty: bool = True  # without statements, or not Python
     refused: bool = False  # it may not be Python, or have misplaced statements
     names: dict[str, list[tuple[int, Binding]]] = field(default_factory=lambda: defaultdict(list))
     stars: list[tuple[int, Binding]] = field(default_factory=list)
-    imports: dict[str, None] = field(default_factory=dict)
+    imports: list[str] = field(default_factory=list)  # dotted names, of modules or in them
 
     def bindings(self, path: str, first: str) -> Iterator[Binding]:
         """Yield the bindings that may define this dotted name, the latest first."""
@@ -104,7 +107,7 @@ class Program:
         for path in sorted(texts, key=lambda each: each.name != "__init__.py"):
             self.paths.setdefault(name_module(path), path)  # a package hides a file of its name
         self.depth = max((name.count(".") + 1 for name in self.paths), default=0)
-        self.modules: dict[str, Module] = {}
+        self.modules: dict[str, Module] = {}  # that were needed
         self.unread: list[Path] = []
         self.read = 0  # characters that were parsed
         self.found: dict[tuple[str, str], Definition | None] = {}  # by one search
@@ -138,7 +141,7 @@ class Program:
                 name = waiting.pop()
                 if name in self.paths and name not in seen:
                     seen.add(name)
-                    waiting += self._module(name).imports
+                    waiting += self._known(self._module(name).imports)
             self.parts[module] = sorted(seen)
         return self.parts[module]
 
@@ -182,66 +185,26 @@ class Program:
 
     def _module(self, name: str) -> Module:
         if name not in self.modules:
-            self.modules[name] = self._summary(name)
+            self.modules[name] = self._read(name)
         return self.modules[name]
 
-    def _summary(self, name: str) -> Module:
-        text = self.texts[self.paths[name]]
+    def _read(self, name: str) -> Module:
+        path = self.paths[name]
+        text = self.texts[path]
         if self.read + len(text) > MAX_READ:
-            self.unread.append(self.paths[name])
+            self.unread.append(path)
             return Module()
         self.read += len(text)
-        tree = statements(text)
-        module = Module(not tree, not tree or any(find_misplaced(ast.Module(tree, []))))
-        module.imports = dict.fromkeys(self._imports(name, tree))
-        for number, node in enumerate(top_level(tree)):
-            match node:
-                case ast.FunctionDef():
-                    module.names[node.name].append((number, function_at(node)))
-                case ast.ClassDef():
-                    module.names[node.name].append((number, class_at(node)))
-                case ast.Assign(targets=[target], value=value):
-                    left, right = dotted_name(target), dotted_name(value)
-                    if left and right:
-                        module.names[left].append((number, Alias(left, right)))
-                case ast.ImportFrom():
-                    source = self._source(name, node)
-                    for each in node.names:
-                        star = each.name == "*"
-                        bound = module.stars if star else module.names[each.asname or each.name]
-                        bound.append((number, Imported(source, each.name)))
-                case ast.Import():
-                    for each in node.names:
-                        bound = module.names[each.asname or each.name]
-                        bound.append((number, Imported(each.name)))
-        return module
+        package = name.split(".")[: None if path.name == "__init__.py" else -1]
+        outline = keep_outline if len(text) <= MAX_KEPT else make_outline
+        return outline(text, ".".join(package))
 
-    def _imports(self, module: str, tree: list[ast.stmt]) -> Iterator[str]:
-        """Yield the submission's modules that the imports in a file load."""
-        for node in ast.walk(ast.Module(tree, [])):
-            if isinstance(node, ast.Import):
-                for alias in node.names:
-                    yield from self._known(alias.name)
-            elif isinstance(node, ast.ImportFrom):
-                source = self._source(module, node)
-                yield from self._known(source)
-                names = (f"{source}.{each.name}" for each in node.names)
-                yield from (each for each in names if each in self.paths)
-
-    def _known(self, name: str) -> Iterator[str]:
-        """Yield a module and the packages around it, if they are the submission's."""
-        parts = name.split(".", self.depth)[: self.depth]
-        paths = (".".join(parts[: number + 1]) for number in range(len(parts)))
-        return (each for each in paths if each in self.paths)
-
-    def _source(self, module: str, node: ast.ImportFrom) -> str:
-        """Return the module of a `from ... import`."""
-        if not node.level:
-            return node.module or ""
-        package = module.split(".")
-        inside = self.paths[module].name == "__init__.py"
-        package = package[: len(package) - node.level + inside]
-        return ".".join([*package, *filter(None, [node.module])])
+    def _known(self, names: Iterable[str]) -> Iterator[str]:
+        """Yield the submission's modules that these imports load, with the packages around them."""
+        for name in names:
+            parts = name.split(".", self.depth)[: self.depth]
+            paths = (".".join(parts[: number + 1]) for number in range(len(parts)))
+            yield from (each for each in paths if each in self.paths)
 
     # ------------------------------------------------------------ following a name
 
@@ -302,6 +265,58 @@ class Program:
             if self.tried > MAX_TRIED:
                 return
             yield each
+
+
+def make_outline(text: str, package: str) -> Module:
+    """Read a file of a package; the package of a file at the top is empty."""
+    tree = statements(text)
+    refused = not tree or any(find_misplaced(ast.Module(tree, [])))
+    imports = dict.fromkeys(list_imports(package, tree))
+    module = Module(not tree, refused, imports=list(imports))
+    for number, node in enumerate(top_level(tree)):
+        match node:
+            case ast.FunctionDef():
+                module.names[node.name].append((number, function_at(node)))
+            case ast.ClassDef():
+                module.names[node.name].append((number, class_at(node)))
+            case ast.Assign(targets=[target], value=value):
+                left, right = dotted_name(target), dotted_name(value)
+                if left and right:
+                    module.names[left].append((number, Alias(left, right)))
+            case ast.ImportFrom():
+                source = source_module(package, node)
+                for each in node.names:
+                    star = each.name == "*"
+                    bound = module.stars if star else module.names[each.asname or each.name]
+                    bound.append((number, Imported(source, each.name)))
+            case ast.Import():
+                for each in node.names:
+                    bound = module.names[each.asname or each.name]
+                    bound.append((number, Imported(each.name)))
+    return module
+
+
+keep_outline = lru_cache(maxsize=64)(make_outline)
+
+
+def list_imports(package: str, tree: list[ast.stmt]) -> Iterator[str]:
+    """Yield the dotted names of modules that a file may import, and of names in them."""
+    for node in ast.walk(ast.Module(tree, [])):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            source = source_module(package, node)
+            yield source
+            yield from (f"{source}.{each.name}" for each in node.names)
+
+
+def source_module(package: str, node: ast.ImportFrom) -> str:
+    """Return the module of a `from ... import` in a package."""
+    if not node.level:
+        return node.module or ""
+    parts = package.split(".")
+    parts = parts[: len(parts) - node.level + 1]
+    return ".".join(filter(None, [*parts, node.module]))
 
 
 def function_at(node: ast.FunctionDef) -> Function:

@@ -9,6 +9,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import lru_cache
 from io import BytesIO
 from pathlib import Path
 
@@ -52,6 +53,7 @@ class Region:
         return shape_of("\n".join(self.lines))
 
 
+@lru_cache(maxsize=64)  # a function that nobody edits is the same in the next grade
 def shape_of(source: str) -> str:
     """Return a text that does not depend on the layout of a piece of code."""
     text = textwrap.dedent(source)
@@ -144,7 +146,10 @@ def read_source(path: Path) -> str:
 
 def number_lines(text: str) -> str:
     """Return a source text whose lines have the same numbers for Python and `splitlines`."""
-    text = text.translate(NO_END)
+    if any(chr(each) in text for each in NO_END):  # faster than to translate every text
+        text = text.translate(NO_END)
+    if "\f" not in text:
+        return text
     return PAGE_BREAK.sub(lambda found: " " if found["start"] is None else "", text)
 
 
