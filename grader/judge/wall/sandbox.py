@@ -3,7 +3,8 @@
 import os
 import shutil
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -16,6 +17,15 @@ from grader.source.regions import encode
 
 COMPILING_SECONDS = 5  # of processor time, for all files of a submission
 LATER = 10  # s
+
+
+@contextmanager
+def require_child() -> Iterator[None]:
+    """Raise CannotGrade if no child can start."""
+    try:
+        yield
+    except (ChildEnded, OSError) as error:
+        raise CannotGrade(f"{error}. Is the disk full, or the memory?") from error
 
 
 @dataclass
@@ -43,13 +53,10 @@ class Sandbox:
         the cause.
         """
         self._clear()
-        try:
-            if not self.bytecode.exists():
-                self._compile()
+        self.compile()
+        with require_child():
             setup = self._setup(cpu_seconds)
             child = self.worker.open(setup)
-        except (ChildEnded, OSError) as error:
-            raise CannotGrade(f"{error}. Is the disk full, or the memory?") from error
         self.layers = self._layers_around(child)
         # In a mount namespace the child sees a file system of its own: the next may use the folder.
         self.unseen = setup.scratch if "mount-namespace" in self.layers else ""
@@ -96,15 +103,19 @@ class Sandbox:
         """Return the folder of compiled files: compiling takes longer than most checks."""
         return self.work / "bytecode"
 
-    def _compile(self) -> None:
+    def compile(self) -> None:
         """Compile the files in a child that never runs the submission; other children only read.
 
-        The modes forbid writing too, for machines without a layer that confines files.
+        Does nothing if that is done. The modes forbid writing too, for machines without a layer
+        that confines files.
         """
-        self.bytecode.mkdir()
-        self.worker.open(self._setup(COMPILING_SECONDS, compiles=True)).finish()
-        for path in [self.bytecode, *self.bytecode.rglob("*")]:
-            path.chmod(0o555 if path.is_dir() else 0o444)
+        if self.bytecode.exists():
+            return
+        with require_child():
+            self.bytecode.mkdir()
+            self.worker.open(self._setup(COMPILING_SECONDS, compiles=True)).finish()
+            for path in [self.bytecode, *self.bytecode.rglob("*")]:
+                path.chmod(0o555 if path.is_dir() else 0o444)
 
     def _setup(self, cpu_seconds: int, compiles: bool = False) -> ChildSetup:
         return ChildSetup(
