@@ -1,7 +1,6 @@
 """List a class: each submission once with its owner, and work that cannot be graded."""
 
 import pickle
-import unicodedata
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -17,7 +16,7 @@ from grader.intake.lms import Lms
 from grader.intake.names import fold, make_portable
 from grader.intake.packing import pack, read_first_name
 from grader.intake.places import cut_suffix, has_program, is_archive, list_folder
-from grader.intake.roster import CALLED, ClassList, find_student
+from grader.intake.roster import CALLED, KEYS, ClassList, find_student
 from grader.intake.systems import ANY_OTHER
 from grader.judge.wall.outer import Allowance, Exceeded, Failed, Lost, call_each_within, call_within
 from grader.judge.wall.workplace import work_folder
@@ -130,7 +129,9 @@ def list_uploads(paths: list[Path], people: ClassList, intake: Intake) -> Iterat
     """Return submissions by the names of files and folders; note the rest."""
     groups: dict[tuple[str, str], list[Upload]] = {}
     empty: dict[str, Path] = {}
-    systems = sort_systems(paths)
+    # The system whose pattern fits most of these names comes first, so that no student can claim
+    # another's work with a name from another system.
+    systems = sorted(SYSTEMS, key=lambda each: -sum(map(bool, map(each.match, paths))))
     for path in paths:
         upload = None if path.is_symlink() else read_upload(path, people, systems)
         if any(each.is_trial(path) for each in systems):
@@ -169,14 +170,6 @@ def choose_attempt(name: str, uploads: list[Upload], intake: Intake) -> Iterator
         yield Work(name, sources, late, uploads[0].handed_in)
 
 
-def sort_systems(paths: list[Path]) -> list[Lms]:
-    """Return the systems, first the one whose pattern fits most of these names.
-
-    So a student cannot claim another's work with a name from another system.
-    """
-    return sorted(SYSTEMS, key=lambda each: -sum(each.match(path) is not None for path in paths))
-
-
 def read_upload(path: Path, people: ClassList, systems: Iterable[Lms] = SYSTEMS) -> Upload | None:
     """Return the owner of a file or folder; without a system, a folder or archive names it."""
     uploads = (each.read_upload(path, people) for each in systems)
@@ -190,7 +183,7 @@ def read_upload(path: Path, people: ClassList, systems: Iterable[Lms] = SYSTEMS)
 
 def mention_file(path: Path, intake: Intake, people: ClassList) -> None:
     """Refuse a file that is no submission but may be a student's work; note any other."""
-    name = people.find_anywhere(path.stem)
+    name = people.find([*KEYS, "ID", CALLED, "name"], path.stem)
     suffix = path.suffix.lower()
     if path.is_symlink():
         words = f"{path.name} is a link, and links are not followed: put there what it leads to"
@@ -229,7 +222,7 @@ def drop_doubles(found: Iterable[Work], intake: Intake) -> Iterator[Work]:
             intake.notes.append(f"{' and '.join(places)} are the same: the first counts")
             yield group[0]
         else:
-            words = f"handed in more than once, as {' and '.join(tell_apart(places))}: leave one"
+            words = f"handed in more than once, as {' and '.join(places)}: leave one"
             other = ", or rename one where they are two students'" * (len(set(places)) > 1)
             intake.refuse(group[0].name, words + other, *group)
 
@@ -278,12 +271,6 @@ def enter_source(work: Work, path: str) -> str:
     if source is None or not rest:
         return "" if source else path
     return rest if source.is_dir() else f"{read_first_name(source)}/{rest}"
-
-
-def tell_apart(names: list[str]) -> list[str]:
-    """Return names unchanged, or in ASCII if they look the same."""
-    same = len({unicodedata.normalize("NFC", name) for name in names}) < len(set(names))
-    return [ascii(name) for name in names] if same else names
 
 
 def hash_files(each: Work) -> str:

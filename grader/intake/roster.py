@@ -173,10 +173,6 @@ class ClassList:
         found = set().union(*(self._students.get(key, set()) for key in keys))
         return [name for name in self.names if name in found]
 
-    def find_anywhere(self, label: str) -> str | None:
-        """Return the student with this name or identifier."""
-        return self.find([*KEYS, "ID", CALLED, "name"], label)
-
     def find_in_group(self, group: str) -> str:
         """Return the first student of a group, from whom the others get the work."""
         groups = self.groups.items()

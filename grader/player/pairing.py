@@ -53,14 +53,12 @@ def pair_runs(yours: Sequence[Run], expected: Sequence[Run], exact: bool = True)
     runs = [(one, other or Run("")) for one, other in zip_longest(yours, expected[: len(yours)])]
     rows = [list(pair_requests(*pair)) for pair in runs]
     scenes = [make_scene(*pair, each) for pair, each in zip(runs, rows, strict=True)]
-    tolerances = [visible_tolerance, heavier_tolerance]
-    if exact:
-        tolerances.append(rounding_tolerance)
+    fastest = [max(map(find_fastest, pair)) for pair in runs]
     parting = None
-    for tolerance_for in tolerances:
+    for level in range(3 if exact else 2):
         found = (
-            find_difference(number, pair, each, tolerance_for(max(map(find_fastest, pair))))
-            for number, (pair, each) in enumerate(zip(runs, rows, strict=True))
+            find_difference(number, pair, each, list_tolerances(speed)[level])
+            for number, (pair, each, speed) in enumerate(zip(runs, rows, fastest, strict=True))
         )
         parting = parting or next(filter(None, found), None)
     counted = any(line.counts_work for run in yours for line in run.lines)
@@ -107,19 +105,14 @@ def make_scene(yours: Run, expected: Run, rows: Sequence[PairedRequest]) -> Scen
 # ---------------------------------------------------------------- the first difference
 
 
-def visible_tolerance(speed: float) -> Tolerance:
-    """Return the smallest visible difference; `speed` is the highest of both runs, px/s."""
-    return Tolerance(VISIBLE, min(VISIBLE, A_SHARE * speed), math.inf)
+def list_tolerances(speed: float) -> list[Tolerance]:
+    """Return what is visible, the same with other masses, and what rounding does not explain.
 
-
-def heavier_tolerance(speed: float) -> Tolerance:
-    """Return the same, with no tolerance for mass, whose effect is visible only later."""
-    return visible_tolerance(speed)._replace(share=A_SHARE)
-
-
-def rounding_tolerance(speed: float) -> Tolerance:
-    """Return the largest difference that rounding explains."""
-    return Tolerance(ROUNDING, max(ROUNDING * speed, 1e-12), ROUNDING)
+    The effect of another mass is visible only later. `speed` is the highest of both runs, px/s.
+    """
+    visible = Tolerance(VISIBLE, min(VISIBLE, A_SHARE * speed), math.inf)
+    rounding = Tolerance(ROUNDING, max(ROUNDING * speed, 1e-12), ROUNDING)
+    return [visible, visible._replace(share=A_SHARE), rounding]
 
 
 def find_fastest(run: Run) -> float:

@@ -138,7 +138,7 @@ def sort_answers(
             words = f"write {names}" if owners else "there is no sheet of that name"
             notes.append(f"line {each.line}: {each.student!r}: {words}")
         elif not 1 <= number <= len(owners[0].questions):
-            there = describe_numbers(owners[0])
+            there = plural(len(owners[0].questions), "question")
             notes.append(f"line {each.line}: {each.student} has {there}, and no {each.question!r}")
         elif (owners[0].student, number) in found:
             notes.append(f"line {each.line}: {each.student} answered question {number} above")
@@ -154,11 +154,6 @@ def index_names(sheets: Iterable[Sheet]) -> dict[str, list[Sheet]]:
         for name in {fold(each) for each in (sheet.student, sheet.label, sheet.full_name)} - {""}:
             named.setdefault(name, []).append(sheet)
     return named
-
-
-def describe_numbers(sheet: Sheet) -> str:
-    count = len(sheet.questions)
-    return f"questions 1 to {count}" if count > 1 else plural(count, "question")
 
 
 def mark_question(student: str, number: int, question: Question, given: GivenAnswer | None) -> Mark:

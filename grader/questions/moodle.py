@@ -24,14 +24,10 @@ def write_moodle(sheets: Iterable[Sheet], title: str) -> bytes:
         mark_up=mark_up,
         number_of=digits,
         name_file=name_file,
-        encode=encode_picture,
+        encode=lambda picture: base64.b64encode(picture.svg.encode()).decode(),
     )
     return text.encode() + b"\n"
 
 
 def name_file(picture: Picture) -> str:
     return "".join(c if c.isalnum() else "-" for c in picture.name) + ".svg"
-
-
-def encode_picture(picture: Picture) -> str:
-    return base64.b64encode(picture.svg.encode()).decode()

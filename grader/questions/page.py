@@ -16,12 +16,9 @@ PageKind = Literal["sheet", "key", "practice"]
 
 def make_page(sheet: Sheet, title: str, kind: PageKind) -> str:
     """Return one self-contained page."""
-    return fill_page("sheet.html", sheet=sheet, title=title, kind=kind)
-
-
-def fill_page(template: str, **values: Any) -> str:
     helpers: dict[str, Any] = {"kinds": KINDS, "mark_up": mark_up, "number_of": digits}
-    return fill_template(TEMPLATES / template, "sheet.css", **helpers, **values)
+    page = TEMPLATES / "sheet.html"
+    return fill_template(page, "sheet.css", sheet=sheet, title=title, kind=kind, **helpers)
 
 
 def mark_up(text: str, tag: str = "p") -> Markup:

@@ -106,10 +106,12 @@ def build(
     built.mkdir(parents=True)
     write_copy(copy, wrong, course, record)
     write_right_runs(copy, course, record)
-    lay_out(tree, course)
-    extra = [work / each / NAME for each in EXTRA]
-    lay_out_engines(extra[0], course)
-    lay_out_ci(extra[1], course)
+    folders = {"lab": tree} | {each: work / each / NAME for each in EXTRA}
+    for each, files in sort_files(course).items():
+        write_tree(files, folders[each])
+    write_pages(KIT / "handouts", tree / "handouts", course)
+    write_measured_pages(KIT / "handouts", folders["engines"] / "handouts", course)
+    extra = [folders[each] for each in EXTRA]
     lock = strip_build_packages((KIT / "requirements.txt").read_text(encoding="utf-8"))
     content = hash_folders([copy, tree, *extra], lock)
     version = f"{__version__}+r{content[:8]}"  # pip replaces the last one by it
@@ -147,39 +149,25 @@ def prove_built(
 
 def write_right_runs(copy: Path, course: Course, record: Record) -> None:
     """Write the reference's runs into a copy of the grader, for its replays."""
+
+    def make() -> bytes:
+        with open_tree(KIT / "solution") as open_child:
+            return record_expected(open_child, course.rubric)
+
     runs = copy / "grader" / "checks" / "expected_runs.json"
-    runs.write_bytes(record("runs", lambda: record_right_runs(course)))
+    runs.write_bytes(record("runs", make))
 
 
-def record_right_runs(course: Course) -> bytes:
-    with open_tree(KIT / "solution") as open_child:
-        return record_expected(open_child, course.rubric)
-
-
-def lay_out(tree: Path, course: Course) -> None:
-    """Write the student's folder without wheel, requirements and manifest."""
-    files = make_students_tree(KIT, course)
-    left = {"requirements.txt", *FOR_CI, *filter(is_laid_in, files)}
-    write_tree({name: files[name] for name in files.keys() - left}, tree)
+def sort_files(course: Course) -> dict[str, dict[str, bytes]]:
+    """Return what students get, by archive, without pages, wheel and requirements."""
     notebooks = make_notebooks(KIT / "starter" / "notebooks", course)
-    shown = {name: notebooks[name] for name in notebooks.keys() - {ENGINE, MEASURING}}
-    write_tree(shown, tree / "notebooks")
-    write_pages(KIT / "handouts", tree / "handouts", course)
-
-
-def lay_out_engines(tree: Path, course: Course) -> None:
-    """Write the complete engine, and the programs and pages that measure engines."""
-    files = make_students_tree(KIT, course)
-    write_tree({name: files[name] for name in files if is_laid_in(name)}, tree)
-    notebooks = make_notebooks(KIT / "starter" / "notebooks", course)
-    write_tree({n: notebooks[n] for n in notebooks if n == MEASURING}, tree / "notebooks")
-    write_measured_pages(KIT / "handouts", tree / "handouts", course)
-
-
-def lay_out_ci(tree: Path, course: Course) -> None:
-    """Write the files for a course whose students push their work to GitHub or GitLab."""
-    files = make_students_tree(KIT, course)
-    write_tree({name: files[name] for name in FOR_CI}, tree)
+    files = make_students_tree(KIT, course) | {f"notebooks/{n}": notebooks[n] for n in notebooks}
+    found: dict[str, dict[str, bytes]] = {"lab": {}, "engines": {}, "ci": {}}
+    for name in files.keys() - {"requirements.txt", f"notebooks/{ENGINE}"}:
+        measures = is_laid_in(name) or name == f"notebooks/{MEASURING}"
+        archive = "ci" if name in FOR_CI else "engines" if measures else "lab"
+        found[archive][name] = files[name]
+    return found
 
 
 def strip_build_packages(lock: str) -> str:

@@ -13,10 +13,9 @@ BLOCK = re.compile(r"^```math\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 def typeset(text: str) -> str:
     """Return the text of a handout with its formulas as MathML, each in a block of its own."""
-    return BLOCK.sub(lambda found: make_html(found[1]), text)
 
+    def make_html(found: re.Match[str]) -> str:
+        formula = convert(" ".join(found[1].split()), display="block")
+        return f'<div class="formula" tabindex="0">{formula}</div>'
 
-def make_html(latex: str) -> str:
-    """Return one formula as HTML."""
-    formula = convert(" ".join(latex.split()), display="block")
-    return f'<div class="formula" tabindex="0">{formula}</div>'
+    return BLOCK.sub(make_html, text)

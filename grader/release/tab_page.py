@@ -12,7 +12,7 @@ import sys
 import tempfile
 import tomllib
 import zipfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 import jinja2
@@ -147,9 +147,15 @@ def build_tab(
     copy, built = work / "copy", work / "built"
     site = built / f"{NAME}-tab"
     site.mkdir(parents=True)
-    write_copy(copy, wrong, course, leave_out_practice(record))
+
+    def skip_practice(name: str, make: Callable[[], bytes]) -> bytes:
+        return b"{}" if name == "practice" else record(name, make)
+
+    write_copy(copy, wrong, course, skip_practice)
     write_right_runs(copy, course, record)
-    files = {n: each for n, each in make_students_tree(KIT, course).items() if is_on_page(n)}
+    files = {
+        n: each for n, each in make_students_tree(KIT, course).items() if not n.startswith(NOT_RUN)
+    }
     sources = work / "sources"
     sources.mkdir()
     write_lab(sources / "lab.zip", copy, files, cache, cffi)
@@ -173,15 +179,6 @@ def build_tab(
     look_for_own_leaks(site, secrets)
     write_zip(site, built / ZIP, site.name)
     return built
-
-
-def leave_out_practice(record: Record) -> Record:
-    """Return a recorder that skips the practice file, which the page does not use."""
-    return lambda name, make: b"{}" if name == "practice" else record(name, make)
-
-
-def is_on_page(name: str) -> bool:
-    return not name.startswith(NOT_RUN)
 
 
 def look_for_own_leaks(folder: Path, secrets: list[Secret]) -> None:

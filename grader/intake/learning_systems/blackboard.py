@@ -53,7 +53,7 @@ class Blackboard(Lms):
         if match is None:
             return None
         user, full = read_receipt(path.with_name(f"{match['attempt']}.txt"))
-        user = user or find_listed_user(match, people) or match["user"]
+        user = user or match["user"]
         name = people.find(["Username"], user)
         name = name or people.find(["SIS Login ID", "Email address", "ID number"], user)
         if not name and full and not people.has_column("Username"):
@@ -79,16 +79,6 @@ class Blackboard(Lms):
         own = [name for name in COLUMNS if name in roster.columns]
         title = find_title(roster, f"{marks.title} [", marks.title)
         return [[*own, title], *([*pick(each.row, own), each.mark] for each in marks.rows)]
-
-
-def find_listed_user(match: re.Match[str], people: ClassList) -> str:
-    """Return the user of the class list with the longest name at the end of the file's.
-
-    `Lab_1_kl_6` is user `kl_6` of `Lab_1`, or `6` of `Lab_1_kl`.
-    """
-    parts = f"{match['assignment']}_{match['user']}".split("_")
-    ends = ("_".join(parts[at:]) for at in range(1, len(parts)))
-    return next((end for end in ends if people.find(["Username"], end)), "")
 
 
 def read_receipt(path: Path) -> tuple[str, str]:
