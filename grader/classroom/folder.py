@@ -242,7 +242,9 @@ def remember_class(folder: Path, named: dict[str, object], other_course: bool) -
 def find_usual_files(folder: Path) -> dict[str, object]:
     """Return the settings of a new class: existing files with the usual names, and a seed."""
     usual = {"course": "course.toml", "roster": "roster.csv"}
-    there: dict[str, object] = {name: file for name, file in usual.items() if (folder / file).is_file()}
+    there: dict[str, object] = {
+        name: file for name, file in usual.items() if (folder / file).is_file()
+    }
     if (folder / "gradebook.db").is_file():
         there["nbgrader"] = "."
     settings = Settings()
