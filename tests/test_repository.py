@@ -73,7 +73,7 @@ def test_every_dependency_has_a_reason():
     assert {re.split("[<>=]", each)[0] for each in wanted} <= named
 
 
-def test_the_readme_counts_the_known_mistakes_and_the_bank():
+def test_the_readme_counts_known_mistakes_and_the_bank():
     readme = (KIT / "README.md").read_text(encoding="utf-8")
     sentences = tomllib.loads((KIT / "grader/checks/mistakes.toml").read_text("utf-8"))
     (mistakes,) = re.findall(r"more than (\d+) known mistakes", readme)

@@ -43,7 +43,7 @@ def test_no_table_has_a_formula(table: list[list[str]]):
         assert not any(formulas(text, parted) for parted in (",", ";", "\t", "|"))
 
 
-def test_every_sign_that_a_spreadsheet_takes_for_another_is_known():
+def test_all_signs_that_begin_a_formula_are_listed():
     letters = map(chr, range(sys.maxunicode + 1))
     found = {c for c in letters if unicodedata.normalize("NFKC", c)[:1] in ("=", "+", "-", "@")}
     assert found == set(SIGNS)

@@ -113,7 +113,7 @@ def test_a_program_older_than_the_bonus_tasks_has_not_started_them(tmp_path: Pat
     assert {todo.state for todo in result.todos} == {"not started"}
 
 
-def test_only_what_was_asked_decides_whether_a_result_is_complete(with_bonus: Result):
+def test_only_graded_todos_decide_whether_a_result_is_complete(with_bonus: Result):
     first, second = ([t for t in with_bonus.todos if t.id == name] for name in ("B1", "B2"))
     assert with_bonus.has_full_marks
     assert not msgspec.structs.replace(with_bonus, todos=first).has_full_marks
@@ -138,7 +138,7 @@ def test_the_terminal_shows_the_bonus_apart(without_bonus: Result, with_bonus: R
     assert "Next" not in text and max(map(len, text.splitlines())) <= 80
 
 
-def test_a_student_who_asks_for_a_bonus_task_is_led_on(with_bonus: Result):
+def test_a_check_of_bonus_tasks_names_the_next_one(with_bonus: Result):
     only = [todo for todo in with_bonus.todos if todo.id in ("B1", "B3")]
     text = print_result(
         msgspec.structs.replace(with_bonus, points=0, max_points=0, bonus=1, todos=only)

@@ -126,7 +126,7 @@ def test_waiting_says_for_what(hand_in):
 # ---------------------------------------------------------------- errors
 
 
-def test_an_exception_is_told_once_with_the_students_line(hand_in):
+def test_an_exception_is_shown_once_with_the_students_line(hand_in):
     tree = hand_in("starter")
     fill_in(tree, WORLD, _5="        keep_vel = keep_omega = math.exq(-dt)")
     out = check(tree, "5")
@@ -136,7 +136,7 @@ def test_an_exception_is_told_once_with_the_students_line(hand_in):
     assert "Traceback" not in out and "grader/" not in out
 
 
-def test_a_file_that_is_no_python_is_told_once_and_costs_its_own_todo(hand_in):
+def test_a_syntax_error_is_shown_once_and_costs_its_own_todo(hand_in):
     tree = hand_in("solution", mini_engine__joints_py="def broken(:\n")
     out = check(tree, "3", "8a")
     assert out.count("SyntaxError") == 1 and len(out.splitlines()) <= 20

@@ -52,7 +52,7 @@ def find_fault(lines: dict[str, Any], evidence: list[Any]) -> str:
 
 
 @pytest.mark.parametrize(("page", "says"), EACH)
-def test_a_claim_stands_in_its_handout_and_its_lines_say_so(page: str, says: str) -> None:
+def test_a_claim_is_in_its_handout_and_its_lines_support_it(page: str, says: str) -> None:
     assert in_one_line(says) in in_one_line((HANDOUTS / page).read_text(encoding="utf-8"))
     evidence = CLAIMS[page][says]
     assert evidence

@@ -46,7 +46,7 @@ def test_each_is_the_same_bit_for_bit_when_it_is_made_again(tmp_path: Path) -> N
     assert made == {path.name: path.read_bytes() for path in FILMS.iterdir()}
 
 
-def test_a_prediction_stands_before_the_task_and_says_what_its_films_show() -> None:
+def test_a_prediction_comes_before_the_task_and_describes_its_films() -> None:
     todos = [todo.id for todo in load_rubric().main_todos if todo.function]
     assert list(PREDICTIONS) == [todo for todo in todos if todo in PREDICTIONS]
     assert SHEET.count("**Predict.**") == len(PREDICTIONS)
@@ -74,7 +74,7 @@ def last_places(scene: dict[str, Any]) -> list[list[float]]:
 
 
 @pytest.mark.parametrize("todo", PREDICTIONS)
-def test_the_three_films_can_be_told_apart(todo: str) -> None:
+def test_the_three_films_differ(todo: str) -> None:
     """Each pair differs by ten px or half a turn at least once."""
     data = film(f"predict-{todo}")
     assert data["right"] == "ABC".index(PREDICTIONS[todo]["right"]) and len(data["films"]) == 3

@@ -158,7 +158,7 @@ def test_no_more_than_one_process_of_a_submission_is_open(tmp_path: Path, monkey
 LONG = "0;" * (MAX_SOURCE // 2)
 
 
-def test_what_is_longer_than_a_program_is_not_parsed():
+def test_a_text_longer_than_a_program_is_not_parsed():
     assert parse(LONG) is not None
     assert parse(LONG + "0") is None
     assert shape_of("0;" * MAX_SHAPE) == ("0;" * MAX_SHAPE)
@@ -194,7 +194,7 @@ CIRCLES = {
     "name",
     [pytest.param(each, marks=() if n % 3 else pytest.mark.soak) for n, each in enumerate(CIRCLES)],
 )
-def test_a_name_that_leads_far_is_not_followed_for_ever(name: str):
+def test_following_a_name_is_limited(name: str):
     """Each of these once took hours or gigabytes, or ended the judge."""
     program = program_of(**CIRCLES[name])
     for path in ("f", "World.f", "A.f"):

@@ -115,7 +115,7 @@ def start_loop(code: str) -> "subprocess.Popen[str]":
     return process
 
 
-def test_time_in_which_the_judge_itself_waits_for_a_processor_is_nobodys_rest(
+def test_time_in_which_the_judge_queues_is_not_rest_of_the_child(
     monkeypatch: pytest.MonkeyPatch,
 ):
     """On a busy machine, an answer waits until the judge runs again."""
@@ -173,7 +173,7 @@ SLOW = """
 
 @pytest.mark.soak
 @LINUX
-def test_who_rests_only_in_pictures_rests_a_few_times(tmp_path: Path):
+def test_rest_in_replays_is_limited(tmp_path: Path):
     """The marks are final by then, so pictures are charged to no TODO."""
     text = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
     for todo in ("8a", "8b", "8c"):

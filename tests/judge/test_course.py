@@ -79,9 +79,7 @@ def test_the_shipped_course_and_an_empty_file_are_all_there_is(tmp_path: Path):
         ("2027-05-04T18:00:00+02:00", "2027-05-04T18:00:00+02:00"),
     ],
 )
-def test_a_date_without_a_zone_is_over_where_it_is_over_last(
-    tmp_path: Path, written: str, due: str
-):
+def test_a_date_without_a_zone_ends_with_the_last_time_zone(tmp_path: Path, written: str, due: str):
     (tmp_path / "course.toml").write_text(f"due = {written}\n")
     assert read_course(tmp_path / "course.toml").due == datetime.fromisoformat(due)
 
@@ -96,7 +94,7 @@ def test_points_are_spread_in_whole_numbers(weights: list[int], points: int):
     assert spread_points(7, [9, 1, 1]) == [5, 1, 1]  # by the largest remainder, and none is 0
 
 
-def test_todos_stand_in_the_order_of_the_rubric_and_points_add_up():
+def test_todos_have_the_order_of_the_rubric_and_points_add_up():
     course = Course(todos=("8c", "1", "B2", "4"), points={"1": 20, "8c": 1})
     assert [(todo.id, todo.max_points) for todo in course.rubric.todos] == [
         ("1", 20),
@@ -161,7 +159,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("text", WRONG)
-def test_what_is_wrong_is_said_in_one_sentence_that_names_the_file(text: str, tmp_path: Path):
+def test_a_mistake_in_a_course_is_one_sentence_with_the_file(text: str, tmp_path: Path):
     path = tmp_path / "mine.toml"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(WrongCourse) as wrong:
@@ -271,7 +269,7 @@ def test_a_bonus_by_hand_counts_as_the_course_counts_a_bonus(tmp_path: Path):
     assert finals == [(30, 6), (30, 6), (35, 6), (36, 6)]
 
 
-def test_points_by_hand_are_the_mark_whatever_the_bonus_and_nobody_has_one_by_it(tmp_path: Path):
+def test_points_by_hand_replace_points_and_bonus(tmp_path: Path):
     path = tmp_path / "adjustments.toml"
     path.write_text("[[adjust]]\nstudent = 'ann'\nreason = 'seen'\npoints = 101\n")
     with pytest.raises(Stop, match="more than the 100"):
@@ -308,14 +306,14 @@ def test_gradescope_has_the_courses_score():
     assert json.loads(write_gradescope(result))["score"] == 47
 
 
-def test_what_a_course_asks_decides_what_is_graded_again_and_its_title_does_not():
+def test_todos_decide_what_is_graded_again_and_the_title_does_not():
     options = Options(course=COURSES[CHEAP])
     assert make_key(options) != make_key(Options())
     named = replace(options, course=Course("x", COURSES[CHEAP].todos, COURSES[CHEAP].points))
     assert make_key(named) == make_key(options)
 
 
-def test_why_a_hidden_check_failed_is_shown_from_the_courses_day_on():
+def test_reasons_of_hidden_checks_are_shown_from_the_courses_day_on():
     day = datetime(2027, 5, 11, tzinfo=UTC)
     course = Course(visible=day)
     todo = course.rubric.todos[0]
@@ -342,7 +340,7 @@ def test_why_a_hidden_check_failed_is_shown_from_the_courses_day_on():
 
 
 @pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
-def test_what_is_left_out_comes_done_with_a_line_that_says_so(course: Course):
+def test_todos_that_are_left_out_come_solved_with_a_line_that_says_so(course: Course):
     files = make_students_tree(KIT, course)
     texts = {name: files[name].decode() for name in files if name.endswith(".py")}
     left = {region.id for text in texts.values() for region in regions_in(text)}
@@ -395,7 +393,7 @@ def test_the_lab_sheet_has_the_courses_todos_and_points(course: Course):
     assert re.findall(r"^## TODO (\w+):", sheet, re.M) == [todo.id for todo in tasks]
 
 
-def test_students_are_told_until_when_and_what_to_hand_in():
+def test_the_lab_sheet_says_when_and_what_to_hand_in():
     course = Course(todos=("8a", "1"), due=datetime(2027, 5, 4, 23, 59, tzinfo=UTC))
     sheet = make_handouts(KIT / "handouts", course)["lab-sheet.md"]
     assert "**Hand in until 4 May 2027 23:59 (UTC).**" in sheet

@@ -49,7 +49,7 @@ def examples_of_all(folder: Path, *modules: str) -> tuple[list[str], list[str]]:
 
 
 @pytest.mark.soak
-def test_what_else_is_loaded_changes_no_example(tmp_path: Path):
+def test_loaded_modules_change_no_example(tmp_path: Path):
     """Large integers show that hypothesis takes numbers from this module."""
     numbers = ", ".join(f"{n}, {n / 8}" for n in range(100, 600))
     (tmp_path / "full_of_numbers.py").write_text(f"NUMBERS = [{numbers}]\n")
@@ -108,7 +108,7 @@ def test_a_failing_property_ends_with_the_simplest_example():
     assert found[-1] == 150
 
 
-def test_examples_can_be_asked_again():
+def test_examples_can_be_repeated():
     function = make_property()
     inner = function.hypothesis.inner_test
     with kept_examples(function, 1) as examples:

@@ -97,7 +97,7 @@ def test_the_portable_worker_gives_the_same_json(solution_graded: Graded, todos:
         pytest.param(("1-inside-normalises-zero", "3-only-pulls"), marks=SOAK),
     ],
 )
-def test_who_was_graded_before_changes_nothing(tmp_path: Path, chosen: tuple[str, ...]):
+def test_earlier_grades_change_nothing(tmp_path: Path, chosen: tuple[str, ...]):
     """A property asks what others have passed, without drawing it anew."""
     members = [each for each in bank() if each.name in chosen and each.form == "package"]
     assert len(members) == len(chosen)

@@ -22,7 +22,7 @@ from grader.classroom.comments import Comment, place_comment
 from grader.classroom.similarity import hash_runs
 from grader.cli.hand_in import has_no_answer
 from grader.intake import names
-from grader.intake.archives import BadName, Bounds, check_name, unzip
+from grader.intake.archives import Bounds, check_name, unzip
 from grader.intake.dates import read_moment
 from grader.intake.found import CannotTake
 from grader.intake.learning_systems import SYSTEMS
@@ -133,7 +133,7 @@ def read_entry_name(name: str) -> None:
     """Read a name in an archive, which may be longer, in every way."""
     for work in (names.make_portable, names.fold, names.strip_zeros, names.split_login):
         work(name)
-    with suppress(CannotTake, BadName):
+    with suppress(CannotTake):
         check_name(name)
     rank_file(PurePosixPath(name))
     strip_additions(name)

@@ -54,7 +54,7 @@ def start_grade(place: Path, *arguments: str) -> "subprocess.Popen[str]":
 @pytest.mark.parametrize(
     "name", ["SIGTERM", pytest.param("SIGHUP", marks=soak), pytest.param("SIGINT", marks=soak)]
 )
-def test_told_to_end_it_says_so_and_leaves_nothing(tmp_path: Path, name: str):
+def test_a_stopped_grade_says_so_and_leaves_nothing(tmp_path: Path, name: str):
     process = start_grade(tmp_path / "place")
     process.send_signal(getattr(signal, name))
     _, said = process.communicate(timeout=600)
@@ -64,7 +64,7 @@ def test_told_to_end_it_says_so_and_leaves_nothing(tmp_path: Path, name: str):
 
 @soak
 @posix
-def test_a_class_that_is_told_to_end_leaves_nothing_either(tmp_path: Path):
+def test_a_stopped_class_leaves_nothing(tmp_path: Path):
     for name in ("ann", "ben"):
         (tmp_path / "class" / name).mkdir(parents=True)
         program = (KIT / "solution" / "integrators.py").read_bytes()
@@ -86,7 +86,7 @@ def wait_until_empty(folder: Path) -> bool:
 
 @posix
 @pytest.mark.parametrize("killed", [False, pytest.param(True, marks=soak)])
-def test_what_a_killed_grade_left_goes_with_the_next(tmp_path: Path, killed: bool):
+def test_the_next_grade_removes_what_a_killed_one_left(tmp_path: Path, killed: bool):
     place = tmp_path / "place"
     if killed:
         process = start_grade(place)
@@ -113,7 +113,7 @@ def test_what_a_killed_grade_left_goes_with_the_next(tmp_path: Path, killed: boo
 
 
 @posix
-def test_a_folder_that_is_in_use_is_nobodys_leftover():
+def test_a_folder_in_use_is_locked_and_then_removed():
     with work_folder() as work:
         assert lock_folder(work) is None
     assert not work.exists()

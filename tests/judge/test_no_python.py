@@ -58,7 +58,7 @@ def programs(tmp_path: Path) -> Callable[[], Path]:
 
 
 @pytest.mark.parametrize("sign", list("\f\v\x1c\x1d\x1e\x85\u2028\u2029"))
-def test_a_sign_that_ends_a_line_for_others_than_python_changes_nothing(sign: str, tmp_path: Path):
+def test_only_python_line_ends_count(sign: str, tmp_path: Path):
     starter = (KIT / "starter" / "integrators.py").read_text(encoding="utf-8")
     right = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
     notes = f"# one{sign} two{sign} three\nNOTES = 'four{sign} five'\n"
@@ -78,7 +78,7 @@ def test_a_page_break_ends_the_indent_before_it():
     assert number_lines(text) == "\ndef f():\n    x = 1 \n    return x\n"
 
 
-def test_of_a_name_that_python_quotes_no_more_is_said_than_a_person_reads():
+def test_a_long_name_in_an_error_is_cut():
     flaw = find_bad_bytes(b"# coding: " + b"a" * 100_000 + b"\n")
     assert flaw is not None and "unknown encoding" in flaw.message and len(flaw.message) < 400
 
@@ -106,12 +106,12 @@ FLAWS = [  # a few for the quick run, then the others
     ("edit", "todos", "outside"),
     [*FLAWS[:4], *(pytest.param(*each, marks=pytest.mark.soak) for each in FLAWS[4:])],
 )
-def test_what_is_no_python_is_found_where_it_is(programs, tmp_path, edit, todos, outside):
+def test_a_syntax_error_is_found_where_it_is(programs, tmp_path, edit, todos, outside):
     tree = edit_file(programs(), *edit)
     assert list_refused(tree, tmp_path / "copy") == (todos, {"mini_engine"} if outside else set())
 
 
-def test_two_broken_todos_and_a_broken_line_cost_what_they_are(programs, tmp_path: Path):
+def test_two_broken_todos_and_a_broken_line_are_found(programs, tmp_path: Path):
     tree = edit_file(programs(), SOLVER, IN_2, "total += cross(ra, axis ** 2")
     edit_file(tree, SOLVER, "limit = friction_limit(c)", "limit = friction_limit(c")
     edit_file(tree, SOLVER, "c.jn = total", "c.jn = (total")
@@ -123,7 +123,7 @@ def test_two_broken_todos_and_a_broken_line_cost_what_they_are(programs, tmp_pat
 
 
 @pytest.mark.parametrize(("inside", "todos"), [(True, {"1"}), (False, set())])
-def test_bytes_that_are_no_text_cost_where_they_stand(programs, tmp_path, inside, todos):
+def test_bytes_that_are_no_text_are_found_where_they_are(programs, tmp_path, inside, todos):
     path = programs() / CONTACTS
     data = path.read_bytes()
     at = data.index(b"\n", data.index(b"# TODO 1:")) + 1 if inside else 0
@@ -143,7 +143,7 @@ def test_an_encoding_that_is_declared_is_no_flaw(programs, tmp_path: Path):
 
 @pytest.mark.soak
 @pytest.mark.parametrize("single", [False, True], ids=["package", "single file"])
-def test_a_missing_sign_costs_the_place_it_is_missing_from(programs, tmp_path: Path, single: bool):
+def test_a_missing_sign_is_found_where_it_is_missing(programs, tmp_path: Path, single: bool):
     """The signs are drawn at random from all files, since there are too many."""
     tree = programs()
     if single:
@@ -195,7 +195,7 @@ def test_a_todo_without_markers_is_found_by_its_function(programs, tmp_path: Pat
         ("t'{x}'", "3.14"),
     ],
 )
-def test_syntax_of_a_newer_python_is_said_to_be_so(line: str, version: str):
+def test_syntax_of_a_newer_python_is_named(line: str, version: str):
     flaw = find_flaw(line)
     if flaw is None:
         pytest.skip("the Python that runs the tests has it")
@@ -203,7 +203,7 @@ def test_syntax_of_a_newer_python_is_said_to_be_so(line: str, version: str):
     assert "needs Python" not in find_flaw("x = ('t' 'f'").advice
 
 
-def test_a_file_made_to_be_read_for_long_is_given_up():
+def test_repair_of_a_file_is_limited():
     text = "".join(f"def f{n}(:\n    x\n" for n in range(6000))
     repairer = Repairer(HandedOut({}, {}, {}))
     assert repairer.repair(find_flaw(text).in_file("mini_engine.py"), text) is None
@@ -243,7 +243,7 @@ def test_code_outside_of_all_todos_costs_the_whole_alone(hand_in):
     assert all(check.where and check.meaning for check in whole.failed)
 
 
-def test_the_function_of_every_todo_can_stand_in():
+def test_every_todo_has_a_stub():
     """Two programs may each have a function of the same name, such as advance."""
     todos = {todo.id for todo in load_rubric().todos if todo.function}
     assert {f"def {todo}" for todo in todos} <= load_stubs().keys()

@@ -103,7 +103,7 @@ def test_a_submission_that_takes_too_long_to_read_cannot_be_taken(tmp_path: Path
         packing.pack(Work("ann", (tmp_path,)))
 
 
-def test_what_ended_counts_with_what_waited_for_it():
+def test_time_of_ended_children_counts():
     def work() -> float:
         child = os.fork()
         if not child:

@@ -59,7 +59,7 @@ def bonus_of(result: Result) -> int:
 
 
 @pytest.mark.parametrize("only", [SOME, pytest.param(ALL, marks=pytest.mark.soak)])
-def test_who_knows_the_usual_answers_by_heart_earns_nothing_under_a_seed(
+def test_recorded_answers_earn_nothing_under_a_seed(
     only: frozenset[str], monkeypatch: pytest.MonkeyPatch
 ):
     known = right_answers(only, monkeypatch)

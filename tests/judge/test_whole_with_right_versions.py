@@ -29,7 +29,7 @@ def find_whole(result: Result) -> TodoResult:
     return next(todo for todo in result.todos if todo.id == "whole")
 
 
-def test_where_all_that_was_begun_is_wrong_it_earns_nothing_and_is_named(hand_in):
+def test_wrong_todos_earn_nothing_in_the_whole_and_are_named(hand_in):
     """Otherwise a line in each TODO would earn the points of the whole."""
     tree = with_regions(hand_in("starter"), WORLD, NO_DAMPING)
     with_regions(tree, "mini_engine/joints.py", {"3": ("        self.k = 1.0 * self.k",)})
@@ -49,7 +49,7 @@ def test_without_the_reference_the_whole_names_the_todo(hand_in):
 
 
 @pytest.mark.soak
-def test_what_is_wrong_outside_of_all_todos_is_said_to_be_there(hand_in):
+def test_a_mistake_outside_of_all_todos_is_placed_there(hand_in):
     """It is a student's own program, without given code to restore."""
     source = Path(__file__).parents[1] / "bank" / "single_file" / "mini_engine.py"
     text = read_source(source)

@@ -84,14 +84,12 @@ def taken_in(folder: Path, tmp_path: Path) -> Submission:
 @pytest.mark.parametrize(
     "name", ["integrators_original.py", "original/integrators.py", "z/deep/integrators.py"]
 )
-def test_a_kept_copy_of_the_starter_does_not_undo_the_work(
-    name: str, hand_in: HandIn, tmp_path: Path
-):
+def test_a_copy_of_the_starter_does_not_undo_the_work(name: str, hand_in: HandIn, tmp_path: Path):
     folder = hand_in("solution", **{name.replace("/", "__").replace(".py", "_py"): STUBS})
     assert taken_in(folder, tmp_path).begun["8b"]
 
 
-def test_a_kept_copy_of_the_work_does_not_make_up_for_a_stub(hand_in: HandIn, tmp_path: Path):
+def test_a_copy_of_the_work_does_not_replace_a_stub(hand_in: HandIn, tmp_path: Path):
     folder = hand_in("starter", aaa_py=SOLVED, zzz_py=SOLVED)
     assert not taken_in(folder, tmp_path).begun["8b"]
 

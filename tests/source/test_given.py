@@ -85,7 +85,7 @@ def only(file: str, old: str, new: str) -> GivenChange:
         ("integrators.py", "x + v * dt, v + a", "x + v, v + a", "explicit_euler", None, None),
     ],
 )
-def test_a_change_is_told_by_its_piece_and_its_line(file, old, new, name, theirs, given):
+def test_a_change_has_the_name_of_its_piece_and_its_line(file, old, new, name, theirs, given):
     found = only(file, old, new)
     assert (found.file, found.name) == (file, name)
     assert theirs in (None, found.theirs) and given in (None, found.given)
@@ -105,13 +105,13 @@ def test_a_change_is_told_by_its_piece_and_its_line(file, old, new, name, theirs
         ("\ndef arms(", "\ndef mine():\n    return 5\n\n\ndef arms("),
     ],
 )
-def test_what_is_in_regions_or_changes_nothing_is_no_change(old, new):
+def test_regions_comments_and_additions_are_no_change(old, new):
     text = load_given()[SOLVER]
     assert text.count(old) == 1
     assert not compare_files({SOLVER: text.replace(old, new)}, load_given())
 
 
-def test_what_stands_elsewhere_or_is_not_needed_is_not_missed():
+def test_moved_code_and_unused_imports_are_not_missing():
     """Students may move given code, and leave out an import that nothing reads any more."""
     given = load_given()
     text = given[SOLVER]
@@ -204,7 +204,7 @@ def test_an_instructor_reads_the_same(hand_in):
     assert mended and all(words in each.meaning for each in mended)
 
 
-def test_a_mistake_beside_changed_given_code_is_told_as_well(hand_in):
+def test_a_mistake_beside_changed_given_code_is_named_as_well(hand_in):
     """The code to restore comes first, then the known mistake that remains."""
     tree = hand_in("solution")
     integrators(tree, CALLS, "return x + v, v + accel(x) * dt")
@@ -223,7 +223,7 @@ def test_given_code_that_has_nothing_to_do_with_it_is_not_named(hand_in):
     assert all(each["Look at"].endswith(", TODO") for each in failed)
 
 
-def test_many_changes_and_many_failures_are_asked_again_so_often_and_no_more():
+def test_the_number_of_runs_that_look_for_a_cause_is_limited():
     """Each run costs as much as the check; changes that cannot be separated are named together."""
 
     class Failing:
@@ -250,7 +250,7 @@ def test_many_changes_and_many_failures_are_asked_again_so_often_and_no_more():
 # ---------------------------------------------------------------- restoring it
 
 
-def test_a_name_is_put_back_and_a_copy_is_kept(hand_in):
+def test_a_function_is_restored_and_a_copy_of_the_file_stays(hand_in):
     tree = hand_in("solution")
     change(tree, *DOUBLED)
     changed = (tree / SOLVER).read_bytes()
@@ -289,7 +289,7 @@ def test_a_function_that_is_gone_comes_back_and_regions_stay(hand_in):
     assert [r.lines for r in regions_in(again)] == [r.lines for r in regions_in(text)]
 
 
-def test_what_cannot_be_put_back_is_said_and_nothing_is_written(hand_in):
+def test_an_unknown_name_is_refused_and_nothing_is_written(hand_in):
     tree = hand_in("solution")
     change(tree, *DOUBLED)
     before = {path: path.read_bytes() for path in tree.rglob("*.py")}
@@ -338,7 +338,7 @@ def test_a_marker_behind_the_last_statement_belongs_to_the_function():
         ("    ra, rb = arms(c)\n    tangent", "    ra, rb = 1, 2\n    tangent", "outside"),
     ],
 )
-def test_a_line_of_a_todos_function_outside_its_region_is_told(old: str, new: str, says: str):
+def test_a_line_of_a_todos_function_outside_its_region_is_named(old: str, new: str, says: str):
     given = load_given()[SOLVER]
     (change,) = compare_files({SOLVER: given.replace(old, new, 1)}, {SOLVER: given})
     assert change.todo == "4" and says in change.outside and bool(says) == bool(change.outside)

@@ -143,7 +143,7 @@ def test_a_change_to_a_solution_inside_a_region_is_no_drift(copies):
     assert sync(*copies, write=False) == []
 
 
-def test_a_changed_stub_is_made_known_to_the_checks(copies):
+def test_sync_carries_a_changed_stub_to_the_checks(copies):
     edit(copies[1] / "mini_engine/world.py", "keep_vel = 0.99", "keep_vel = 0.98")
     kept = ("stubs.json", "given.json")
     differs = "{}, by which the checks know the starter, is not up to date"

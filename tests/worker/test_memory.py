@@ -52,7 +52,7 @@ def honest(x):
         ("thing = k.Counter(); thing.own = 3", []),
     ],
 )
-def test_what_is_kept_is_found_under_its_name(tmp_path: Path, line: str, names: list[str]):
+def test_a_changed_global_is_found_under_its_name(tmp_path: Path, line: str, names: list[str]):
     name = f"keeper{abs(hash(line))}"
     (tmp_path / f"{name}.py").write_text(KEEPER, encoding="utf-8")
     sys.path.insert(0, str(tmp_path))
@@ -88,7 +88,7 @@ memo, other = {}, {}
 def helper(x):
     return memo.setdefault(x, x)
 
-def stranger(x):
+def other_helper(x):
     other[x] = x
 
 class World:
@@ -104,7 +104,7 @@ class World:
 def test_only_what_the_code_of_a_todo_runs_is_named():
     used = Program({Path("engine.py"): PROGRAM}).names_used("engine", "World.grow")
     assert used >= {"memo", "helper", "table", "widen", "grow"}
-    assert not used & {"other", "stranger"}
+    assert not used & {"other", "other_helper"}
     failed = CheckResult("id", "title", "unit", "not yet", 0, 1, meaning="So.")
     told = explain(Failure(failed, Evidence(load_rubric().todos[0]), kept=["engine.memo"]))
     assert told.meaning.startswith("So. ") and "in memo:" in told.meaning

@@ -208,7 +208,7 @@ import pygame
 class World:
     def step(self, dt): pass
 
-def seen():
+def read_keys():
     keys = pygame.key.get_pressed()
     asked = bool(keys[pygame.K_LSHIFT]), bool(keys[pygame.K_RSHIFT])
     return asked, bool(pygame.key.get_mods() & pygame.KMOD_SHIFT)
@@ -227,10 +227,10 @@ def main():
             elif event.type == pygame.KEYUP:
                 down.discard(event.key)
             elif event.type == pygame.MOUSEBUTTONDOWN:
-                print("down", event.button, event.pos, *seen(), sorted(down) == [])
+                print("down", event.button, event.pos, *read_keys(), sorted(down) == [])
             elif event.type == pygame.MOUSEBUTTONUP:
                 print("up", event.button, event.pos)
-    print("end", *seen(), down)
+    print("end", *read_keys(), down)
 """
 
 

@@ -54,7 +54,7 @@ def test_a_message_too_long_is_neither_sent_nor_read(ends):
         ours.receive(1)
 
 
-def test_a_question_that_nobody_reads_holds_up_nobody(ends):
+def test_sending_does_not_wait_for_the_reader(ends):
     ours, theirs = ends
     ours.post("x" * (MAX_MESSAGE // 2))
     assert not ours.flush(0.01)

@@ -17,7 +17,7 @@ import os
 import sys
 import stable_engine
 
-def told():
+def describe_folders():
     folders = "experiments", "results", "stable_engine"
     return [stable_engine.VALUE, *(float(os.path.islink(each)) for each in folders)]
 
@@ -67,8 +67,8 @@ def test_an_unchanged_folder_is_read_only_and_all_else_is_the_childs_own(trees, 
                 return child.ask(Call(f"mini_engine:{target}", list(args))).reply
 
             assert isinstance(child.ask(Import("mini_engine", [])).reply, Returned)
-            told = ask("told")
-            assert isinstance(told, Returned) and told.value == Items([3.5, 0.0, 0.0, 1.0])
+            reply = ask("describe_folders")
+            assert isinstance(reply, Returned) and reply.value == Items([3.5, 0.0, 0.0, 1.0])
             assert isinstance(ask("write_into", "results"), Returned)
             assert isinstance(ask("write_into", "experiments"), Returned)
             assert isinstance(ask("write_into", "stable_engine"), Raised)

@@ -44,10 +44,10 @@ def listen():
         server.bind(("127.0.0.1", 0))
         return True
 def abstract(name): socket.socket(socket.AF_UNIX).connect("\\0" + name); return True
-def keep(key): return libc.shmget(key, 4096, 0o1666) >= 0
-def kept(key): return libc.shmget(key, 0, 0) >= 0
-def keep_key(name): return libc.syscall(248, b"user", name.encode(), b"x", 1, -4) >= 0
-def kept_key(name): return libc.syscall(250, 10, -4, b"user", name.encode(), 0) >= 0
+def make_memory(key): return libc.shmget(key, 4096, 0o1666) >= 0
+def has_memory(key): return libc.shmget(key, 0, 0) >= 0
+def make_key(name): return libc.syscall(248, b"user", name.encode(), b"x", 1, -4) >= 0
+def has_key(name): return libc.syscall(250, 10, -4, b"user", name.encode(), 0) >= 0
 def run(program): return subprocess.run([program], capture_output=True).returncode
 def fill(megabytes):
     for number in range(megabytes):
@@ -243,7 +243,7 @@ def test_no_other_process_has_a_number_in_there(probe: Prober):
 
 
 @needs("pid-namespace")
-def test_a_signal_to_everybody_reaches_nobody_outside(probe: Prober):
+def test_a_signal_to_all_processes_stays_inside(probe: Prober):
     probe("signal_all")
     assert isinstance(probe.worker, WarmWorker) and probe.worker.process.poll() is None
 
@@ -376,13 +376,13 @@ def test_a_layer_alone_refuses(
 
 @pytest.mark.parametrize(
     ("layer", "name", "word"),
-    [("ipc-namespace", "", 77_123), ("user-namespace", "_key", "physics-grader")],
+    [("ipc-namespace", "memory", 77_123), ("user-namespace", "key", "physics-grader")],
     indirect=["layer"],
 )
-def test_nothing_is_kept_for_another_child(probe: Prober, name: str, word: int | str):
-    left = probe(f"keep{name}", word)
-    assert left is True or name
-    assert probe(f"kept{name}", word) is False
+def test_shared_memory_and_keys_end_with_a_child(probe: Prober, name: str, word: int | str):
+    made = probe(f"make_{name}", word)
+    assert made is True or name == "key"
+    assert probe(f"has_{name}", word) is False
     assert ctypes.CDLL(None).shmget(77_123, 0, 0) < 0
 
 
@@ -435,7 +435,7 @@ def read_pages(memory: FileIO, first: int, last: int) -> Iterator[bytes]:
 
 
 @needs("network-namespace")
-def test_the_name_of_the_machine_is_not_told(probe: Prober):
+def test_the_name_of_the_machine_is_hidden(probe: Prober):
     assert probe("host") == "check check"
 
 

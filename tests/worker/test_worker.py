@@ -172,7 +172,7 @@ def test_waiting_for_nothing_is_noticed_before_the_last_resort(ask: Asker, monke
         ("flood_disk", "OSError"),
     ],
 )
-def test_a_limit_is_an_exception_like_any_other(ask: Asker, name: str, error: str):
+def test_a_limit_raises_an_exception(ask: Asker, name: str, error: str):
     reply = ask(name)
     assert isinstance(reply, Raised) and reply.error == error
     assert len(reply.frames) <= 12
