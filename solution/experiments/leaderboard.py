@@ -97,7 +97,7 @@ def ask_all(row, contestants, untimed=()):
     """
     cells = {}
     for one in contestants:
-        if not set(one.lacks) & set(row.needs):
+        if not set(one.lacks) & {*row.needs, *row.make().effects}:
             substeps = one.its_own or SUBSTEPS
             first = ask(row, one, substeps)
             cells[one.name] = {"substeps": first[0]}

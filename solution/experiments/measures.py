@@ -4,9 +4,11 @@ Geometry comes from the scene's data and the places of the bodies, never from an
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
+from .reference import Accelerations
 from .scenes import DT, Ball, G
 
 
@@ -119,24 +121,11 @@ def energy(engine, dt=DT):
 
 
 def lag_velocities(engine, dt):
-    """Return by what gravity changes the velocity of each ball (px/s) over the engine's lag.
+    """Return by what gravity changes the velocity of each body (px/s) over the engine's lag.
 
     Rods take up what is along them: a ball that hangs at rest gains none.
     """
-    scene, lag, place = engine.scene, engine.lag(dt), {}
-    for i in scene.moving():
-        place[i] = len(place)
-    kicks = np.tile(np.array(scene.gravity, float) * lag, (len(place), 1))
-    if scene.rods and "Rods" in scene.effects:
-        along = np.zeros((len(scene.rods), len(place), 2))
-        weights = np.array([scene.bodies[i].mass for i in place])[:, None]
-        for row, (a, b) in zip(along, scene.rods, strict=True):
-            here, there = engine.read(a), engine.read(b)
-            for i, sign in ((a, -1), (b, 1)):
-                if i in place:
-                    row[place[i]] = sign * (there.x - here.x), sign * (there.y - here.y)
-        lines = along.reshape(len(scene.rods), -1)
-        shares = (along / weights).reshape(len(scene.rods), -1)
-        pulls = np.linalg.lstsq(lines @ shares.T, lines @ kicks.ravel(), rcond=None)[0]
-        kicks -= (shares.T @ pulls).reshape(-1, 2)
-    return dict(zip(place, kicks.tolist(), strict=True))
+    rods = engine.scene.rods if "Rods" in engine.scene.effects else []
+    positions = np.array([state[:2] for state in states(engine)])
+    accelerate = Accelerations(replace(engine.scene, rods=rods, springs=[]))
+    return engine.lag(dt) * accelerate(positions, np.zeros_like(positions))

@@ -215,15 +215,9 @@ def test_bars_show_every_effect(results, tmp_path):
     assert (tmp_path / "effects-stacked.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_too_small_a_pile_gets_a_sentence(capsys):
-    with pytest.raises(SystemExit):
-        effects.main(["--balls", "3"])
-    assert "--balls is 3, but it must be 10 or more." in capsys.readouterr().err
-
-
 @pytest.mark.soak
 def test_it_runs_in_a_students_folder_with_nothing_done(handed_out, tmp_path):
-    program = [sys.executable, "-m", "experiments.effects", "--quick", "--balls", "10"]
+    program = [sys.executable, "-m", "experiments.effects", "--quick"]
     program += ["--out", str(tmp_path)]
     subprocess.run(program, cwd=handed_out, check=True, capture_output=True, timeout=600)
     assert (tmp_path / "results.json").exists()

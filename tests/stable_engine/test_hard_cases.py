@@ -4,6 +4,9 @@ The quick rows of experiments.leaderboard come first: they hold the thresholds. 
 further than a row does. h = 1/480 s unless a test says else.
 """
 
+import math
+import random
+from dataclasses import replace
 from itertools import product
 
 import pytest
@@ -21,8 +24,10 @@ from experiments.rows.reasons import find_reason
 from experiments.scenes import (
     BULLETS,
     DT,
+    EFFECTS,
     Ball,
     Block,
+    G,
     Scene,
     Spring,
     chain,
@@ -32,7 +37,6 @@ from experiments.scenes import (
     pile,
     rammer,
     shot,
-    wild_box,
 )
 from experiments.steps import at_random, hiccups, in_turns, lasting
 from stable_engine.soft import Pace
@@ -152,6 +156,30 @@ def test_nobody_escapes_from_a_closed_box(examples):
         assert not leaks(scene, [DT] * 240)
 
     check_boxes()
+
+
+def wild_box(seed):
+    """Make a closed box with all effects at once.
+
+    It has springs of any stiffness, some tied to the middle of a wall, bullets of up to
+    200,000 px/s, rods, sleep, and gravity from anywhere or none.
+    """
+    rng = random.Random(f"wild {seed}")
+    scene = closed_box(
+        seed, rng.uniform(80, 160), rng.choice((20.0, 50.0)), (rng.uniform(4, 9), 18), pairs=5
+    )
+    walls, moving = range(4), scene.moving()
+    for _ in range(6):
+        a, b = rng.sample(moving, 2)
+        a = rng.choice(walls) if rng.random() < 0.2 else a
+        stiffness, damping = 10 ** rng.uniform(0, 6), 10 ** rng.uniform(-2, 2)
+        scene.springs.append(Spring(a, b, stiffness, damping, rng.uniform(0, 80)))
+    for i in rng.sample(moving, 3):
+        fast, way = rng.choice((1000, 5000, 50_000, 200_000)), rng.uniform(0, 2 * math.pi)
+        scene.bodies[i].vel = (fast * math.cos(way), fast * math.sin(way))
+        scene.bodies[i].bullet = True
+    gravity = rng.choice(((0, G), (G, 0), (0, 0), (500.0, -700.0)))
+    return replace(scene, effects=EFFECTS, gravity=gravity)
 
 
 @pytest.mark.soak

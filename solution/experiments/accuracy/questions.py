@@ -12,7 +12,7 @@ from ..engines import ENGINES, SUBSTEPS
 from ..engines.box2d import PASSES as BOX2D_PASSES
 from ..engines.chipmunk import PASSES
 from ..measures import deepest_overlap, energy_height, run, watch, worst_stretch
-from ..scenes import chain, drop, find_pendulum_angle, pendulum, stack, tower
+from ..scenes import chain, drop, find_pendulum_angle, pendulum, pendulum_period, stack, tower
 
 LAUNCHED = 1.0  # px: a ball that rises by more was thrown, and did not sink
 RATE = 120  # steps per second, of the lesson
@@ -161,12 +161,11 @@ def measure_apexes(engine, seconds, dt):
 swinging = partial(chain, 20, (20, 0))
 heavy_on_light = partial(stack, 1, 100)
 half_bounce = partial(drop, restitution=0.5)
-PERIOD = pendulum().exact["period"]
 
 QUESTIONS = {
     "tower": Question("tower of 20", tower, measure_sink, "sink", "px", 2),
     "stack": Question("100 kg on 1 kg", heavy_on_light, measure_sink, "sink", "px", 2),
     "chain": Question("swinging chain", swinging, measure_stretch, "worst link", "px", 3),
-    "pendulum": Question("pendulum", pendulum, measure_lag, "distance", "px", PERIOD),
+    "pendulum": Question("pendulum", pendulum, measure_lag, "distance", "px", pendulum_period()),
     "bounce": Question("three bounces", half_bounce, measure_apexes, "apex", "of the exact", 2.5),
 }

@@ -3,7 +3,7 @@
 import math
 
 from ..scenes import Ball
-from .builder import SUBSTEPS, Builder, State, Touch
+from .builder import SUBSTEPS, Builder, State, Touch, is_moving
 
 try:
     import Box2D
@@ -30,8 +30,55 @@ def spring_as_oscillator(scene, s):
     return omega / (2 * math.pi), ratio
 
 
-class Box2d(Builder):
-    """The same scene in Box2D, in metres.
+class InMetres(Builder):
+    """A scene in a Box2D, in metres. Subclasses give its functions the names of Box2D v3."""
+
+    def metres(self, *lengths):
+        return tuple(length / (PX_PER_M * self.scene.unit) for length in lengths)
+
+    def state(self, position, velocity, angle, omega):
+        """Return a state in px."""
+        px = [PX_PER_M * self.scene.unit * float(number) for number in (*position, *velocity)]
+        return State(*px, float(angle), float(omega))
+
+    def add(self, data):
+        effects, density = self.scene.effects, 0.0
+        place = self.metres(*data.pos)
+        if isinstance(data, Ball):
+            (radius,) = self.metres(data.radius)
+            shape = self.circle(radius=radius)
+        else:
+            shape = self.box(*self.metres(*data.half))
+        if is_moving(data):
+            density = data.mass / (math.pi * radius**2)
+            damping = self.damping()
+            body = self.create_dynamic_body(
+                position=place,
+                linear_velocity=self.metres(*data.vel),
+                angular_velocity=data.omega,
+                linear_damping=damping[0],
+                angular_damping=damping[1],
+                is_bullet=data.bullet and "Bullets" in effects,
+                enable_sleep="Sleep" in effects,
+            )
+        else:
+            body = self.create_static_body(position=place)
+        group = 0 if "Contacts" in effects else NO_COLLISIONS
+        self.create_shape(body, shape, density, group, **self.surface(data))
+        return body
+
+    def rod(self, a, b):
+        length = math.dist(self.scene.bodies[a].pos, self.scene.bodies[b].pos)
+        self.tie(self.bodies[a], self.bodies[b], *self.metres(length))
+
+    def spring(self, s):
+        """Add a spring by its frequency and its damping ratio, as Box2D has them."""
+        oscillator = spring_as_oscillator(self.scene, s)
+        self.tie(self.bodies[s.a], self.bodies[s.b], *self.metres(s.length), *oscillator)
+
+
+class Box2d(InMetres):
+    """The same scene in Box2D 2.3.
 
     Its friction is that of the other engines. Of two restitutions it takes the larger one: the same
     where both surfaces are alike. It moves no body by more than 2 m, here 40 px, in a step.
@@ -41,56 +88,29 @@ class Box2d(Builder):
 
     def __init__(self, scene, passes=PASSES, substeps=1):
         self.scene, self.passes, self.substeps = scene, passes, substeps
-        self.metre = PX_PER_M * scene.unit
-        gravity = (scene.gravity[0] / self.metre, scene.gravity[1] / self.metre)
-        self.world = Box2D.b2World(gravity)
+        self.world = Box2D.b2World(self.metres(*scene.gravity))
+        self.create_static_body = self.world.CreateStaticBody
         self.fill()
 
-    def add(self, data):
-        effects = self.scene.effects
-        metres = {"position": (data.pos[0] / self.metre, data.pos[1] / self.metre)}
-        surface = {
-            "friction": data.friction if "Friction" in effects else 0.0,
-            "restitution": data.restitution if "Bounce" in effects else 0.0,
-            "groupIndex": 0 if "Contacts" in effects else NO_COLLISIONS,
-        }
-        if not isinstance(data, Ball):
-            half = (data.half[0] / self.metre, data.half[1] / self.metre)
-            body = self.world.CreateStaticBody(**metres)
-            body.CreateFixture(shape=Box2D.b2PolygonShape(box=half), **surface)
-            return body
-        shape = Box2D.b2CircleShape(radius=data.radius / self.metre)
-        if data.mass == 0:
-            body = self.world.CreateStaticBody(**metres)
-            body.CreateFixture(shape=shape, **surface)
-            return body
-        damping = self.scene.damping if "Damping" in effects else (0.0, 0.0)
-        body = self.world.CreateDynamicBody(
-            **metres,
-            linearVelocity=(data.vel[0] / self.metre, data.vel[1] / self.metre),
-            angularVelocity=data.omega,
-            linearDamping=damping[0],
-            angularDamping=damping[1],
-            bullet=data.bullet and "Bullets" in effects,
-            allowSleep="Sleep" in effects,
-        )
-        area = math.pi * (data.radius / self.metre) ** 2
-        body.CreateFixture(shape=shape, density=data.mass / area, **surface)
-        return body
+    def circle(self, radius):
+        return Box2D.b2CircleShape(radius=radius)
 
-    def rod(self, a, b):
-        self.tie(a, b, math.dist(self.scene.bodies[a].pos, self.scene.bodies[b].pos))
+    def box(self, *half):
+        return Box2D.b2PolygonShape(box=half)
 
-    def spring(self, s):
-        """Add a spring by its frequency and its damping ratio, as Box2D has them."""
-        hertz, ratio = spring_as_oscillator(self.scene, s)
-        self.tie(s.a, s.b, s.length, frequencyHz=hertz, dampingRatio=ratio)
+    def create_dynamic_body(self, position, is_bullet, enable_sleep, **motion):
+        motion = {to_camel_case(name): value for name, value in motion.items()}
+        flags = {"bullet": is_bullet, "allowSleep": enable_sleep}
+        return self.world.CreateDynamicBody(position=position, **flags, **motion)
 
-    def tie(self, a, b, length, **soft):
+    def create_shape(self, body, shape, density, group, **surface):
+        body.CreateFixture(shape=shape, density=density, groupIndex=group, **surface)
+
+    def tie(self, a, b, length, hertz=0.0, ratio=0.0):
         """Join two centres. The two bodies do not collide."""
-        ends = {"bodyA": self.bodies[a], "bodyB": self.bodies[b], "collideConnected": False}
-        anchors = {"localAnchorA": (0, 0), "localAnchorB": (0, 0)}
-        self.world.CreateDistanceJoint(**ends, **anchors, length=length / self.metre, **soft)
+        ends = {"bodyA": a, "bodyB": b, "localAnchorA": (0, 0), "localAnchorB": (0, 0)}
+        soft = {"frequencyHz": hertz, "dampingRatio": ratio}
+        self.world.CreateDistanceJoint(**ends, **soft, length=length, collideConnected=False)
 
     def step(self, dt):
         positions = math.ceil(POSITION_SHARE * self.passes)
@@ -99,12 +119,10 @@ class Box2d(Builder):
 
     def read(self, i):
         body = self.bodies[i]
-        (x, y), (vx, vy) = body.position, body.linearVelocity
-        metres = [self.metre * number for number in (x, y, vx, vy)]
-        return State(*metres, body.angle, body.angularVelocity)
+        return self.state(body.position, body.linearVelocity, body.angle, body.angularVelocity)
 
     def throw(self, i, velocity):
-        self.bodies[i].linearVelocity = [number / self.metre for number in velocity]
+        self.bodies[i].linearVelocity = self.metres(*velocity)
         self.bodies[i].awake = True
 
     def touches(self):
@@ -113,78 +131,51 @@ class Box2d(Builder):
         for contact in self.world.contacts:
             if contact.touching:
                 manifold = contact.worldManifold  # a copy: its parts end with it
-                (x, y), (nx, ny) = manifold.points[0], manifold.normal
-                found.append(Touch(self.metre * x, self.metre * y, nx, ny, None))
+                x, y, *_ = self.state(manifold.points[0], (0, 0), 0, 0)
+                found.append(Touch(x, y, *manifold.normal, None))
         return found
 
     def asleep(self):
         return sum(not self.bodies[i].awake for i in self.scene.moving())
 
 
-class Box2d3(Builder):
-    """The same scene in Box2D v3.1, in metres. It finds contacts once a step, for all substeps."""
+def to_camel_case(name):
+    first, *others = name.split("_")
+    return first + "".join(map(str.capitalize, others))
+
+
+class Box2d3(InMetres):
+    """The same scene in Box2D v3.1. It finds contacts once a step, for all substeps."""
 
     name = "box2d3"
 
     def __init__(self, scene, substeps=SUBSTEPS):
         self.scene, self.substeps = scene, substeps
-        self.metre = PX_PER_M * scene.unit
-        gravity = tuple(g / self.metre for g in scene.gravity)
+        gravity = self.metres(*scene.gravity)
         self.world = pyb2d3.World(gravity=gravity, maximum_linear_speed=ANY_SPEED)
+        self.circle, self.box = pyb2d3.circle, pyb2d3.box
+        self.create_static_body = self.world.create_static_body
+        self.create_dynamic_body = self.world.create_dynamic_body
         self.fill()
 
-    def add(self, data):
-        effects = self.scene.effects
-        material = pyb2d3.surface_material(
-            friction=data.friction if "Friction" in effects else 0.0,
-            restitution=data.restitution if "Bounce" in effects else 0.0,
-        )
-        group = 0 if "Contacts" in effects else NO_COLLISIONS
-        surface = {"material": material, "filter": pyb2d3.make_filter(group_index=group)}
-        place = tuple(x / self.metre for x in data.pos)
-        if isinstance(data, Ball):
-            shape = pyb2d3.circle(radius=data.radius / self.metre)
-        else:
-            shape = pyb2d3.box(*(half / self.metre for half in data.half))
-        if not isinstance(data, Ball) or data.mass == 0:
-            body = self.world.create_static_body(position=place)
-            body.create_shape(pyb2d3.shape_def(**surface), shape)
-            return body
-        damping = self.scene.damping if "Damping" in effects else (0.0, 0.0)
-        body = self.world.create_dynamic_body(
-            position=place,
-            linear_velocity=tuple(v / self.metre for v in data.vel),
-            angular_velocity=data.omega,
-            linear_damping=damping[0],
-            angular_damping=damping[1],
-            is_bullet=data.bullet and "Bullets" in effects,
-            enable_sleep="Sleep" in effects,
-        )
-        area = math.pi * (data.radius / self.metre) ** 2
-        body.create_shape(pyb2d3.shape_def(density=data.mass / area, **surface), shape)
-        return body
+    def create_shape(self, body, shape, density, group, **surface):
+        material = pyb2d3.surface_material(**surface)
+        group = pyb2d3.make_filter(group_index=group)
+        shape_def = pyb2d3.shape_def(density=density, material=material, filter=group)
+        body.create_shape(shape_def, shape)
 
-    def rod(self, a, b):
-        self.tie(a, b, math.dist(self.scene.bodies[a].pos, self.scene.bodies[b].pos))
-
-    def spring(self, s):
-        hertz, ratio = spring_as_oscillator(self.scene, s)
-        self.tie(s.a, s.b, s.length, enable_spring=True, hertz=hertz, damping_ratio=ratio)
-
-    def tie(self, a, b, length, **soft):
+    def tie(self, a, b, length, hertz=0.0, ratio=0.0):
         """Join two centres. The two bodies do not collide."""
-        ends = self.bodies[a], self.bodies[b]
-        self.world.create_distance_joint(*ends, length=length / self.metre, **soft)
+        soft = {"enable_spring": hertz > 0, "hertz": hertz, "damping_ratio": ratio}
+        self.world.create_distance_joint(a, b, length=length, **soft)
 
     def step(self, dt):
         self.world.step(dt, self.substeps)
 
     def read(self, i):
         body = self.bodies[i]
-        (x, y), (vx, vy) = body.position, body.linear_velocity
-        metres = [self.metre * float(number) for number in (x, y, vx, vy)]
-        return State(*metres, float(body.angle), float(body.angular_velocity))
+        return self.state(body.position, body.linear_velocity, body.angle, body.angular_velocity)
 
     def throw(self, i, velocity):
-        self.bodies[i].linear_velocity = tuple(v / self.metre for v in velocity)
+        self.bodies[i].linear_velocity = self.metres(*velocity)
         self.bodies[i].awake = True

@@ -9,12 +9,19 @@ bodies touch.
 import time
 from collections import namedtuple
 
+from ..scenes import Ball
+
 SUBSTEPS = 4  # in a step of 1/120 s, of the stable engine
 
 State = namedtuple("State", "x y vx vy angle omega")
 # A contact: its point, the unit normal towards the second body, and the impulse (kg px/s) of the
 # latest step along it; None where the engine does not give it.
 Touch = namedtuple("Touch", "x y nx ny impulse")
+
+
+def is_moving(data):
+    """Return whether a body of a scene can move."""
+    return isinstance(data, Ball) and data.mass > 0
 
 
 class Builder:
@@ -28,6 +35,17 @@ class Builder:
             self.rod(a, b)
         for spring in scene.springs if "Springs" in scene.effects else ():
             self.spring(spring)
+
+    def surface(self, data):
+        """Return a body's friction and restitution: 0 where the scene lacks their effects."""
+        effects = self.scene.effects
+        friction = data.friction if "Friction" in effects else 0.0
+        restitution = data.restitution if "Bounce" in effects else 0.0
+        return {"friction": friction, "restitution": restitution}
+
+    def damping(self):
+        """Return the rates (1/s) at which velocity and spin decay."""
+        return self.scene.damping if "Damping" in self.scene.effects else (0.0, 0.0)
 
     def drop(self, ball):
         """Add a ball while the scene runs."""

@@ -5,7 +5,7 @@ import math
 import pymunk
 
 from ..scenes import Ball
-from .builder import Builder, State, Touch
+from .builder import Builder, State, Touch, is_moving
 
 PASSES = 10  # its own choice
 SLEEPY = 0.5  # s of rest until a body sleeps; without it, none does
@@ -31,12 +31,11 @@ class Pymunk(Builder):
             self.space.collision_slop = slop  # px, the overlap that it leaves alone
         if "Sleep" in scene.effects:
             self.space.sleep_time_threshold = SLEEPY
-        if "Damping" in scene.effects:
-            self.space.damping = math.exp(-scene.damping[0])  # the share kept per second
+        self.space.damping = math.exp(-self.damping()[0])  # the share kept per second
         self.fill()
 
     def add(self, data):
-        if isinstance(data, Ball) and data.mass > 0:
+        if is_moving(data):
             disc = 0.5 * data.radius**2  # px²: moment of inertia per kg
             body = pymunk.Body(data.mass, data.mass * disc)
         else:
@@ -47,10 +46,10 @@ class Pymunk(Builder):
             body.velocity, body.angular_velocity = data.vel, data.omega
         else:
             shape = pymunk.Poly.create_box(body, (2 * data.half[0], 2 * data.half[1]))
-        effects = self.scene.effects
-        shape.friction = math.sqrt(data.friction) if "Friction" in effects else 0.0
-        shape.elasticity = math.sqrt(data.restitution) if "Bounce" in effects else 0.0
-        if "Contacts" not in effects:
+        surface = self.surface(data)
+        shape.friction = math.sqrt(surface["friction"])
+        shape.elasticity = math.sqrt(surface["restitution"])
+        if "Contacts" not in self.scene.effects:
             shape.filter = pymunk.ShapeFilter(group=1)
         self.space.add(body, shape)
         return body

@@ -16,13 +16,9 @@ class Lesson(Builder):
 
     def __init__(self, scene, passes=ITERATIONS, substeps=1):
         self.scene, self.substeps = scene, substeps
-        rates = scene.damping if "Damping" in scene.effects else (0.0, 0.0)
-        self.world = mini_engine.World(scene.gravity, *rates)
+        self.world = mini_engine.World(scene.gravity, *self.damping())
         self.world.iterations = passes
         self.fill()
-
-    def add(self, data):
-        return self.world.add(self.body(data))
 
     def rod(self, a, b):
         rod = mini_engine.DistanceJoint(self.bodies[a], self.bodies[b])
@@ -31,17 +27,15 @@ class Lesson(Builder):
     def spring(self, s):
         """Leave out a spring: this engine has none."""
 
-    def body(self, data):
-        effects = self.scene.effects
-        friction = data.friction if "Friction" in effects else 0.0
-        restitution = data.restitution if "Bounce" in effects else 0.0
-        if not isinstance(data, Ball):
-            shape = mini_engine.Box(Vector2(data.half))
-            return mini_engine.Body(shape, data.pos, 0.0, restitution, friction)
-        shape = mini_engine.Circle(data.radius)
-        body = mini_engine.Body(shape, data.pos, data.mass, restitution, friction)
-        body.vel, body.omega = Vector2(data.vel), data.omega
-        return body
+    def add(self, data):
+        surface = self.surface(data)
+        if isinstance(data, Ball):
+            shape = mini_engine.Circle(data.radius)
+            body = mini_engine.Body(shape, data.pos, data.mass, **surface)
+            body.vel, body.omega = Vector2(data.vel), data.omega
+        else:
+            body = mini_engine.Body(mini_engine.Box(Vector2(data.half)), data.pos, 0.0, **surface)
+        return self.world.add(body)
 
     def step(self, dt):
         for _ in range(self.substeps):

@@ -27,9 +27,6 @@ class Stable(Builder):
         make = getattr(self.package, name)
         return make(*self.scene.damping) if name == "Damping" else make()
 
-    def add(self, data):
-        return self.world.add(self.body(data))
-
     def rod(self, a, b):
         self.world.add(self.package.Rod(self.bodies[a], self.bodies[b]))
 
@@ -37,15 +34,16 @@ class Stable(Builder):
         ends = self.bodies[s.a], self.bodies[s.b]
         self.world.add(self.package.Spring(*ends, s.stiffness, s.damping, s.length))
 
-    def body(self, data):
+    def add(self, data):
         surface = {"restitution": data.restitution, "friction": data.friction}
-        if not isinstance(data, Ball):
-            return self.package.Body(self.package.Box(data.half), data.pos, **surface)
-        bullet = data.bullet and "Bullets" in self.scene.effects
-        shape = self.package.Circle(data.radius)
-        body = self.package.Body(shape, data.pos, data.mass, bullet=bullet, **surface)
-        body.vel, body.omega = data.vel, data.omega
-        return body
+        if isinstance(data, Ball):
+            bullet = data.bullet and "Bullets" in self.scene.effects
+            shape = self.package.Circle(data.radius)
+            body = self.package.Body(shape, data.pos, data.mass, bullet=bullet, **surface)
+            body.vel, body.omega = data.vel, data.omega
+        else:
+            body = self.package.Body(self.package.Box(data.half), data.pos, **surface)
+        return self.world.add(body)
 
     def step(self, dt):
         self.world.step(dt)

@@ -1,11 +1,16 @@
-"""Rows once more in other units of length, and turned: no law knows a unit or a direction."""
+"""Rows once more in other units of length, and turned: no law knows a unit or a direction.
+
+A change is a complex number. It multiplies x + y i: 0.01 is another unit, i a quarter turn.
+"""
 
 from dataclasses import replace
+from functools import partial
 
 from ..engines import State
 from ..scenes import Ball
 
-UNITS = {0.01: "in metres (1 m is 100 px)", 30.0: "in thirtieths of a pixel"}
+UNITS = {"in metres (1 m is 100 px)": 0.01, "in thirtieths of a pixel": 30.0}
+QUARTER = {"turned by a quarter": 1j}  # down becomes left
 TITLES = (
     "bounce: first rebound, e = 0.5",
     "bounce: from 50 px, e = 1.0",
@@ -44,55 +49,31 @@ class Other:
 
     def read(self, i):
         s = self.engine.read(i)
-        (x, y), (vx, vy) = self.change.back(s.x, s.y), self.change.back(s.vx, s.vy)
-        return State(x, y, vx, vy, s.angle, s.omega)
+        back = 1 / self.change
+        place, velocity = times((s.x, s.y), back), times((s.vx, s.vy), back)
+        return State(*place, *velocity, s.angle, s.omega)
 
     def throw(self, i, velocity):
-        self.engine.throw(i, self.change.there(*velocity))
+        self.engine.throw(i, times(velocity, self.change))
 
 
-class Unit:
-    """Lengths in another unit."""
-
-    def __init__(self, unit):
-        self.unit = unit
-
-    def there(self, x, y):
-        return x * self.unit, y * self.unit
-
-    def back(self, x, y):
-        return x / self.unit, y / self.unit
-
-    def sizes(self, x, y):
-        return self.there(x, y)
-
-
-class Turn:
-    """Everything turned by a quarter: down becomes left."""
-
-    unit = 1.0
-
-    def there(self, x, y):
-        return -y, x
-
-    def back(self, x, y):
-        return y, -x
-
-    def sizes(self, x, y):
-        return y, x
+def times(vector, change):
+    """Return a vector of a changed scene."""
+    number = complex(*vector) * change
+    return number.real, number.imag
 
 
 def changed(scene, change):
     """Return the scene as the change has it."""
-    unit, bodies = change.unit, []
+    unit, bodies = abs(change), []
     for b in scene.bodies:
-        pos = change.there(*b.pos)
+        pos = times(b.pos, change)
         if isinstance(b, Ball):
-            bodies.append(replace(b, pos=pos, radius=b.radius * unit, vel=change.there(*b.vel)))
+            bodies.append(replace(b, pos=pos, radius=b.radius * unit, vel=times(b.vel, change)))
         else:
-            bodies.append(replace(b, pos=pos, half=change.sizes(*b.half)))
+            bodies.append(replace(b, pos=pos, half=tuple(map(abs, times(b.half, change)))))
     springs = [replace(s, length=s.length * unit) for s in scene.springs]
-    gravity = change.there(*scene.gravity)
+    gravity = times(scene.gravity, change)
     return replace(scene, bodies=bodies, springs=springs, gravity=gravity, unit=unit)
 
 
@@ -112,13 +93,8 @@ def measure_elsewhere(trial, scene, measure, change):
 
 def make_rows(rows):
     """Yield rows of those given, in other units and turned."""
-    from functools import partial
-
     known = {row.title: row for row in rows}
-    for titles, changes in (
-        (TITLES, {words: Unit(unit) for unit, words in UNITS.items()}),
-        (TURNED, {"turned by a quarter": Turn()}),
-    ):
+    for titles, changes in ((TITLES, UNITS), (TURNED, QUARTER)):
         for words, change in changes.items():
             for title in titles:
                 row = known[title]

@@ -8,8 +8,8 @@ from .. import scenes
 from ..measures import deepest_overlap, run, states, top_speed, watch
 from ..scenes import TOUCH, Ball, Block, G, Scene, floor, pile, resting, stack, tower
 from ..steps import PATTERNS, lasting
-from .row import Row, late, never, seen, still
-from .ties import stays
+from .row import Row, late, never, off, off_after, run_for, seen, still
+from .ties import centre_off, stays
 
 ASLEEP = (*TOUCH, "Sleep")
 
@@ -24,24 +24,13 @@ def top_moves(trial, scene, seconds=10):
 
 def late_speed(trial, scene, seconds=10):
     """Return the top speed (px/s) of the last second."""
-    engine = trial.build(scene)
-    run(engine, seconds - 1)
+    engine = run_for(trial, scene, seconds - 1)
     return max(watch(engine, 1, lambda: top_speed(engine)))
 
 
 def overlaps(trial, scene, seconds=3):
     """Return the deepest overlap (px) in the end."""
-    engine = trial.build(scene)
-    run(engine, seconds)
-    return max(0.0, deepest_overlap(engine))
-
-
-def ends_at(trial, scene, exact, seconds, i=-1, axes=(0, 1)):
-    """Return how far (px) a body is from where it should be in the end."""
-    engine, i = trial.build(scene), range(len(scene.bodies))[i]
-    run(engine, seconds)
-    state = engine.read(i)
-    return max(abs(state[k] - exact[k]) for k in axes)
+    return max(0.0, deepest_overlap(run_for(trial, scene, seconds)))
 
 
 def rises_in_steps(trial, scene, steps, seconds=5):
@@ -100,14 +89,12 @@ def slow_slope(degrees):
     return replace(scene, effects=ASLEEP)
 
 
-def wakes(trial, scene, velocity, exact, seconds, axes, i=-1):
-    """Let a scene rest for 3 s, throw its second body, and return how far (px) a ball is off."""
-    engine, i = trial.build(scene), range(len(scene.bodies))[i]
-    run(engine, 3)
-    engine.throw(1, velocity)
+def wakes(trial, scene, fast, seconds, **exact):
+    """Let a scene rest for 3 s, throw its second body, and return how far (px) the last is off."""
+    engine = run_for(trial, scene, 3)
+    engine.throw(1, (fast, 0.0))
     run(engine, seconds)
-    state = engine.read(i)
-    return max(abs(state[k] - exact[k]) for k in axes)
+    return off(engine.read(len(scene.bodies) - 1), exact)
 
 
 def two_high():
@@ -126,26 +113,21 @@ def two_apart():
 
 def ends_still(trial, scene, seconds=3):
     """Return the top speed (px/s) in the end."""
-    engine = trial.build(scene)
-    run(engine, seconds)
-    return top_speed(engine)
+    return top_speed(run_for(trial, scene, seconds))
 
 
 def escapes(trial, scene, seconds=2):
     """Count the balls whose centre is in a wall, or beyond it, in the end."""
-    engine = trial.build(scene)
     half = scene.bodies[3].pos[0] - scene.bodies[3].half[0]
-    run(engine, seconds)
+    engine = run_for(trial, scene, seconds)
     now = [engine.read(i) for i in scene.moving()]
     return sum(not (abs(s.x) < half and abs(s.y) < half) for s in now)
 
 
 def bits_differ(trial, scene, seconds=1):
     """Count the numbers that differ in any bit when the same run is done again."""
-    first, second = trial.build(scene), trial.build(scene)
-    for engine in (first, second):
-        run(engine, seconds)
-    return sum(a != b for a, b in zip(states(first), states(second), strict=True))
+    first, second = (states(run_for(trial, scene, seconds)) for _ in range(2))
+    return sum(a != b for a, b in zip(first, second, strict=True))
 
 
 def shifted(scene, far):
@@ -201,23 +183,20 @@ def make_pile_rows():
 def make_sleep_rows():
     newton = "Newton's law; that a body is slow and that it may sleep change nothing."
     yield Row("sleep: drifts at 2 px/s", newton, partial(alone, (2.0, 0.0)),
-              partial(ends_at, exact=(20.0, 0.0), seconds=10), seen(), quick=True)
+              partial(off_after, seconds=10, x=20.0, y=0.0), seen(), quick=True)
     yield Row("sleep: falls at 1 px/s²", newton, partial(alone, gravity=(0.0, 1.0)),
-              partial(ends_at, exact=(0.0, 12.5), seconds=5), seen())
+              partial(off_after, seconds=5, x=0.0, y=12.5), seen())
     yield Row("sleep: thrown up, at 10 px/s²", newton, partial(alone, (0.0, -20.0), (0.0, 10.0)),
-              partial(ends_at, exact=(0.0, 25.0), seconds=5), seen())
+              partial(off_after, seconds=5, x=0.0, y=25.0), seen())
     for degrees in (0.05, 0.1):
         way = G * math.sin(math.radians(degrees)) / 3 * 25
         yield Row(f"sleep: on a slope of {degrees}°", "A disc rolls down at ⅔ g sin θ.",
-                  partial(slow_slope, degrees),
-                  partial(ends_at, exact=(way, 0), seconds=5, axes=(0,)), seen(),
+                  partial(slow_slope, degrees), partial(off_after, seconds=5, x=way), seen(),
                   quick=degrees == 0.1)
     yield Row("sleep: the ball below is thrown away", "What loses its support falls.", two_high,
-              partial(wakes, velocity=(2000.0, 0.0), exact=(0, -10), seconds=2, axes=(1,)), seen())
+              partial(wakes, fast=2000.0, seconds=2, y=-10), seen())
     yield Row("sleep: a ball hits one that sleeps", "Equal balls swap their speeds, asleep or not.",
-              two_apart,
-              partial(wakes, velocity=(200.0, 0.0), exact=(180.0, -10), seconds=0.8, axes=(0,)),
-              late(4 * 200))
+              two_apart, partial(wakes, fast=200.0, seconds=0.8, x=180.0), late(4 * 200))
     yield Row("sleep: a tower", "Balls are rigid and forces cancel.",
               lambda: replace(tower(10), effects=ASLEEP), top_moves, seen())
 
@@ -241,7 +220,7 @@ def make_start_rows():
                   partial(scenes.squeezed, 8, mass), ends_still, still())
     yield Row("bad start: two balls overlap by 30 px, 1:100, centre of mass",
               "Nothing from outside acts: the centre of mass stays.",
-              partial(overlapping, 30.0, 100.0), centre_moves, seen())
+              partial(overlapping, 30.0, 100.0), partial(centre_off, seconds=3), seen())
     for seed in range(6):
         yield Row(f"closed box: masses 1000:1, rods, overlaps, number {seed}", "Walls are solid.",
                   partial(scenes.closed_box, seed), escapes, never(), needs=("rods that push",),
@@ -251,17 +230,3 @@ def make_start_rows():
     for far in (1e4, 1e6):
         yield Row(f"far away: tower of 5, {far:,.0f} px off", "The laws are the same everywhere.",
                   lambda far=far: shifted(tower(5), far), top_moves, seen())
-# fmt: on
-
-
-def centre_moves(trial, scene, seconds=3):
-    """Return how far (px) the centre of mass moves."""
-    engine = trial.build(scene)
-    run(engine, seconds)
-    mass = sum(b.mass for b in scene.bodies)
-    off = [
-        sum(b.mass * (s[k] - b.pos[k]) for b, s in zip(scene.bodies, states(engine), strict=True))
-        / mass
-        for k in (0, 1)
-    ]
-    return math.hypot(*off)

@@ -4,24 +4,16 @@ import math
 from dataclasses import replace
 from functools import partial
 
-from ..measures import run, watch
+from ..measures import watch
 from ..scenes import DT, Ball, Block, G, Scene, floor, incline, on_floor, seams
-from .row import Bound, Row, late, law, seen
+from .row import Bound, Row, late, law, off_after, run_for, seen
 
 
 def rolls_at(trial, scene, exact, seconds=2.0):
     """Return how far (px/s) the ball's speed, and that of its rim, are off."""
-    engine, i = trial.build(scene), len(scene.bodies) - 1
-    run(engine, seconds)
-    state, radius = engine.read(i), scene.bodies[i].radius
+    i = len(scene.bodies) - 1
+    state, radius = run_for(trial, scene, seconds).read(i), scene.bodies[i].radius
     return max(abs(state.vx - exact), abs(state.omega * radius - exact))
-
-
-def speed_off(trial, scene, exact, seconds=1.0):
-    """Return how far (px/s) the ball's speed is off."""
-    engine, i = trial.build(scene), len(scene.bodies) - 1
-    run(engine, seconds)
-    return abs(engine.read(i).vx - exact)
 
 
 def thrown(vx, omega=0.0, mu=0.6, radius=10.0):
@@ -80,12 +72,12 @@ def make_rows():
                   partial(rolls_at, exact=(2 * vx + radius * omega) / 3), law(max(vx, 200)),
                   quick=mu == 1)
     yield Row("roll: spin 10,000/s for 1 s", "While the rim slips, the ball gains μ g per second.",
-              partial(on_floor, omega=1e4), partial(speed_off, exact=0.6 * G), late(0.6 * G))
+              partial(on_floor, omega=1e4), partial(off_after, seconds=1, vx=0.6 * G),
+              late(0.6 * G))
     yield Row("roll: on for 20 s", "Nothing slows a ball that rolls.",
               partial(thrown, 300.0, 30.0), partial(rolls_at, exact=300.0, seconds=20), law(300))
     yield Row("roll: on ice", "Without friction it slides on and does not turn.",
-              partial(thrown, 300.0, 0.0, 0.0), partial(speed_off, exact=300.0, seconds=10),
-              law(300))
+              partial(thrown, 300.0, 0.0, 0.0), partial(off_after, seconds=10, vx=300.0), law(300))
     for degrees in (0.1, 1.0, 10.0, 30.0, 60.0):
         a = G * math.sin(math.radians(degrees)) * 2 / 3
         yield Row(f"slope: {degrees:g}°, rolls", "A disc rolls down at ⅔ g sin θ.",
@@ -96,7 +88,7 @@ def make_rows():
         a = G * (math.sin(angle) - mu * math.cos(angle))
         yield Row(f"slope: {degrees:g}°, μ {mu}, slides",
                   "Where tan θ > 3 μ a disc slides down at g (sin θ - μ cos θ).",
-                  partial(incline, degrees, mu), partial(speed_off, exact=a), late(a))
+                  partial(incline, degrees, mu), partial(off_after, seconds=1, vx=a), late(a))
     for degrees in (5.0, 20.0):
         back = 2 * 300 / (2 / 3 * G * math.sin(math.radians(degrees)))
         yield Row(f"slope: {degrees:g}°, up and back", "Rolling loses nothing: it is back as fast.",
@@ -118,7 +110,7 @@ def make_rows():
     for fast in (200.0, 600.0):
         yield Row(f"edge: off a table at {fast:g} px/s",
                   "Where v² > g r it flies at once, and nothing changes its speed along.",
-                  partial(off_an_edge, fast), partial(speed_off, exact=fast), law(fast))
+                  partial(off_an_edge, fast), partial(off_after, seconds=1, vx=fast), law(fast))
     yield Row("edge: two balls side by side roll alike", "Balls that roll alike do not push.",
               lambda: replace(thrown(200.0, 20.0), bodies=[
                   floor(), *(Ball((20.0 * i, -10), vel=(200, 0), omega=20.0) for i in range(3))]),

@@ -8,6 +8,7 @@ import math
 from collections import namedtuple
 from dataclasses import dataclass
 
+from ..measures import run
 from ..scenes import DT, G
 
 H = DT / 4  # s, a substep
@@ -25,7 +26,7 @@ class Row:
     make: object  # () -> Scene
     measure: object
     bound: Bound
-    needs: tuple = ()  # what an engine may lack
+    needs: tuple = ()  # what an engine may lack, besides effects
     quick: bool = False  # whether the quick run has it
 
 
@@ -72,8 +73,26 @@ def never():
 # ---------------------------------------------------------------- what measures have in common
 
 
-def distance(state, place):
-    return math.hypot(state.x - place[0], state.y - place[1])
+def run_for(trial, scene, seconds):
+    """Return an engine that has run a scene for so long."""
+    engine = trial.build(scene)
+    run(engine, seconds)
+    return engine
+
+
+def off(state, exact):
+    """Return how far the worst of the named numbers of a state is off, such as {"vx": 300}."""
+    return max(abs(getattr(state, name) - value) for name, value in exact.items())
+
+
+def off_after(trial, scene, seconds, **exact):
+    """Return how far the last body's worst number is off after so long."""
+    return off(run_for(trial, scene, seconds).read(len(scene.bodies) - 1), exact)
+
+
+def velocity_off_after(trial, scene, exact, seconds, i=1):
+    """Return how far (px/s) a body's velocity is off after so long."""
+    return velocity_off(run_for(trial, scene, seconds).read(i), exact)
 
 
 def velocity_off(state, velocity):

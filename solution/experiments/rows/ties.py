@@ -5,25 +5,28 @@ from functools import partial
 
 import numpy as np
 
-from ..measures import energy, run, states, stretches, watch, worst_stretch
-from ..scenes import (
-    DT,
-    Ball,
-    G,
-    Scene,
-    Spring,
-    chain,
-    oscillator,
-    pendulum,
-)
+from ..measures import energy, states, stretches, watch, worst_stretch
+from ..reference import reference
+from ..scenes import DT, Ball, G, Scene, Spring, chain, oscillator, pendulum, pendulum_period
 from .hits import moment_lost
-from .row import Bound, Row, clock, late, law, seen, share_off
+from .row import (
+    Bound,
+    Row,
+    clock,
+    late,
+    law,
+    run_for,
+    seen,
+    share_off,
+    velocity_off_after,
+)
 from .row import energy as energy_bound
 
 RODS = ("Rods",)
 TINY = "Newton's law, solved by the method of Runge and Kutta in steps of 1/960 s."
 KEPT = "Rods do no work: energy is kept."
 RIGID = "Rods keep their length."
+KNOWN = {}  # references by scene and time
 PUSH = {"needs": ("rods that push",)}
 
 
@@ -49,12 +52,10 @@ def ever_stretches(trial, scene, seconds):
 
 def hangs(trial, scene, seconds=10):
     """Return by how much (px) all rods together are off their length in the end."""
-    engine = trial.build(scene)
-    run(engine, seconds)
-    return sum(stretches(engine))
+    return sum(stretches(run_for(trial, scene, seconds)))
 
 
-def period_off(trial, scene, seconds=20):
+def period_off(trial, scene, exact, seconds=20):
     """Return how far the mean period is off, as a share."""
     engine, x, passages = trial.build(scene), scene.bodies[1].pos[0], []
     for i in range(round(seconds / DT)):
@@ -64,116 +65,37 @@ def period_off(trial, scene, seconds=20):
             passages.append((i + before / (before - x)) * DT)
     if len(passages) < 2:
         return math.inf
-    return share_off((passages[-1] - passages[0]) / (len(passages) - 1), scene.exact["period"])
+    return share_off((passages[-1] - passages[0]) / (len(passages) - 1), exact)
 
 
 def stays(trial, scene, seconds=5):
     """Return how far (px) any body is from its start in the end."""
-    engine = trial.build(scene)
-    run(engine, seconds)
+    engine = run_for(trial, scene, seconds)
     return max(math.dist(s[:2], b.pos) for s, b in zip(states(engine), scene.bodies, strict=True))
 
 
-def centre_falls(trial, scene, seconds=1):
-    """Return how far (px) the centre of mass is from its parabola."""
-    engine = trial.build(scene)
-    run(engine, seconds)
-    mass = sum(b.mass for b in scene.bodies)
+def centre_off(trial, scene, seconds=1):
+    """Return how far (px) the centre of mass of free balls is from its parabola."""
+    masses = [b.mass for b in scene.bodies]
 
-    def centre(places):
-        return [
-            sum(b.mass * p[k] for b, p in zip(scene.bodies, places, strict=True)) / mass
-            for k in (0, 1)
-        ]
+    def centre(vectors):
+        return np.average([vector[:2] for vector in vectors], axis=0, weights=masses)
 
-    start, end = centre([b.pos for b in scene.bodies]), centre(states(engine))
-    drift = centre([b.vel for b in scene.bodies])
-    exact = [start[k] + drift[k] * seconds + scene.gravity[k] * seconds**2 / 2 for k in (0, 1)]
-    return math.dist(end, exact)
+    drift = centre([b.vel for b in scene.bodies]) + np.array(scene.gravity) * seconds / 2
+    exact = centre([b.pos for b in scene.bodies]) + drift * seconds
+    return math.dist(centre(states(run_for(trial, scene, seconds))), exact)
 
 
 def follows(trial, scene, seconds):
     """Return the largest distance (px) of any body from the reference by TINY steps."""
-    engine, moving = trial.build(scene), scene.moving()
-    worst = 0.0
-    for now in know_reference(scene, seconds):
-        engine.step(DT)
-        places = np.array([engine.read(i)[:2] for i in moving])
-        worst = max(worst, float(np.hypot(*(places - now).T).max()))
-    return worst
-
-
-KNOWN = {}  # references by scene and time
-
-
-def know_reference(scene, seconds):
-    key = repr(scene), seconds
+    key, engine, worst = (repr(scene), seconds), trial.build(scene), 0.0
     if key not in KNOWN:
         KNOWN[key] = list(reference(scene, seconds))
-    return KNOWN[key]
-
-
-def reference(scene, seconds, parts=8):
-    """Yield the places of the moving bodies after each step, by Runge and Kutta in TINY steps."""
-    moving = scene.moving()
-    now = np.array([scene.bodies[i].pos for i in moving], float)
-    vel = np.array([scene.bodies[i].vel for i in moving], float)
-    forces = Forces(scene, moving)
-    h = DT / parts
-    for _ in range(round(seconds / DT)):
-        for _ in range(parts):
-            a1 = forces(now, vel)
-            v2 = vel + h / 2 * a1
-            a2 = forces(now + h / 2 * vel, v2)
-            v3 = vel + h / 2 * a2
-            a3 = forces(now + h / 2 * v2, v3)
-            v4 = vel + h * a3
-            a4 = forces(now + h * v3, v4)
-            now = now + h / 6 * (vel + 2 * v2 + 2 * v3 + v4)
-            vel = vel + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
-        yield now
-
-
-class Forces:
-    """The accelerations of balls on rods and springs: the rods' pulls solve a linear system."""
-
-    def __init__(self, scene, moving):
-        self.scene, self.place = scene, {i: k for k, i in enumerate(moving)}
-        self.mass = np.array([scene.bodies[i].mass for i in moving])[:, None]
-
-    def __call__(self, now, vel):
-        push = np.tile(np.array(self.scene.gravity, float), (len(now), 1)) * self.mass
-        for s in self.scene.springs:
-            apart, speed = self.between(s.a, s.b, now), self.between(s.a, s.b, vel, still=True)
-            length = math.hypot(*apart) or 1.0
-            way = apart / length
-            pull = (s.stiffness * (length - s.length) + s.damping * (speed @ way)) * way
-            self.act(push, s.a, pull)
-            self.act(push, s.b, -pull)
-        rods = self.scene.rods
-        if not rods:
-            return push / self.mass
-        rows, wanted = np.zeros((len(rods), len(now), 2)), np.zeros(len(rods))
-        for row, (k, (a, b)) in zip(rows, enumerate(rods), strict=True):
-            apart, speed = self.between(a, b, now), self.between(a, b, vel, still=True)
-            self.act(row, a, -apart)
-            self.act(row, b, apart)
-            wanted[k] = -(speed @ speed)
-        flat, shares = rows.reshape(len(rods), -1), (rows / self.mass).reshape(len(rods), -1)
-        pulls = np.linalg.solve(flat @ shares.T, wanted - shares @ push.ravel())
-        return (push + (flat.T @ pulls).reshape(-1, 2)) / self.mass
-
-    def between(self, a, b, values, still=False):
-        """Return what b has less what a has; a body that does not move has its place, or 0."""
-        ends = []
-        for i in (a, b):
-            fixed = (0.0, 0.0) if still else self.scene.bodies[i].pos
-            ends.append(values[self.place[i]] if i in self.place else np.array(fixed))
-        return ends[1] - ends[0]
-
-    def act(self, row, i, value):
-        if i in self.place:
-            row[self.place[i]] += value
+    for now in KNOWN[key]:
+        engine.step(DT)
+        places = np.array([state[:2] for state in states(engine)])
+        worst = max(worst, float(np.hypot(*(places - now).T).max()))
+    return worst
 
 
 # ---------------------------------------------------------------- scenes
@@ -244,15 +166,12 @@ def struck(degrees):
     return Scene([ball, *ends], ("Contacts", "Bounce", "Rods"), [(1, 2)], gravity=(0, 0))
 
 
-def after_strike(trial, scene, degrees):
-    """Return how far (px/s) the ball's velocity is off just after the hit."""
-    engine = trial.build(scene)
-    run(engine, 0.4)
+def struck_exact(degrees):
+    """Return the ball's velocity (px/s) just after the hit."""
     a = math.radians(degrees)
     inverse = math.cos(a) ** 2 / 2 + math.sin(a) ** 2  # 1/kg, of the end along the hit
-    exact = 300 * (1 - 2 / (1 + inverse))
-    state = engine.read(0)
-    return math.hypot(state.vx - exact * math.cos(a), state.vy - exact * math.sin(a))
+    fast = 300 * (1 - 2 / (1 + inverse))
+    return fast * math.cos(a), fast * math.sin(a)
 
 
 def spring_chain(count, stiffness, damping, at_rest):
@@ -268,9 +187,8 @@ def spring_chain(count, stiffness, damping, at_rest):
 
 def hangs_low(trial, scene, seconds=20):
     """Return how far the stretch of a chain of springs is off, as a share."""
-    engine, count = trial.build(scene), len(scene.springs)
-    run(engine, seconds)
-    stretch = engine.read(count).y - 20 * count
+    count = len(scene.springs)
+    stretch = run_for(trial, scene, seconds).read(count).y - 20 * count
     return share_off(stretch, count * (count + 1) / 2 * G / scene.springs[0].stiffness)
 
 
@@ -328,7 +246,8 @@ def make_pendulum_rows():
         scene = partial(pendulum, 140.0, degrees)
         yield Row(f"pendulum: from {degrees}°, period",
                   "2π √(l/g) divided by the arithmetic-geometric mean of 1 and cos(θ/2).",
-                  scene, period_off, clock(), quick=degrees == 90)
+                  scene, partial(period_off, exact=pendulum_period(140.0, degrees)), clock(),
+                  quick=degrees == 90)
         height = 6 * G * 140 * (1 - math.cos(math.radians(degrees)))
         yield Row(f"pendulum: from {degrees}°, energy for 20 s", KEPT, scene,
                   partial(energy_off, seconds=20, scale=height), energy_bound(),
@@ -380,7 +299,7 @@ def make_rod_rows():
                   partial(ever_stretches, seconds=2), seen())
     yield Row("dumbbell: tumbles as it falls, centre of mass",
               "The centre of mass moves as one ball would.",
-              partial(tumbling, 300.0, 5.0, (0.0, G), (200.0, -300.0)), centre_falls, late(G))
+              partial(tumbling, 300.0, 5.0, (0.0, G), (200.0, -300.0)), centre_off, late(G))
     for count, fast in ((12, 200.0), (6, 500.0)):
         yield Row(f"ring: {count} rods at {fast:g} px/s, angular momentum", "It is kept.",
                   partial(ring, count, fast),
@@ -391,60 +310,57 @@ def make_rod_rows():
     for degrees in (0, 45, 90):
         yield Row(f"strike: the end of a rod at {degrees}°",
                   "By momentum and energy: across the rod its end weighs one ball, along it two.",
-                  partial(struck, degrees), partial(after_strike, degrees=degrees), law(300),
-                  quick=degrees == 90, **PUSH)
+                  partial(struck, degrees),
+                  partial(velocity_off_after, exact=struck_exact(degrees), seconds=0.4, i=0),
+                  law(300), quick=degrees == 90, **PUSH)
 
 
 def make_spring_rows():
-    springs = {"needs": ("Springs",)}
     for hertz in (1, 5):
         stiffness = (2 * math.pi * hertz) ** 2
         scene = partial(oscillator, stiffness)
         yield Row(f"spring: {hertz} Hz, path for 10 s", "It follows a cosine.", scene,
-                  partial(follows, seconds=10), late(50 * 2 * math.pi * hertz), **springs)
+                  partial(follows, seconds=10), late(50 * 2 * math.pi * hertz))
         yield Row(f"spring: {hertz} Hz, swing after 30 s", "Energy is kept, and the swing with it.",
-                  scene, partial(swing_off, seconds=30), energy_bound(), quick=hertz == 1,
-                  **springs)
+                  scene, partial(swing_off, seconds=30), energy_bound(), quick=hertz == 1)
     for power in (4, 6, 9):
         yield Row(f"spring: k/m = 1e{power}/s², swing", "The swing never grows.",
                   partial(oscillator, 10.0**power), partial(swing_off, seconds=10, ever=True),
-                  energy_bound(), **springs)
+                  energy_bound())
     for damping in (1.0, 5.0, 20.0, 60.0):
         yield Row(f"spring: damping {damping:g} kg/s at k = 100", TINY, partial(damped, damping),
-                  partial(follows, seconds=4), late(500), quick=damping == 5, **springs)
+                  partial(follows, seconds=4), late(500), quick=damping == 5)
     yield Row("spring: 1e4 with damping 400", TINY, partial(damped, 400.0, 1e4),
-              partial(follows, seconds=1), late(5000), **springs)
+              partial(follows, seconds=1), late(5000))
     for stiffness in (1e2, 1e4, 1e6, 1e8):
         yield Row(f"springs: five hang at rest, k = {stiffness:.0e}",
                   "Each carries what hangs below it: the stretch is Σ i m g / k.",
-                  partial(spring_chain, 5, stiffness, 0.0, True), stays, seen(), **springs)
+                  partial(spring_chain, 5, stiffness, 0.0, True), stays, seen())
     for stiffness, damping in ((1e2, 5.0), (1e3, 20.0), (1e4, 20.0), (1e4, 200.0), (1e5, 200.0),
                                (1e6, 1000.0)):
         yield Row(f"springs: five come to rest, k = {stiffness:.0e}, damping {damping:g}",
                   "At rest damping does nothing: the stretch is Σ i m g / k.",
                   partial(spring_chain, 5, stiffness, damping, False),
                   partial(hangs_low, seconds=30 if stiffness < 1e4 else 10),
-                  Bound(0.01, "one hundredth of the stretch"), quick=damping == 200, **springs)
+                  Bound(0.01, "one hundredth of the stretch"), quick=damping == 200)
     for fast in (200.0, 949.0):
         yield Row(f"ellipse: from {fast:g} px/s, path for 5 s",
                   "On a spring without length it goes around on one ellipse for ever.",
-                  partial(ellipse, fast), partial(follows, seconds=5), late(max(fast, 949)),
-                  **springs)
+                  partial(ellipse, fast), partial(follows, seconds=5), late(max(fast, 949)))
         yield Row(f"ellipse: from {fast:g} px/s, angular momentum",
                   "A pull towards a point keeps it.", partial(ellipse, fast), ellipse_spin,
-                  Bound(0.01, "kept; one hundredth, as for energy"), **springs)
+                  Bound(0.01, "kept; one hundredth, as for energy"))
     for mass in (1.0, 100.0):
         yield Row(f"loose pair: 1:{mass:g}, path for 3 s", TINY, partial(loose_pair, mass),
-                  partial(follows, seconds=3), late(50 * math.sqrt(400 * (1 + 1 / mass))),
-                  **springs)
+                  partial(follows, seconds=3), late(50 * math.sqrt(400 * (1 + 1 / mass))))
     yield Row("loose pair: turns, angular momentum", "It is kept.",
               partial(loose_pair, 3.0, 100.0),
-              partial(moment_lost, which=(2,), scale=150 * 300.0, seconds=10), law(1), **springs)
+              partial(moment_lost, which=(2,), scale=150 * 300.0, seconds=10), law(1))
     for number in (1, 3, 5):
         fast = 10 * 2 * 20 * math.sin(math.pi * number / 12)
         yield Row(f"mode {number} of five balls on springs, path for 3 s",
                   "Each mode keeps its shape and goes with a cosine.", partial(mode, number),
-                  partial(follows, seconds=3), late(fast), **springs)
+                  partial(follows, seconds=3), late(fast))
 # fmt: on
 
 
