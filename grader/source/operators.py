@@ -5,6 +5,7 @@ that a hurried student could have written, and that a good check should notice.
 """
 
 import ast
+import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -52,7 +53,21 @@ ATTRIBUTES = (
     ("jn", "jt"),
     ("bias", "k"),
 )
+CONFUSED = (  # attributes that are easily confused
+    ("x", "y"),
+    ("a", "b"),
+    ("pos", "vel"),
+    ("angle", "omega"),
+    ("inv_mass", "inv_inertia", "mass"),
+    ("jn", "jt"),
+    ("friction", "restitution"),
+    ("linear_damping", "angular_damping"),
+)
 ANY_ORDER = {"max", "min"}  # swapping arguments of these changes nothing
+
+ENDING = re.compile(r"\d+|_[a-z]$")  # in which similar names differ
+SUMS = ast.Add | ast.Sub | ast.Mult | ast.Div
+ATOMS = ast.Constant | ast.Tuple | ast.List | ast.Compare | ast.BoolOp | ast.Lambda
 
 
 @dataclass(frozen=True)
@@ -92,6 +107,33 @@ def walk_places(tree: ast.AST) -> Iterator[Place]:
                 yield from walk_places(item)
 
 
+@dataclass(frozen=True)
+class Edit:
+    """Replacements for some places of a tree at the same time, and the kind of this change."""
+
+    kind: str
+    places: tuple[Place, ...]
+    offers: tuple[Offer, ...]
+
+    def put_into(self, tree: ast.AST) -> str:
+        """Return the code of the tree with the edit, which is undone afterwards."""
+        pairs = zip(self.places, self.offers, strict=True)
+        restores = [place.put(offer) for place, offer in pairs]
+        code = ast.unparse(ast.fix_missing_locations(tree))
+        for restore in restores:
+            restore()
+        return code
+
+
+def list_edits(
+    kind: str, operator: Operator, places: Iterable[tuple[Place, ...]], names: frozenset[str]
+) -> Iterator[Edit]:
+    """Yield the edits by one operator; it changes several places in the same way."""
+    for some in places:
+        for offers in zip(*(operator(each.node, names) for each in some), strict=False):
+            yield Edit(kind, some, offers)
+
+
 def make_changes(code: str, names: frozenset[str] = frozenset()) -> Iterator[tuple[str, str]]:
     """Yield every change of one thing in `code`: the operator's name and the code after it.
 
@@ -102,11 +144,8 @@ def make_changes(code: str, names: frozenset[str] = frozenset()) -> Iterator[tup
     known = names | names_in(tree)
     for place in list(walk_places(tree)):
         for operator in OPERATORS:
-            for offer in operator(place.node, known):
-                restore = place.put(offer)
-                text = ast.unparse(ast.fix_missing_locations(tree))
-                restore()
-                yield operator.__name__, text
+            for edit in list_edits(operator.__name__, operator, [(place,)], known):
+                yield edit.kind, edit.put_into(tree)
 
 
 def names_in(tree: ast.AST) -> frozenset[str]:
@@ -227,12 +266,20 @@ def change_condition(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
         yield ast.IfExp(node.test, node.orelse, node.body)
 
 
-def change_statement(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Remove a statement or only its condition, run it twice, or return before it."""
+def leave_out_statement(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Remove a statement."""
     if isinstance(node, ast.stmt):
         yield []
+
+
+def leave_out_condition(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Run the body of an `if` in every case."""
     if isinstance(node, ast.If) and not node.orelse:
         yield node.body
+
+
+def add_statement(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Return before a statement, or run it twice."""
     if isinstance(node, ast.stmt) and not isinstance(node, ast.Return):
         yield [ast.Return(None), node]
     if isinstance(node, ast.AugAssign | ast.Expr):
@@ -250,7 +297,134 @@ def cut_loop_short(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
             yield ast.For(node.target, items, node.body, node.orelse)
 
 
-OPERATORS: tuple[Operator, ...] = (
+# ---------------------------------------------------------------- operators that may mend a line
+
+
+def change_sign(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Replace `x` by `-x`."""
+    if isinstance(node, ast.expr) and not isinstance(node, ATOMS | ast.UnaryOp):
+        yield ast.UnaryOp(ast.USub(), node)
+
+
+def leave_out_term(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Replace `x + y`, `x and y`, `x if z else y`, `max(x, y)` and similar by `x` or `y`."""
+    match node:
+        case ast.BinOp(left, op, right) if isinstance(op, SUMS):
+            yield from (left, right)
+        case ast.IfExp(_, left, right):
+            yield from (left, right)
+        case ast.BoolOp(values=parts) | ast.Call(ast.Name("max" | "min"), args=parts):
+            yield from parts
+
+
+def move_bracket(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Replace `x + y * z` by `(x + y) * z`, also in longer sums, and the reverse."""
+    match node:
+        case ast.BinOp(
+            ast.BinOp(left, ast.Add() | ast.Sub() as plus, right),
+            ast.Mult() | ast.Div() as times,
+            factor,
+        ):
+            yield ast.BinOp(left, plus, ast.BinOp(right, times, factor))
+        case ast.BinOp(_, ast.Add() | ast.Sub(), last):
+            terms = terms_of(node)
+            factors: list[tuple[ast.operator, ast.expr]] = []
+            while isinstance(last, ast.BinOp) and isinstance(last.op, ast.Mult | ast.Div):
+                factors.insert(0, (last.op, last.right))
+                last = last.left
+                for first in range(len(terms) - 1):
+                    inner = add_up([*terms[first:-1], (terms[-1][0], last)])
+                    for op, factor in factors:
+                        inner = ast.BinOp(inner, op, factor)
+                    yield add_up([*terms[:first], (terms[first][0], inner)])
+
+
+def terms_of(node: ast.expr) -> list[tuple[ast.operator, ast.expr]]:
+    """Return the terms of a sum, each with the sign before it."""
+    match node:
+        case ast.BinOp(left, ast.Add() | ast.Sub() as plus, right):
+            return [*terms_of(left), (plus, right)]
+    return [(ast.Add(), node)]
+
+
+def add_up(terms: list[tuple[ast.operator, ast.expr]]) -> ast.expr:
+    whole = terms[0][1]
+    for plus, term in terms[1:]:
+        whole = ast.BinOp(whole, plus, term)
+    return whole
+
+
+def swap_operands(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Replace `x - y` by `y - x`."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub | ast.Div):
+        yield ast.BinOp(node.right, node.op, node.left)
+
+
+def swap_targets(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Replace `x, y = z` by `y, x = z`."""
+    match node:
+        case ast.Assign([ast.Tuple([first, second], ctx)], value):
+            yield ast.Assign([ast.Tuple([second, first], ctx)], value)
+
+
+def change_and(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Replace `and` by `or`."""
+    if isinstance(node, ast.BoolOp):
+        yield ast.BoolOp(ast.Or() if isinstance(node.op, ast.And) else ast.And(), node.values)
+
+
+def use_a_similar_name(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Replace `v1` by `v2`, and `vel_b` by `vel_a`."""
+    if isinstance(node, ast.Name) and node.id in names:
+        stem = ENDING.sub("", node.id)
+        for each in sorted(names - {node.id}):
+            if ENDING.sub("", each) == stem:
+                yield ast.Name(each, node.ctx)
+
+
+def use_another_name(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Use another name."""
+    if isinstance(node, ast.Name) and node.id in names:
+        yield from (ast.Name(each, node.ctx) for each in sorted(names - {node.id}))
+
+
+def use_another_attribute(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Replace `b.pos.x` by `b.pos.y`."""
+    if isinstance(node, ast.Attribute):
+        for other in related_names(node.attr, CONFUSED):
+            yield ast.Attribute(node.value, other, node.ctx)
+
+
+def double(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Replace `x` by twice or half of it."""
+    if isinstance(node, ast.expr) and not isinstance(node, ATOMS):
+        yield from (ast.BinOp(node, ast.Mult(), ast.Constant(each)) for each in (2, 0.5))
+
+
+def add_factor(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Multiply by a name, or divide by it."""
+    if isinstance(node, ast.expr) and not isinstance(node, ATOMS):
+        for each in sorted(names):
+            yield ast.BinOp(node, ast.Mult(), ast.Name(each))
+            yield ast.BinOp(node, ast.Div(), ast.Name(each))
+
+
+def add_limit(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Replace `x` by `max(0, x)`, `min(0, x)` or `abs(x)`."""
+    if isinstance(node, ast.expr) and not isinstance(node, ATOMS):
+        for name in ("max", "min"):
+            yield ast.Call(ast.Name(name), [ast.Constant(0), node], [])
+        yield ast.Call(ast.Name("abs"), [node], [])
+
+
+def add_to_it(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Replace `=` by `+=` or `-=`."""
+    match node:
+        case ast.Assign([ast.Name() | ast.Attribute() as target], value):
+            yield from (ast.AugAssign(target, sign, value) for sign in (ast.Add(), ast.Sub()))
+
+
+OPERATORS: tuple[Operator, ...] = (  # of mutants
     change_arithmetic,
     change_comparison,
     change_constant,
@@ -259,6 +433,8 @@ OPERATORS: tuple[Operator, ...] = (
     swap_arguments,
     change_update,
     change_condition,
-    change_statement,
+    leave_out_statement,
+    leave_out_condition,
+    add_statement,
     cut_loop_short,
 )

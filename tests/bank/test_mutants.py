@@ -50,7 +50,9 @@ SNIPPETS = {
     "swap_arguments": ("f(u, w, z)", {"f(w, u, z)", "f(u, z, w)"}),
     "change_update": ("s += u", {"s -= u", "s = u"}),
     "change_condition": ("while u:\n    s()", {"while not u:\n    s()", "if u:\n    s()"}),
-    "change_statement": ("if u:\n    s()", {"pass", "s()", "return\nif u:\n    s()"}),
+    "leave_out_statement": ("if u:\n    s()", {"pass", "if u:\n    pass"}),
+    "leave_out_condition": ("if u:\n    s()", {"s()"}),
+    "add_statement": ("if u:\n    s()", {"return\nif u:\n    s()"}),
     "cut_loop_short": (
         "for i in u:\n    f(i)",
         {"for i in u:\n    f(i)\n    break", "for i in list(u)[1:]:\n    f(i)"},
