@@ -14,11 +14,11 @@ from grader.judge.passed import PassedPrograms
 from grader.judge.reference import Reference
 from grader.judge.result import CheckResult
 from grader.judge.rubric import Check, Rubric, Todo, load_rubric
-from grader.judge.submission import Submission, handed_out, take_in
+from grader.judge.submission import Submission, handed_out, plain_files, take_in
 from grader.judge.wall.children import Child, Worker
 from grader.judge.wall.isolation import Isolation
 from grader.judge.wall.sandbox import Sandbox
-from grader.source.regions import python_files, shape_of
+from grader.source.regions import shape_of
 
 if TYPE_CHECKING:
     from grader.judge.explain.names import Names
@@ -150,9 +150,12 @@ def as_in_reference(tree: Path, reference: Path | None) -> list[str]:
 
 
 def has_same_files(folder: Path, other: Path) -> bool:
-    """Return whether a folder holds the same Python files as another, and nothing else."""
-    files = {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
-    return files == {p.relative_to(other): p.read_bytes() for p in python_files(other)}
+    """Return whether a folder holds the same files as another one, which need not exist."""
+    return other.is_dir() and contents(folder) == contents(other)
+
+
+def contents(folder: Path) -> dict[Path, bytes]:
+    return {path.relative_to(folder): path.read_bytes() for path in plain_files(folder)}
 
 
 @cache

@@ -71,13 +71,15 @@ def copy_file(entry: "os.DirEntry[str]", target: str) -> None:
 def compile_all(setup: ChildSetup) -> None:
     """Compile the programs into the folder of compiled files, which other children only read.
 
-    No line of the submission runs. A file that cannot be compiled is left out: the child that
-    imports it says why. Compiling stops when the folder is full.
+    No line of the submission runs. Folders that children do not copy are left out, and a file that
+    cannot be compiled: the child that imports it says why. Compiling stops when the folder is full.
     """
     submission, bytecode = Path(setup.submission), Path(setup.bytecode)
     size = 0
     for source in list_sources(submission, setup.programs)[: setup.limits.scratch_files]:
         inside = source.relative_to(submission)
+        if inside.parts[0] in setup.shown:
+            continue
         target = bytecode / inside.parent / f"{source.stem}.{sys.implementation.cache_tag}.pyc"
         with suppress(py_compile.PyCompileError, OSError, ValueError, MemoryError):
             py_compile.compile(str(source), str(target), str(source), doraise=True)
