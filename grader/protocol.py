@@ -215,6 +215,9 @@ class Call(Struct, frozen=True, tag="call"):
     twice: bool = False  # call twice: the answer may depend on nothing but the arguments
     stepping: bool = False  # count the steps of the world in the arguments, without running them
     states: list[int] = []  # objects whose state after the call comes with the answer
+    marks: dict[str, float] = {}  # fields to set in the returned contact afterwards
+    ref: int = 0  # the number of the returned object from now on; 0: the child chooses it
+    quiet: bool = False  # a setup: its answer is not needed
 
 
 class Get(Struct, frozen=True, tag="get"):
@@ -304,7 +307,7 @@ class Play(Struct, frozen=True, tag="play"):
     step_ms: float = 0.0  # duration of each step on the scripted clock
 
 
-Setup = Set | MakeBody | MakeWorld  # requests that need no answer of their own
+Setup = Set | MakeBody | MakeWorld | Call  # requests that need no answer of their own
 Request = (
     Import | Remembered | Call | Get | Set | MakeBody | MakeWorld | Simulate | Integrate | Play
 )
@@ -450,6 +453,8 @@ class WithMoments(Struct, frozen=True, tag="with-moments"):
 
 
 class Asked(Struct, frozen=True):
+    """A question; a message holds one or more, and each gets an answer of its own."""
+
     number: int
     request: Request | Record
     first: list[Setup] = []  # performed before it; a failure there is the answer

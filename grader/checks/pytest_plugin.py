@@ -65,7 +65,8 @@ class CheckItem(pytest.Item):
         function: Any = getattr(load_checks(self.todo), self.check.id)
         lab = self.session.stash[GRADING].new_lab(self.todo, self.check)
         with lab.opened(), kept_examples(function, None):
-            function(lab=lab)
+            with lab.settled():
+                function(lab=lab)
             if lab.overstepped is not None:
                 raise lab.overstepped
 

@@ -44,7 +44,18 @@ def given(
         phases=phases if examples > 2 else phases[:2],
         suppress_health_check=list(HealthCheck),  # pyright: ignore[reportArgumentType]
     )
-    return lambda function: settings(hypothesis.given(**strategies)(function))
+    return lambda function: settings(hypothesis.given(**strategies)(settled(function)))
+
+
+def settled(function: Property) -> Property:
+    """Let all answers be judged before an example ends."""
+
+    @wraps(function)
+    def example(lab: Any, **drawn: Any) -> None:
+        with lab.settled():
+            function(lab, **drawn)
+
+    return example
 
 
 def between(low: int, high: int) -> st.SearchStrategy[int]:

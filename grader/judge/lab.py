@@ -9,8 +9,9 @@ import random
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from itertools import accumulate, count
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, TypeVar
 
 import msgspec
 
@@ -44,10 +45,14 @@ from grader.protocol import (
 
 STEP = 1 / 120  # s
 ROUNDED = 1e-6  # ms
+Judge = Callable[[Value], None]  # insists on the right answer
+Result = TypeVar("Result")
+Noted = tuple[str, tuple[Any, ...]]  # a question, to recognise known mistakes: about, inputs
 Opening = tuple[int, Event | None]  # frames to wait, and the event that ends the title
 Frame = Mapping[Thing, str]  # the fields that may change, by their owner
 NOTHING: Frame = {}
 OURS = 1_000_000  # the judge numbers objects from here on, the child below
+TOGETHER = 100  # questions in one message
 MAX_OBSERVATIONS = 400  # a shrinking counterexample makes many; the first ones are enough
 
 
@@ -61,7 +66,13 @@ class Observation:
 
 
 class Lab(Decoder):
-    """One check's view of the submission; `open_child` starts a fresh process when first needed."""
+    """One check's view of the submission; `open_child` starts a fresh process when first needed.
+
+    A question with a function `then` that judges its answer goes into one message with the next
+    ones. They are judged in order, before the next question without one, and when the check ends.
+    """
+
+    together = TOGETHER
 
     def __init__(
         self,
@@ -85,6 +96,8 @@ class Lab(Decoder):
         self.numbers = count(OURS)  # for objects that the judge makes
         self.remembers: list[str] = []  # names that kept a value; see Remembered
         self.played = False  # the child has run a program
+        self.posted: list[Callable[[], None]] = []  # each waits for an answer and judges it
+        self.judges = False  # one of them works, and may ask nothing
         self.notes: list[str] = []  # sentences for the report of a check that passes
         self.opening: Opening | None = None  # of a program that begins with a title
 
@@ -105,6 +118,15 @@ class Lab(Decoder):
             yield self
         finally:
             self.connection.end()
+
+    @contextmanager
+    def settled(self) -> Iterator[None]:
+        """Judge all answers at the end; after a failure, forget the questions."""
+        try:
+            yield
+            self.settle()
+        finally:
+            self.posted.clear()
 
     def saw(self, about: str, inputs: tuple[Any, ...], answer: Any) -> None:
         """Remember an answer, to recognise known mistakes by their numbers."""
@@ -142,6 +164,9 @@ class Lab(Decoder):
         changes: Frame | None = None,
         twice: bool = False,
         sees: Iterable[Thing] = (),
+        marks: dict[str, float] | None = None,
+        noted: Noted | None = None,
+        then: Judge | None = None,
         **kwargs: Any,
     ) -> Value:
         """Call `name` of the TODO's module, or `module:name`.
@@ -149,14 +174,24 @@ class Lab(Decoder):
         `changes` names the fields that the call may change, as in {a: "vel"}; NOTHING is for a
         function that only answers. Without `changes` nothing is compared. A function called `twice`
         must give the same answer. See `overstepped`. The state of the things that it may change
-        comes with the answer, and that of the things in `sees`.
+        comes with the answer, and that of the things in `sees`. `marks` are fields to set in the
+        returned contact afterwards. An exception is an observation of what is `noted`.
         """
         target = name if ":" in name else f"{self.module}:{name}"
         named = {key: plain(value) for key, value in kwargs.items()}
         values = [plain(each) for each in args]
         framed, states = changes is not None, list_refs(changes or (), sees)
-        request = Call(target, values, named, framed=framed, twice=twice, states=states)
-        return self._framed(name, request, changes).value
+        request = Call(
+            target, values, named, False, framed, twice, states=states, marks=marks or {}
+        )
+        return self._ask(request, partial(self._compare, name, request, changes), noted, then)
+
+    def make(self, name: str, *args: Any) -> Thing:
+        """Return a new object of a class of the TODO's module, such as a rod between two bodies."""
+        made = self._new(f"the {name}")
+        values = [plain(each) for each in args]
+        self._value(Call(f"{self.module}:{name}", values, ref=made.ref, quiet=True))
+        return made
 
     def tell(
         self,
@@ -165,16 +200,62 @@ class Lab(Decoder):
         *args: Any,
         changes: Frame | None = None,
         sees: Iterable[Thing] = (),
+        noted: Noted | None = None,
+        then: Judge | None = None,
     ) -> Value:
         """Call a method of an object in the child; the arguments are those of `call`."""
         target, values = f"#{thing.ref}.{method}", [plain(each) for each in args]
         framed, states = changes is not None, list_refs(changes or (), sees)
         request = Call(target, values, framed=framed, states=states)
-        return self._framed(method, request, changes).value
+        return self._ask(request, partial(self._compare, method, request, changes), noted, then)
 
-    def _framed(self, name: str, request: Call | Integrate, changes: Frame | None) -> Returned:
+    def let(self, thing: Thing, method: str, *args: Any) -> None:
+        """Call a method whose answer is not needed."""
+        values = [plain(each) for each in args]
+        self._value(Call(f"#{thing.ref}.{method}", values, quiet=True))
+
+    def _ask(
+        self,
+        request: Request,
+        read: Callable[[Returned], Value],
+        noted: Noted | None = None,
+        then: Judge | None = None,
+    ) -> Value:
+        """Return the answer as `read` reads it, or post the question and judge the answer later."""
+        running, wait = self.running, self._post(request)
+
+        def answer() -> Value:
+            self.running = running
+            try:
+                return read(self._expect_value(self._guard(wait)))
+            except Broke as failure:
+                if failure.raised is not None and noted is not None:
+                    self.saw(*noted, failure.raised.error)
+                raise
+
+        if then is None:
+            self.settle()
+            return answer()
+        self.posted.append(lambda: then(answer()))
+        if len(self.posted) >= self.together:
+            self.settle()
+        return None
+
+    def settle(self) -> None:
+        """Judge the answers to all questions that were posted with a function for it."""
+        posted, self.posted, running = self.posted, [], self.running
+        self.judges = True
+        try:
+            for judge_it in posted:
+                judge_it()
+        finally:
+            self.judges = False
+        self.running = running
+
+    def _compare(
+        self, name: str, request: Call | Integrate, changes: Frame | None, returned: Returned
+    ) -> Value:
         """Return the answer, and remember a forbidden change until the check ends."""
-        returned = self._returned(request)
         if changes is not None and self.overstepped is None:
             beyond = [
                 each
@@ -193,7 +274,7 @@ class Lab(Decoder):
                 f"first {self.describe(returned.value)}, then {self.describe(returned.again)}",
                 f"{name} must depend on its arguments alone.",
             )
-        return returned
+        return returned.value
 
     def _trespass(self, name: str, changes: Frame, beyond: list[Change]) -> NotYet | None:
         """Return the failure of a function that made forbidden changes, or None."""
@@ -224,7 +305,8 @@ class Lab(Decoder):
         """
         target, args = f"{self.module}:advance", [plain(world), accumulator, seconds]
         request = Call(target, args, framed=True, stepping=True)
-        returned = self._framed("advance", request, NOTHING)
+        returned = self._returned(request)
+        self._compare("advance", request, NOTHING, returned)
         answer = self.items(returned.value, "what advance returns")
         self.want(len(answer) == 2, "(accumulator, steps)", self.describe(returned.value))
         rest = self.number(answer[0], "the accumulator")
@@ -236,9 +318,19 @@ class Lab(Decoder):
         arguments = [plain(each) for each in args]
         return self._returned(Call(f"#{thing.ref}.{method}", arguments, work=True)).lines
 
-    def get(self, thing: Thing, name: str) -> Value:
+    def get(self, thing: Thing, name: str, then: Judge | None = None) -> Value:
         """Return an attribute of an object, such as a rod's `length`."""
-        return self._value(Get(thing.ref, name))
+        if then is None:
+            return self._value(Get(thing.ref, name))
+        return self._ask(Get(thing.ref, name), lambda returned: returned.value, then=then)
+
+    def gets(self, wanted: Iterable[tuple[Thing, str]]) -> list[Value]:
+        """Return attributes of objects, by their names; an empty name is the object itself."""
+        found: list[Value] = []
+        for thing, name in wanted:
+            self.get(thing, name, then=found.append)
+        self.settle()
+        return found
 
     def put(self, thing: Thing, **fields: Any) -> None:
         """Set attributes of an object; a tuple becomes a pair."""
@@ -342,6 +434,7 @@ class Lab(Decoder):
         force: Sequence[float],
         steps: int = 1,
         twice: bool = False,
+        then: Callable[[list[Pair]], None] | None = None,
     ) -> list[Pair]:
         """Return the states (x, v) after each step of an integrator under a polynomial force of x.
 
@@ -349,11 +442,19 @@ class Lab(Decoder):
         """
         target = f"{self.module}:{method}"
         request = Integrate(target, *start, dt, list(force), steps, twice)
-        value = self._framed(method, request, NOTHING if twice else None).value
-        answers = self.items(value, f"what {method} returns")
-        states = [self.pair(each, f"what {method} returns") for each in answers]
-        self.want(len(states) == steps, f"{steps} states", f"{len(states)}")
-        return states
+        compare = partial(self._compare, method, request, NOTHING if twice else None)
+
+        def read(value: Value) -> list[Pair]:
+            answers = self.items(value, f"what {method} returns")
+            states = [self.pair(each, f"what {method} returns") for each in answers]
+            self.want(len(states) == steps, f"{steps} states", f"{len(states)}")
+            return states
+
+        if then is None:
+            return read(self._ask(request, compare))
+        judge = then
+        self._ask(request, compare, then=lambda value: judge(read(value)))
+        return []
 
     def places(self, method: str, start: Pair, dt: float, force: Sequence[float]) -> list[float]:
         """Return the positions at which one step of an integrator asks for the acceleration."""
@@ -447,14 +548,31 @@ class Lab(Decoder):
         return self._returned(request).value
 
     def _returned(self, request: Request) -> Returned:
-        reply = self._reply(request)
+        return self._expect_value(self._reply(request))
+
+    def _expect_value(self, reply: Answer) -> Returned:
         if not isinstance(reply, Returned):
             self.fail("a value", "something else")
         return reply
 
     def _reply(self, request: Request) -> Answer:
+        reply = self._guard(lambda: self.connection.answer_at_once(request, self.running))
+        if reply is None:
+            wait = self._post(request)
+            self.settle()
+            reply = self._guard(wait)
+        return reply
+
+    def _post(self, request: Request) -> Callable[[], Answer]:
+        """Return a function that waits for the answer to a question."""
+        if self.judges:
+            raise RuntimeError("a question about the answer to an earlier one, which is too late")
+        return self._guard(lambda: self.connection.post(request, self.running))
+
+    def _guard(self, act: Callable[[], Result]) -> Result:
+        """Return the result of an act, and remember the failure that it raises."""
         try:
-            return self.connection.ask(request, self.running)
+            return act()
         except (Broke, NotYet) as failure:
             self.remember(failure)
             raise

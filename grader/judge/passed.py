@@ -51,9 +51,7 @@ def program_key(
     if they have the same parameters.
     """
     program, tree = submission.program, submission.folder
-    started = [*todo.modules, *(f"{module}.__main__" for module in todo.modules)]
-    loaded = {program.paths[part] for module in started for part in program.list_loaded(module)}
-    texts = {path: program.texts[path] for path in loaded}
+    texts = {path: program.texts[path] for path in program.list_files(todo.modules)}
     for piece in right:
         defined = program.definition(*piece.target.split(":"))
         if defined is None or defined.function is None:

@@ -201,7 +201,8 @@ class Runner:
         little = self.budget.why_little(job.todo.id)
         with lab.opened():
             try:
-                example(lab=lab)
+                with lab.settled():
+                    example(lab=lab)
                 lab.failure = lab.overstepped
             except (NotYet, Broke) as failure:
                 lab.failure = failure

@@ -241,8 +241,9 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
         path.relative_to(submission.folder): read_source(path)
         for path in python_files(submission.folder)
     }
-    submission.uses_numpy = any("numpy" in text for text in texts.values())
     program = submission.program = repair_programs(submission, texts)
+    loaded = program.list_files(todo.module for todo in load_rubric().todos)
+    submission.uses_numpy = any("numpy" in texts[path] for path in loaded)
     for todo in rubric.todos:
         if not todo.function:
             continue

@@ -145,6 +145,12 @@ class Program:
             self.parts[module] = sorted(seen)
         return self.parts[module]
 
+    def list_files(self, programs: Iterable[str]) -> list[Path]:
+        """Return the files that these programs load, each started as `python -m` does."""
+        started = (name for each in programs for name in (each, f"{each}.__main__"))
+        parts = dict.fromkeys(part for name in started for part in self.list_loaded(name))
+        return [self.paths[part] for part in parts]
+
     def names_used(self, module: str, path: str) -> set[str]:
         """Return the names in a function and in the functions that it calls."""
         found: set[str] = set()
@@ -301,7 +307,7 @@ keep_outline = lru_cache(maxsize=64)(make_outline)
 
 def list_imports(package: str, tree: list[ast.stmt]) -> Iterator[str]:
     """Yield the dotted names of modules that a file may import, and of names in them."""
-    for node in ast.walk(ast.Module(tree, [])):
+    for node in every_statement(tree):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -369,6 +375,15 @@ def top_level(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
             case ast.With():
                 inside = node.body
         waiting += reversed(inside)
+
+
+def every_statement(body: Iterable[ast.stmt]) -> Iterator[ast.AST]:
+    """Yield all statements, also those inside others, and the blocks of `try` and `match`."""
+    waiting: list[ast.AST] = list(body)
+    while waiting:
+        node = waiting.pop()
+        yield node
+        waiting += (each for each in ast.iter_child_nodes(node) if not isinstance(each, ast.expr))
 
 
 def statements(text: str) -> list[ast.stmt]:

@@ -118,6 +118,8 @@ def find_misplaced(tree: ast.Module) -> Iterator[tuple[int, str]]:
     while waiting:
         node, in_function, in_loop = waiting.pop()
         match node:
+            case ast.expr() if in_function:  # nothing in it can be misplaced
+                continue
             case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.Lambda():
                 in_function, in_loop = True, False
             case ast.ClassDef():

@@ -21,10 +21,12 @@ from grader.protocol import (
     MAX_TEXT,
     Answered,
     Asked,
+    BodyValue,
     Call,
     Channel,
     ChannelClosed,
     ChildSetup,
+    ContactValue,
     Get,
     Import,
     Integrate,
@@ -35,12 +37,15 @@ from grader.protocol import (
     ProtocolError,
     Ready,
     Record,
+    Ref,
     Remembered,
     Reply,
     Request,
     Returned,
     Set,
     Simulate,
+    SpaceBody,
+    SpaceValue,
     cut,
 )
 from grader.worker.confinement import confine
@@ -53,11 +58,13 @@ from grader.worker.play import call_stepping, play, simulate
 from grader.worker.scripted import shift_seeds
 from grader.worker.session import Session
 from grader.worker.subject import Subject, refs_in
-from grader.worker.values import ContractError
+from grader.worker.values import ContractError, describe
 
 pygame.sysfont.initsysfonts = lambda: None  # it would start fc-list; the default font serves
 
-decoder = msgspec.msgpack.Decoder(Asked)
+OBJECTS = (Ref, BodyValue, ContactValue, SpaceValue, SpaceBody)
+
+decoder = msgspec.msgpack.Decoder(list[Asked])
 
 
 def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) -> None:
@@ -80,12 +87,10 @@ def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) ->
         return  # this child never runs a line of the submission
     os.chdir(folder)  # where a program is started
     session = Session(folder, files, setup.bans)
-    while True:
-        try:
-            asked = decoder.decode(channel.receive())
-        except ChannelClosed:
-            return
-        send(channel, answer(session, asked))
+    with suppress(ChannelClosed):
+        while True:
+            for asked in decoder.decode(channel.receive()):
+                send(channel, answer(session, asked))
 
 
 def answer(session: Session, asked: Asked) -> Answered:
@@ -173,10 +178,16 @@ def call(subject: Subject, request: Call) -> Returned:
     if request.stepping:
         returned = call_stepping(subject, args[0], lambda: function(*args, **kwargs))
     else:
-        returned = Returned(subject.encode(function(*args, **kwargs)))
+        result = function(*args, **kwargs)
+        if request.ref and not isinstance(subject.number(request.ref, result), OBJECTS):
+            raise ContractError(f"{request.target.rpartition(':')[2]} returned {describe(result)}")
+        returned = Returned(subject.encode(result))
         if request.twice:
             again = subject.encode(function(*args, **kwargs))
             returned = msgspec.structs.replace(returned, again=again)
+        if isinstance(returned.value, ContactValue):
+            for name, value in request.marks.items():
+                setattr(result, name, value)
     changed = frame.changes() if frame else []
     states = [subject.state(ref) for ref in request.states]
     return msgspec.structs.replace(returned, changed=changed, states=states)

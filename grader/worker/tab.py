@@ -181,7 +181,7 @@ class TabChannel(InnerChannel):
     def __init__(self, setup: ChildSetup, watch: Watch, pace: float = 1.0) -> None:
         self.setup, self.watch, self.pace = setup, watch, pace
         self.tenant: Tenant | None = None
-        self.asked: Asked | None = None
+        self.asked: list[Asked] = []
         self.answers = [msgspec.msgpack.encode(Ready(os.getpid(), []))]
         self.cpu = 0.0  # s of a usual processor
         self.status = 0  # the exit status of a process in its place
@@ -198,9 +198,8 @@ class TabChannel(InnerChannel):
         return True
 
     def complete(self, seconds: float | None = None) -> bool:
-        asked, self.asked = self.asked, None
-        if asked is not None:
-            self._answer(asked)
+        if self.asked and not self.answers:
+            self._answer(self.asked.pop(0))
         return True
 
     def receive(self, timeout: float | None = None) -> bytes:

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
@@ -60,8 +61,14 @@ def test_loaded_modules_change_no_example(tmp_path: Path):
     assert usual == beside
 
 
+class Seen(list):
+    """A lab that keeps what was drawn."""
+
+    settled = nullcontext
+
+
 def draw(function, seed: int | None = 1) -> list:
-    found: list = []
+    found = Seen()
     with kept_examples(function, seed):
         function(lab=found)
     return found
@@ -102,7 +109,7 @@ def test_a_failing_property_ends_with_the_simplest_example():
         lab.append(n)
         assert n < 150
 
-    found: list = []
+    found = Seen()
     with kept_examples(small, None), pytest.raises(AssertionError):
         small(lab=found)
     assert found[-1] == 150
@@ -112,9 +119,9 @@ def test_examples_can_be_repeated():
     function = make_property()
     inner = function.hypothesis.inner_test
     with kept_examples(function, 1) as examples:
-        function(lab=(found := []))
+        function(lab=(found := Seen()))
     assert function.hypothesis.inner_test is inner
-    again: list = []
+    again = Seen()
     for example in examples:
         example(lab=again)
     assert again == found == draw(function)

@@ -1,6 +1,6 @@
 """Grade under a secret seed, where recorded answers earn nothing."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import msgspec
@@ -14,14 +14,14 @@ from grader.judge.lab import Lab
 from grader.judge.result import Result
 from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall.children import Child, ChildEnded
-from grader.protocol import Answered, Import, Record, Request
+from grader.judge.wall.connection import Connection, Send
+from grader.protocol import Answered, Import, Piece, Record, Request
 
 SOME = frozenset({"8b", "B4"})
 ALL = frozenset[str]()
 Asked = tuple[bytes, ...]  # all requests to a child so far
 
 encode = msgspec.msgpack.encode
-ask = Child.ask
 asked: dict[int, list[bytes]] = {}  # by the child
 
 
@@ -31,6 +31,15 @@ def so_far(child: Child, request: Request | Record) -> Asked:
     history = asked.setdefault(id(child), [])
     history.append(encode(request))
     return tuple(history)
+
+
+def answer_by(send: Send, patch: pytest.MonkeyPatch) -> None:
+    """Let a function answer all requests of all labs, one by one."""
+
+    def connect(module: str, open_child: Callable[[], Child], pieces: list[Piece], _: Send):
+        return Connection(module, open_child, pieces, send)
+
+    patch.setattr("grader.judge.lab.Connection", connect)
 
 
 def grade_solution(seed: int | None, only: frozenset[str]) -> Result:
@@ -44,11 +53,11 @@ def right_answers(only: frozenset[str], patch: pytest.MonkeyPatch) -> dict[Asked
 
     def ask_and_note(child: Child, request: Request | Record) -> Answered:
         asked_so_far = so_far(child, request)
-        answers[asked_so_far] = answered = ask(child, request)
+        answers[asked_so_far] = answered = child.ask(request)
         return answered
 
     with patch.context() as here:
-        here.setattr(Child, "ask", ask_and_note)
+        answer_by(ask_and_note, here)
         result = grade_solution(None, only)
     assert (result.points, result.bonus) == (result.max_points, bonus_of(result))
     return answers
@@ -70,7 +79,7 @@ def test_recorded_answers_earn_nothing_under_a_seed(
             raise ChildEnded("nobody has asked that before")
         return answered
 
-    monkeypatch.setattr(Child, "ask", by_heart)
+    answer_by(by_heart, monkeypatch)
     usual = grade_solution(None, only)
     assert (usual.points, usual.bonus) == (usual.max_points, bonus_of(usual))
     secret = grade_solution(4711, only)

@@ -11,8 +11,8 @@ from grader.checks.digits import want_answer
 from grader.checks.exact import Disc, Rect, Touch
 from grader.checks.strategies import belts, circles, eighths, slow_speeds
 from grader.judge.drawing import between, given
-from grader.judge.lab import NOTHING, STEP, Broke, Lab, Moment, Pair, Thing
-from grader.protocol import ContactValue
+from grader.judge.lab import NOTHING, STEP, Lab, Moment, Pair, Thing
+from grader.protocol import ContactValue, Value
 
 BOX = Rect(0, 0, 40, 20)
 ROUND = range(0, 1000, 50)  # px
@@ -40,7 +40,7 @@ def describe_question(disc: Disc, rect: Rect) -> str:
     )
 
 
-def touch(
+def want_touch(
     lab: Lab,
     circle: Thing,
     box: Thing,
@@ -48,44 +48,47 @@ def touch(
     rect: Rect,
     twice: bool = True,
     noted: bool = True,
-) -> Touch | None:
-    """Return the submission's circle_box for this pair, at the positions of disc and rect.
+) -> None:
+    """Insist on a right answer of circle_box for this pair, at the positions of disc and rect.
 
-    An answer that is not `noted` is not compared with the known mistakes.
+    An answer that is not `noted` is not compared with the known mistakes. The impulses that mark
+    each contact must not appear in the next one.
     """
     if lab.running != describe_question(disc, rect):
         lab.ran(describe_question(disc, rect))  # both have moved since
-    try:
-        contact = lab.contact_or_none(
-            lab.call("circle_box", circle, box, changes=NOTHING, twice=twice)
-        )
-    except Broke as failure:
-        if failure.raised is not None and noted:
-            lab.saw("circle_box", (disc, rect), failure.raised.error)
-        raise
-    answer = None
-    if contact is not None:
-        normal, point = contact.normal, contact.point
-        answer = Touch(normal.x, normal.y, contact.depth, point.x, point.y)
-    if noted:
-        lab.saw("circle_box", (disc, rect), answer)
-    if contact is not None:
-        want_new(lab, contact, circle, box, (disc, rect) if noted else None)
-    return answer
+    question = ("circle_box", (disc, rect)) if noted else None
+
+    def judge(value: Value) -> None:
+        contact = lab.contact_or_none(value)
+        answer = None
+        if contact is not None:
+            normal, point = contact.normal, contact.point
+            answer = Touch(normal.x, normal.y, contact.depth, point.x, point.y)
+        if noted:
+            lab.saw("circle_box", (disc, rect), answer)
+        if contact is not None:
+            order = contact.a == circle.ref, contact.b == box.ref
+            want_new(lab, contact, order, (disc, rect) if noted else None)
+        right = exact.circle_box(disc, rect)
+        good = any(is_same(answer, each) for each in right)
+        want_answer(lab, good, say, right[0], answer)
+
+    lab.call(
+        "circle_box",
+        circle,
+        box,
+        changes=NOTHING,
+        twice=twice,
+        marks={"jn": 12.0, "jt": -5.0},
+        noted=question,
+        then=judge,
+    )
 
 
 def want_new(
-    lab: Lab,
-    contact: ContactValue,
-    circle: Thing,
-    box: Thing,
-    noted: tuple[Disc, Rect] | None,
+    lab: Lab, contact: ContactValue, order: tuple[bool, bool], noted: tuple[Disc, Rect] | None
 ) -> None:
-    """Insist on a contact of this pair without an impulse, then give it one.
-
-    The next contact must not have them.
-    """
-    order = contact.a == circle.ref, contact.b == box.ref
+    """Insist on a contact of the right pair, in order, without an impulse."""
     if noted:
         lab.saw("order", noted, order)
     lab.want(
@@ -98,7 +101,6 @@ def want_new(
         "a new contact, on which no impulse has worked yet: jn = jt = 0",
         f"jn = {contact.jn:g}, jt = {contact.jt:g}",
     )
-    lab.put(Thing(contact.ref), jn=12.0, jt=-5.0)
 
 
 def say(answer: Touch | None, digits: int = 3) -> str:
@@ -110,12 +112,6 @@ def say(answer: Touch | None, digits: int = 3) -> str:
     return f"normal {normal}, depth {depth:.{digits}f} px, point {point}"
 
 
-def want(lab: Lab, answer: Touch | None, right: list[Touch | None], of: str = "") -> None:
-    """Insist on one of the right answers."""
-    good = any(is_same(answer, each) for each in right)
-    want_answer(lab, good, say, right[0], answer, expected=of + "{}")
-
-
 def want_exact(lab: Lab, discs: Iterable[Disc], at: Pair = (0.0, 0.0), **circle: Any) -> None:
     """Insist on the right answers for these discs, with positions relative to the box."""
     size, x, y = lab.about(1.0), lab.about(at[0], 64.0), lab.about(at[1], 64.0)
@@ -123,7 +119,7 @@ def want_exact(lab: Lab, discs: Iterable[Disc], at: Pair = (0.0, 0.0), **circle:
     for each in discs:
         disc = Disc(x + size * each.x, y + size * each.y, size * each.r)
         things = make_pair(lab, disc, box, circle)
-        want(lab, touch(lab, *things, disc, box), exact.circle_box(disc, box))
+        want_touch(lab, *things, disc, box)
 
 
 def is_same(answer: Touch | None, right: Touch | None) -> bool:
@@ -153,8 +149,7 @@ def overlap_from_outside_points_into_the_box(lab: Lab) -> None:
     want_exact(lab, discs[:4], at=(100.0, 50.0))
     for n, (disc, rect) in enumerate(near_round_numbers(lab.about(1 / 8))):
         things = make_pair(lab, disc, rect, {"mass": MASSES[n % len(MASSES)]})
-        answer = touch(lab, *things, disc, rect, twice=False, noted=False)
-        want(lab, answer, exact.circle_box(disc, rect))
+        want_touch(lab, *things, disc, rect, twice=False, noted=False)
 
 
 def near_round_numbers(off: float) -> Iterable[tuple[Disc, Rect]]:
@@ -188,8 +183,7 @@ def a_centre_inside_leaves_by_the_nearest_face(lab: Lab) -> None:
     )
     want_exact(lab, discs)
     middle = Disc(BOX.x, BOX.y, 8)  # two faces are equally near, and either will do
-    answer = touch(lab, *make_pair(lab, middle, BOX), middle, BOX, noted=False)
-    want(lab, answer, exact.circle_box(middle, BOX))
+    want_touch(lab, *make_pair(lab, middle, BOX), middle, BOX, noted=False)
     edges = Disc(7, -20, 8), Disc(-40, 3, 8), Disc(9, 20, 8), Disc(40, -6, 8), Disc(40, 20, 8)
     want_exact(lab, edges, **MOVING)
 
@@ -282,7 +276,7 @@ def any_circle_and_box_agree_with_the_geometry(
             disc, rect = Disc(x + dx, y + dy, size.r), Rect(x, y, size.hx, size.hy)
             lab.put(one[0], pos=(disc.x, disc.y))
             lab.put(one[1], pos=(rect.x, rect.y))
-            want(lab, touch(lab, *one, disc, rect), exact.circle_box(disc, rect))
+            want_touch(lab, *one, disc, rect)
 
 
 # ---------------------------------------------------------------- what a player sees

@@ -11,6 +11,7 @@ from grader.checks.exact import Lever
 from grader.checks.strategies import directions, masses, radii, wherever
 from grader.judge.drawing import given
 from grader.judge.lab import NOTHING, STEP, Lab, Pair, Thing
+from grader.protocol import Value
 
 FLOOR = Lever(0.0, 100.0, 30.0, -100.0)
 DOWN = (0.0, 1.0)
@@ -36,32 +37,6 @@ def say(lever: Lever) -> str:
     return f"{weight}, r {lever.radius:g}, arm ({lever.rx:g}, {lever.ry:g})"
 
 
-def effective_mass(
-    lab: Lab,
-    a: Lever,
-    b: Lever,
-    axis: Pair,
-    things: tuple[Thing, Thing] | None = None,
-    framed: bool = True,
-) -> float:
-    """Return the submission's effective_mass for two discs.
-
-    Unless `framed`, only the number counts, not whether the bodies change.
-    """
-    lab.ran(f"effective_mass along ({axis[0]:g}, {axis[1]:g}): A {say(a)}; B {say(b)}")
-    arms = (a.rx, a.ry), (b.rx, b.ry)
-    both = things or discs(lab, a, b)
-    changes = NOTHING if framed else None
-    value = lab.call("effective_mass", *both, *arms, axis, changes=changes, twice=framed)
-    answer = lab.number(value, "what effective_mass returns")
-    lab.saw("effective_mass", (a, b, axis), answer)
-    return answer
-
-
-def per_kg(value: float, digits: int) -> str:
-    return f"{value:.{digits}g} per kg"
-
-
 def want_exact(
     lab: Lab,
     a: Lever,
@@ -70,10 +45,27 @@ def want_exact(
     things: tuple[Thing, Thing] | None = None,
     framed: bool = True,
 ) -> None:
-    answer = effective_mass(lab, a, b, axis, things, framed)
-    right = exact.effective_mass(a, b, axis)
-    good = math.isclose(answer, right, rel_tol=1e-9)
-    want_answer(lab, good, per_kg, right, answer, digits=6)
+    """Insist on the right effective_mass of two discs.
+
+    Unless `framed`, only the number counts, not whether the bodies change.
+    """
+    lab.ran(f"effective_mass along ({axis[0]:g}, {axis[1]:g}): A {say(a)}; B {say(b)}")
+    arms = (a.rx, a.ry), (b.rx, b.ry)
+    both = things or discs(lab, a, b)
+    changes = NOTHING if framed else None
+
+    def judge(value: Value) -> None:
+        answer = lab.number(value, "what effective_mass returns")
+        lab.saw("effective_mass", (a, b, axis), answer)
+        right = exact.effective_mass(a, b, axis)
+        good = math.isclose(answer, right, rel_tol=1e-9)
+        want_answer(lab, good, per_kg, right, answer, digits=6)
+
+    lab.call("effective_mass", *both, *arms, axis, changes=changes, twice=framed, then=judge)
+
+
+def per_kg(value: float, digits: int) -> str:
+    return f"{value:.{digits}g} per kg"
 
 
 def want_about(lab: Lab, a: Lever, b: Lever, axis: Pair) -> None:

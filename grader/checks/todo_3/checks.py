@@ -10,10 +10,11 @@ from grader.checks.digits import want_answer
 from grader.checks.exact import BETA, Rod
 from grader.checks.strategies import any_spins, any_surface, directions, lengths, masses
 from grader.judge.drawing import given
-from grader.judge.lab import STEP, Broke, Lab, Moment, Pair, Thing
-from grader.protocol import BodyValue
+from grader.judge.lab import STEP, Judge, Lab, Moment, Pair, Thing
+from grader.protocol import BodyValue, Value
 
 ANGLES = (0.703125, -2.40625)  # rad, by which A and B are turned
+Ends = tuple[BodyValue, BodyValue]  # A and B
 Surface = dict[str, float]
 SMOOTH = {"restitution": 0.96875, "friction": 0.015625}
 ROUGH = {"restitution": 0.015625, "friction": 1.53125}
@@ -37,35 +38,28 @@ def join(
     b = lab.circle(
         at_first, 10.0, rod.mass_b, vel=rod.vel_b, omega=spins[1], angle=ANGLES[1], **second
     )
-    joint = lab.thing(lab.call("DistanceJoint", a, b), "a DistanceJoint")
+    joint = lab.make("DistanceJoint", a, b)
     lab.put(b, pos=(x + dx, y + dy))
-    lab.tell(joint, "prepare", rod.dt)
+    lab.let(joint, "prepare", rod.dt)
     return joint, a, b
 
 
-def solve(lab: Lab, rod: Rod, spins: Pair = STILL, at: Pair = STILL) -> tuple[BodyValue, BodyValue]:
-    """Return A and B after a pass over the rod."""
-    lab.ran(
-        f"solve on a rod {rod.length:g} px long at 1/{1 / rod.dt:g} s: "
-        f"A {weight(rod.mass_a)}, {rod.vel_a} px/s; B {weight(rod.mass_b)}, {rod.vel_b} px/s, "
-        f"{in_px(rod.offset)} from A"
-    )
-    joint, a, b = join(lab, rod, spins, at)
-    return tell_solve(lab, joint, a, b, rod)
+def solve(lab: Lab, joint: Thing, a: Thing, b: Thing, rod: Rod) -> Ends:
+    """Return A and B after a pass over a newly prepared rod."""
+    tell_solve(lab, joint, a, b, rod)
+    return read_ends(lab, a, b, rod)
 
 
-def tell_solve(lab: Lab, joint: Thing, a: Thing, b: Thing, rod: Rod) -> tuple[BodyValue, BodyValue]:
-    """Return A and B after a pass over a newly prepared rod, or the exception it raised.
-
-    It may change the velocities of ends that can move, and nothing else.
-    """
+def tell_solve(
+    lab: Lab, joint: Thing, a: Thing, b: Thing, rod: Rod, then: Judge | None = None
+) -> None:
+    """Call solve, which may change the velocities of ends that can move, and nothing else."""
     may = {end: "vel" for end, mass in ((a, rod.mass_a), (b, rod.mass_b)) if mass}
-    try:
-        lab.tell(joint, "solve", changes=may, sees=(a, b))
-    except Broke as failure:
-        if failure.raised is not None:
-            lab.saw("rod", (rod,), failure.raised.error)
-        raise
+    lab.tell(joint, "solve", changes=may, sees=(a, b), noted=("rod", (rod,)), then=then)
+
+
+def read_ends(lab: Lab, a: Thing, b: Thing, rod: Rod) -> Ends:
+    """Return A and B, which came with the answer."""
     ends = lab.state(a), lab.state(b)
     offset = ends[1].pos.x - ends[0].pos.x, ends[1].pos.y - ends[0].pos.y
     lab.saw("rod", (rod,), (*velocities(ends), offset))
@@ -80,7 +74,7 @@ def weight(mass: float) -> str:
     return f"{mass:g} kg" if mass else "static"
 
 
-def velocities(ends: tuple[BodyValue, BodyValue]) -> tuple[Pair, Pair]:
+def velocities(ends: Ends) -> tuple[Pair, Pair]:
     (ax, ay), (bx, by) = (end.vel for end in ends)
     return (ax, ay), (bx, by)
 
@@ -101,15 +95,22 @@ def numbers(pair: Pair, digits: int) -> str:
     return f"({pair[0]:.{digits}f}, {pair[1]:.{digits}f})"
 
 
-def want_exact(
-    lab: Lab, rod: Rod, spins: Pair = STILL, at: Pair = STILL
-) -> tuple[BodyValue, BodyValue]:
-    ends = solve(lab, rod, spins, at)
-    answer, right = velocities(ends), exact.solve_rod(rod)
-    most = rounding(rod, math.hypot(*at))
-    good = all(math.dist(*each) <= most for each in zip(answer, right, strict=True))
-    want_answer(lab, good, say_both, right, answer)
-    return ends
+def want_exact(lab: Lab, rod: Rod, at: Pair = STILL) -> None:
+    """Insist on the right velocities after a pass over the rod."""
+    lab.ran(
+        f"solve on a rod {rod.length:g} px long at 1/{1 / rod.dt:g} s: "
+        f"A {weight(rod.mass_a)}, {rod.vel_a} px/s; B {weight(rod.mass_b)}, {rod.vel_b} px/s, "
+        f"{in_px(rod.offset)} from A"
+    )
+    joint, a, b = join(lab, rod, at=at)
+
+    def judge(_: Value) -> None:
+        answer, right = velocities(read_ends(lab, a, b, rod)), exact.solve_rod(rod)
+        most = rounding(rod, math.hypot(*at))
+        good = all(math.dist(*each) <= most for each in zip(answer, right, strict=True))
+        want_answer(lab, good, say_both, right, answer)
+
+    tell_solve(lab, joint, a, b, rod, then=judge)
 
 
 def rounding(rod: Rod, far: float = 0.0) -> float:
@@ -183,7 +184,7 @@ def a_rod_of_the_right_length_stops_only_the_speed_along_it(lab: Lab) -> None:
             )
     rod = make_similar(lab, Rod(3.0, 1.0, 50.0, (30.0, 40.0), FAST, FAST, STEP))
     joint, a, b = join(lab, rod)
-    tell_solve(lab, joint, a, b, rod)
+    solve(lab, joint, a, b, rod)
     lab.ran("solve on a rod whose ends move alike, then a second under gravity (0, 60)")
     world = lab.world(a, b, joints=[joint], gravity=(0.0, 60.0))
     last = lab.simulate(world, [a, b], 120, every=120)
@@ -254,7 +255,7 @@ def want_passes(lab: Lab, rod: Rod, spins: Pair, surfaces: tuple[Surface, Surfac
     still = (spins[0] * (rod.mass_a > 0), spins[1] * (rod.mass_b > 0))
     joint, a, b = join(lab, rod, still, surfaces=surfaces)
     for _ in range(2):
-        ends = tell_solve(lab, joint, a, b, rod)
+        ends = solve(lab, joint, a, b, rod)
         vel_a, vel_b = velocities(ends)
         want_solved(lab, rod, vel_a, vel_b, 0.0)
         rod = rod._replace(vel_a=vel_a, vel_b=vel_b)
@@ -272,17 +273,16 @@ def want_both_rods(lab: Lab, rod: Rod, other: Rod, turned: bool) -> None:
     joint, a, b = join(lab, rod)
     x, y = rod.offset
     c = lab.circle((x + other.length, y), 10.0, other.mass_b, vel=other.vel_b)
-    made = lab.call("DistanceJoint", *((c, b) if turned else (b, c)))
+    second = lab.make("DistanceJoint", *((c, b) if turned else (b, c)))
     lab.put(c, pos=(x + other.offset[0], y + other.offset[1]))
-    second = lab.thing(made, "a DistanceJoint")
-    lab.tell(second, "prepare", rod.dt)
+    lab.let(second, "prepare", rod.dt)
     vel = {a: rod.vel_a, b: rod.vel_b, c: other.vel_b}
     far = math.hypot(x, y) + math.hypot(*other.offset)
     last = (second, c, b, other.with_swapped_ends, far) if turned else (second, b, c, other, far)
     for _ in range(3):
         for each, first, end, meant, away in ((joint, a, b, rod, 0.0), last):
             now = meant._replace(vel_a=vel[first], vel_b=vel[end])
-            vel[first], vel[end] = velocities(tell_solve(lab, each, first, end, now))
+            vel[first], vel[end] = velocities(solve(lab, each, first, end, now))
             want_solved(lab, now, vel[first], vel[end], away)
 
 
@@ -321,8 +321,8 @@ def nothing_happens_where_no_end_can_move(lab: Lab) -> None:
     joint, a, b = join(lab, rod, (2.0, -3.0))
     for end in (a, b):
         lab.put(end, inv_mass=0.0, inv_inertia=0.0)
-    lab.tell(joint, "prepare", STEP)
-    left = velocities(tell_solve(lab, joint, a, b, rod._replace(mass_a=0.0, mass_b=0.0)))
+    lab.let(joint, "prepare", STEP)
+    left = velocities(solve(lab, joint, a, b, rod._replace(mass_a=0.0, mass_b=0.0)))
     before = rod.vel_a, rod.vel_b
     want_answer(lab, left == before, say_both, before, left)
     for n in range(-MANY, MANY):  # it does work if they can; k near 0.5, the usual value
@@ -340,7 +340,7 @@ def swing(
     0).
     """
     hook, bob = lab.circle(STILL, 6.0, 0.0), lab.circle(start, 24.0, mass)
-    joint = lab.thing(lab.call("DistanceJoint", hook, bob), "a DistanceJoint")
+    joint = lab.make("DistanceJoint", hook, bob)
     world = lab.world(hook, bob, gravity=(0.0, gravity), joints=[joint])
     return lab.simulate(world, [bob], round(seconds / STEP)).body(0), math.hypot(*start)
 
@@ -402,7 +402,7 @@ def a_thrown_dumbbell_turns_about_its_centre_of_mass(lab: Lab) -> None:
     # Each as fast as 4 rad/s need: the momentum is 0.
     first = lab.circle((0.0, 0.0), 10.0, masses[0], vel=(0.0, -4.0 * balance))
     second = lab.circle((length, 0.0), 10.0, masses[1], vel=(0.0, 4.0 * (length - balance)))
-    joint = lab.thing(lab.call("DistanceJoint", first, second), "a DistanceJoint")
+    joint = lab.make("DistanceJoint", first, second)
     run = lab.simulate(lab.world(first, second, joints=[joint]), [first, second], 60)
     places = [[(each.x, each.y) for each in run.body(number)] for number in (0, 1)]
     want_length(lab, [math.dist(a, b) for a, b in zip(*places, strict=True)], length)

@@ -79,8 +79,8 @@ def rub(
     if not spin:
         lab.saw("friction", (discs.mu, discs.k, closing, slip), rubbing)
     else:
-        want_contact(lab, world, discs, max(closing / discs.k, 0.0), rubbing)
         spins = [lab.state(each).omega for each in moving]
+        want_contact(lab, world, discs, max(closing / discs.k, 0.0), rubbing)
         words = f"a spin of {spins[0]:g} rad/s, as of a disc that touches nothing"
         lab.want(len(set(spins)) == 1, words, " and ".join(f"{each:g}" for each in spins[1:]))
     return rubbing, kept

@@ -75,21 +75,25 @@ def want_steps(
 def want_step(
     lab: Lab, method: Method, state: State, dt: float, force: Polynomial, twice: bool = False
 ) -> State:
-    """Insist that one step gives the right state up to rounding; return its answer."""
+    """Insist that one step gives the right state up to rounding; return the right one."""
     x, v = state
     lab.ran(
         f"{method.name}: one step of {dt:g} s from x = {x:g} px, v = {v:g} px/s "
         f"with accel(x) = {formula(force)}"
     )
-    (answer,) = lab.integrate(method.name, state, dt, force, twice=twice)
-    lab.saw(method.name, (x, v, dt, force), answer)
     right = oracle_of(method)(x, v, dt, exact.polynomial(force))
     # Terms may be added in any order, so rounding is a share of their absolute values.
     sizes = oracle_of(method)(abs(x), abs(v), dt, exact.polynomial([abs(c) for c in force]))
-    off = zip(answer, right, sizes, strict=True)
-    good = all(abs(a - b) <= 1e-12 * size for a, b, size in off)
-    want_answer(lab, good, say, right, answer, digits=6)
-    return answer
+
+    def judge(states: list[State]) -> None:
+        (answer,) = states
+        lab.saw(method.name, (x, v, dt, force), answer)
+        off = zip(answer, right, sizes, strict=True)
+        good = all(abs(a - b) <= 1e-12 * size for a, b, size in off)
+        want_answer(lab, good, say, right, answer, digits=6)
+
+    lab.integrate(method.name, state, dt, force, twice=twice, then=judge)
+    return right
 
 
 def say(state: State, digits: int) -> str:

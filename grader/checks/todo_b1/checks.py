@@ -6,7 +6,7 @@ Bodies may sleep one by one or as a whole pile: scenes are clearly at rest or cl
 import math
 
 from grader.judge.lab import STEP, Lab, Pair, Thing
-from grader.protocol import BodyValue, Rng
+from grader.protocol import BodyValue, Rng, Value
 
 GRAVITY = 980.0  # px/s²
 RADIUS = 10.0  # px
@@ -64,16 +64,23 @@ def room(
 
 
 def is_asleep(lab: Lab, body: Thing) -> bool:
-    value = lab.get(body, "asleep")
+    return as_bool(lab, lab.get(body, "asleep"))
+
+
+def as_bool(lab: Lab, value: Value) -> bool:
     lab.want(isinstance(value, bool), "True or False as Body.asleep", lab.describe(value))
     return bool(value)
 
 
 def want(lab: Lab, sleeps: bool, body: Thing, when: str) -> None:
     words = ("awake", "asleep")
-    found = is_asleep(lab, body)
-    lab.saw("sleep", (when,), found)
-    lab.want(found == sleeps, f"{words[sleeps]} {when}", words[found])
+
+    def judge(value: Value) -> None:
+        found = as_bool(lab, value)
+        lab.saw("sleep", (when,), found)
+        lab.want(found == sleeps, f"{words[sleeps]} {when}", words[found])
+
+    lab.get(body, "asleep", then=judge)
 
 
 def run(lab: Lab, world: Thing, seconds: float, dt: float = STEP) -> None:
@@ -152,11 +159,13 @@ def the_lab_scene_falls_asleep(lab: Lab) -> None:
         bonus=True,
     )
     lab.put(world, sleeping=True)
-    balls = [each for each in bodies if lab.state(each).inv_mass][1:]  # the first one is the bob
+    states = map(lab.body, lab.gets((each, "") for each in bodies))
+    balls = [Thing(each.ref) for each in states if each.inv_mass][1:]  # the first one is the bob
     left = len(balls)
     for second in range(round(LAB_SCENE)):
         run(lab, world, 1.0)
-        left = sum(not is_asleep(lab, each) for each in balls)
+        asleep = lab.gets((each, "asleep") for each in balls)
+        left = sum(not as_bool(lab, each) for each in asleep)
         if not left or (second > LAB_SCENE / 8 and left == len(balls)):
             break
     lab.want(not left, f"all its {len(balls)} balls asleep", f"{left} awake")

@@ -10,6 +10,7 @@ from grader.checks.digits import want_answer
 from grader.checks.exact import Rod, Spring
 from grader.checks.todo_3.checks import FAST, SLOW, STILL, make_similar, velocities, weight
 from grader.judge.lab import STEP, Lab, Moment, Pair, Thing
+from grader.protocol import Value
 
 Ends = tuple[Pair, Pair]  # velocities of A and B, px/s
 
@@ -41,8 +42,7 @@ def want_exact(lab: Lab, spring: Spring, *later: Rod, setting: Setting = USUAL) 
     rod = spring.rod
     a = lab.circle(setting.place, 10.0, rod.mass_a, **setting.of(0))
     b = lab.circle((0.0, 0.0), 5.0, rod.mass_b, **setting.of(1))
-    made = lab.call("SpringJoint", a, b, spring.stiffness, spring.damping, rod.length)
-    joint = lab.thing(made, "a SpringJoint")
+    joint = lab.make("SpringJoint", a, b, spring.stiffness, spring.damping, rod.length)
     for each in (rod, *later):
         now = Spring(each, spring.stiffness, spring.damping)
         apply_once(lab, joint, (a, b), now, setting.place)
@@ -68,12 +68,15 @@ def apply_once(
     lab.put(b, pos=(place[0] + rod.offset[0], place[1] + rod.offset[1]), vel=rod.vel_b)
     # Other changes fail only the check of damped springs, not all checks.
     changes = {a: "vel", b: "vel"} if spring.damping else None
-    lab.tell(joint, "apply", rod.dt, changes=changes, sees=(a, b))
-    answer = velocities((lab.state(a), lab.state(b)))
-    lab.saw("spring", (spring,), answer)
-    right = exact.apply_spring(spring)
-    good = are_close(spring, answer, right, math.hypot(*place))
-    want_answer(lab, good, say, right, answer)
+
+    def judge(_: Value) -> None:
+        answer = velocities((lab.state(a), lab.state(b)))
+        lab.saw("spring", (spring,), answer)
+        right = exact.apply_spring(spring)
+        good = are_close(spring, answer, right, math.hypot(*place))
+        want_answer(lab, good, say, right, answer)
+
+    lab.tell(joint, "apply", rod.dt, changes=changes, sees=(a, b), then=judge)
 
 
 def are_close(spring: Spring, answer: Ends, right: Ends, far: float) -> bool:

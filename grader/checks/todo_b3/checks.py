@@ -213,7 +213,7 @@ def work(lab: Lab, balls: list[Disc]) -> int:
     few = crowd(lab, balls[:2], [])[0]
     lab.put(few, grid=True)
     for _ in range(101):  # as in a scene that has run for a while
-        lab.tell(few, "find_contacts")
+        lab.let(few, "find_contacts")
     world, bodies = crowd(lab, balls, [])
     found = count_contacts(lab, world, bodies, grid=True)
     touched, right = len(found), len(balls) // 2

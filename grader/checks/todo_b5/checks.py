@@ -1,6 +1,7 @@
 """TODO B5: drawing between steps."""
 
 import math
+from collections.abc import Callable
 from itertools import pairwise
 
 from grader.checks import exact
@@ -8,6 +9,7 @@ from grader.checks.digits import want_answer
 from grader.checks.exact import Place
 from grader.checks.pacing import frames_at, want_a_proper_end
 from grader.judge.lab import NOTHING, STEP, Lab, Pair, Thing
+from grader.protocol import Value
 
 CLOSE = 1e-6  # px or rad
 STEPS = (  # x, y and angle before a step, and now, and the step's length in s
@@ -54,7 +56,10 @@ def a_body_is_drawn_on_its_way_through_the_step(lab: Lab) -> None:
 def want_all_shares(lab: Lab, body: Thing, before: Place, now: Place) -> None:
     """Insist that `between` answers right for a body and does not change it."""
     asked = [share for share in SHARES for _ in range(2)]  # the window may ask twice
-    answers = [ask_between(lab, body, share) for share in asked]
+    answers: list[Place] = []
+    for share in asked:
+        ask_between(lab, body, share, answers.append)
+    lab.settle()
     for share, answer in zip(asked, answers, strict=True):
         lab.saw("between", (before, now, share), answer[:2])
     lab.ran(f"between(body, {asked[0]:g}) after a step from {before[:2]} to {now[:2]}")
@@ -124,13 +129,15 @@ def make_moved_body(
     return body
 
 
-def ask_between(lab: Lab, body: Thing, share: float) -> Place:
-    """Return the answer of `between`: a position and an angle."""
-    parts = lab.items(
-        lab.call("between", body, share, changes=NOTHING, twice=True), "what between returns"
-    )
-    lab.want(len(parts) == 2, "a place and an angle", f"{len(parts)} things")
-    return *lab.pair(parts[0], "the place"), lab.number(parts[1], "the angle")
+def ask_between(lab: Lab, body: Thing, share: float, then: Callable[[Place], None]) -> None:
+    """Ask `between` for a position and an angle."""
+
+    def judge(value: Value) -> None:
+        parts = lab.items(value, "what between returns")
+        lab.want(len(parts) == 2, "a place and an angle", f"{len(parts)} things")
+        then((*lab.pair(parts[0], "the place"), lab.number(parts[1], "the angle")))
+
+    lab.call("between", body, share, changes=NOTHING, twice=True, then=judge)
 
 
 def frames_without_a_step_show_something_new(lab: Lab) -> None:

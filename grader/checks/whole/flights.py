@@ -124,9 +124,11 @@ def is_clear(each: Moment, row: Sequence[Moment], speeds: Sequence[float]) -> bo
     if math.dist((x, y), HOOK) <= ROD + BALL + LARGEST + way:
         return False
     for half_width, half_height, middle_x, middle_y, radius in OUTLINES:
-        aside = max(abs(x - middle_x) - half_width, 0.0)
-        along = max(abs(y - middle_y) - half_height, 0.0)
-        if max(math.hypot(aside, along) - radius, 0.0) <= BALL + way:
+        reach = BALL + way + radius
+        aside, along = abs(x - middle_x) - half_width, abs(y - middle_y) - half_height
+        if aside > reach or along > reach:  # the usual case
+            continue
+        if math.hypot(max(aside, 0.0), max(along, 0.0)) <= reach:
             return False
     for other, speed in zip(row, speeds, strict=True):
         if other is not each:

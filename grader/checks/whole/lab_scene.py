@@ -139,16 +139,17 @@ def world_parts(lab: Lab, seed: int) -> list[Part]:
 
 
 def body_part(lab: Lab, body: BodyValue) -> Part:
-    thing = Thing(body.ref)
-    shape = (body.radius,) if body.radius else lab.pair(lab.get(thing, "shape.half"), "half")
+    names = ["restitution", "friction", *([] if body.radius else ["shape.half"])]
+    restitution, friction, *half = lab.gets((Thing(body.ref), name) for name in names)
+    shape = lab.pair(half[0], "half") if half else (body.radius,)
     still = (*body.vel, body.angle, body.omega) == (0, 0, 0, 0)
     lab.want(still, "a scene in which nothing moves yet", "a body with speed or spin")
     return Part(
         (body.pos.x, body.pos.y),
         shape,
         1 / body.inv_mass if body.inv_mass else 0.0,
-        lab.number(lab.get(thing, "restitution"), "the restitution"),
-        lab.number(lab.get(thing, "friction"), "the friction"),
+        lab.number(restitution, "the restitution"),
+        lab.number(friction, "the friction"),
         1 / body.inv_inertia if body.inv_inertia else None,
     )
 

@@ -88,7 +88,8 @@ class Child:
         self.rested = 0.0  # s, in which it owed an answer and slept
         self.waited = self.looked = 0.0  # s, spent on its answers: in all, and at the last look
         self.began = seconds_in_queue(os.getpid())  # s, that the judge had queued when it began
-        self.asked = 0  # requests
+        self.asked = self.sent = self.answered = 0  # questions
+        self.posted: list[Asked] = []  # questions to be sent
         self.heard = 0  # bytes of its answers
         self.first: list[Setup] = []  # to be done before the next request
         self.seen: dict[int, Value] = {}  # states that came with the last answer, by object
@@ -100,43 +101,67 @@ class Child:
             raise ChildEnded(f"the worker could not start a child: {error}") from error
 
     def ask(self, request: Request | Record) -> Answered:
-        """Return the answer to a request; raises ChildEnded, for anything else ends the child.
+        """Return the answer to a request; raises ChildEnded, for anything else ends the child."""
+        return self.answer_at_once(request) or self.answer(self.post(request))
 
-        A message costs more than most requests. So objects are set up with the next request, and a
+    def answer_at_once(self, request: Request | Record) -> Answered | None:
+        """Return the answer to a request that needs no message of its own, or None.
+
+        A message costs more than most requests. So objects are set up with the next question, and a
         state that came with the last answer is not asked for again.
         """
         if self.over:
             raise ChildEnded(self.over, self.late)
         match request:
-            case Set() | MakeBody() | MakeWorld():
+            case Set() | MakeBody() | MakeWorld() | Call(quiet=True):
                 self.first.append(request)
                 self.seen = {}
                 return Answered(self.asked, Returned(None))
             case Get(ref, "" | "jn" | "jt" as name) if ref in self.seen:
                 state = self.seen[ref]
                 return Answered(self.asked, Returned(getattr(state, name, None) if name else state))
-        answered = self._ask(request)
-        match request, answered.reply:
+        return None
+
+    def post(self, request: Request | Record) -> Asked:
+        """Return a question that is sent when an answer is needed, with others in one message."""
+        if self.over:
+            raise ChildEnded(self.over, self.late)
+        self.asked += 1
+        asked = Asked(self.asked, request, self.first)
+        self.posted.append(asked)
+        self.first = []
+        return asked
+
+    def answer(self, asked: Asked) -> Answered:
+        """Return the answer to a posted question; drop answers that nobody waits for."""
+        answered = self._receive()
+        while self.answered < asked.number:
+            answered = self._receive()
+        match asked.request, answered.reply:
             case Call(), Returned():
-                states = zip(request.states, answered.reply.states, strict=False)
+                states = zip(asked.request.states, answered.reply.states, strict=False)
                 self.seen = {ref: state for ref, state in states if state is not None}
             case _:
                 self.seen = {}
         return answered
 
-    def _ask(self, request: Request | Record) -> Answered:
+    def _receive(self) -> Answered:
+        """Return the next answer; send the questions when there is none to come."""
+        if self.over:
+            raise ChildEnded(self.over, self.late)
         try:
-            if self.channel.wait(0):
-                raise ProtocolError("an answer came before its question")
-            self.asked += 1
-            first, self.first = self.first, []
-            self.channel.post(Asked(self.asked, request, first))
-            body = self._exchange()
+            deadline = self.waited + self.wall_seconds
+            if self.sent == self.answered:
+                self._send_posted(deadline)
+            # A child may send half an answer: this does not wait for one that sleeps.
+            self._wait_for(self.channel.complete, deadline)
+            body = self.channel.receive()
+            self.answered += 1
             self.heard += len(body)
             if self.heard > MAX_HEARD:
                 raise ProtocolError(f"more than {MAX_HEARD >> 20} MB of answers")
             answered = answer_decoder.decode(body)
-            if answered.number != self.asked:
+            if answered.number != self.answered:
                 raise ProtocolError("an answer to another question")
         except ChannelTimeout as error:
             self._give_up(str(error) or "it did not answer in time", gone=False, late=True)
@@ -148,15 +173,13 @@ class Child:
             return answered
         raise ChildEnded(self.over, self.late)
 
-    def _exchange(self) -> bytes:
-        """Send what was posted and receive the answer; neither waits for a child that sleeps.
-
-        A child may not read a question, which then cannot be sent, or send half an answer.
-        """
-        deadline = self.waited + self.wall_seconds
+    def _send_posted(self, deadline: float) -> None:
+        """Send the posted questions; a child that sleeps may not read them."""
+        if self.channel.wait(0):
+            raise ProtocolError("an answer came before its question")
+        self.channel.post(self.posted)
+        self.posted, self.sent = [], self.asked
         self._wait_for(self.channel.flush, deadline)
-        self._wait_for(self.channel.complete, deadline)
-        return self.channel.receive()
 
     def _wait_for(self, happens: Callable[[float], bool], deadline: float) -> None:
         """Wait until something happens; a child that sleeps has less time than one that works."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NoReturn
+from typing import NoReturn, TypeVar
 
 from grader.judge.failures import Broke, NotYet
 from grader.judge.wall.children import Child, ChildEnded
@@ -23,6 +23,7 @@ from grader.protocol import (
 
 Answer = Returned | Simulated | Played | WithMoments
 Send = Callable[[Child, Request], Answered]
+Result = TypeVar("Result")
 
 
 def ask_child(child: Child, request: Request) -> Answered:
@@ -55,6 +56,23 @@ class Connection:
         """Return the answer; raises NotYet or Broke if the submission gave none."""
         child = self.child or self.begin(ran)
         return self._ask(child, request, ran)
+
+    def answer_at_once(self, request: Request, ran: str) -> Answer | None:
+        """Return the answer to a request that needs no message of its own, or None."""
+        child = self.child or self.begin(ran)
+        if self.send is not ask_child:  # a recorder has each request answered
+            return self._ask(child, request, ran)
+        answered = self._try(lambda: child.answer_at_once(request), ran)
+        return None if answered is None else self._read(answered, ran)
+
+    def post(self, request: Request, ran: str) -> Callable[[], Answer]:
+        """Ask together with later questions; return a function that waits for the answer."""
+        child = self.child or self.begin(ran)
+        if self.send is not ask_child:
+            reply = self._ask(child, request, ran)
+            return lambda: reply
+        asked = self._try(lambda: child.post(request), ran)
+        return lambda: self._read(self._try(lambda: child.answer(asked), ran), ran)
 
     def begin(self, ran: str) -> Child:
         """Open a child and import the submission in it."""
@@ -95,12 +113,19 @@ class Connection:
             self.child = None
 
     def _ask(self, child: Child, request: Request, ran: str) -> Answer:
+        return self._read(self._try(lambda: self.send(child, request), ran), ran)
+
+    def _try(self, act: Callable[[], Result], ran: str) -> Result:
+        """Return the result of an act on the child; raises Broke if the child is gone."""
         if self.over is not None:
             raise self.over
         try:
-            answered = self.send(child, request)
+            return act()
         except ChildEnded as error:
             self._stop(ran, error)
+
+    def _read(self, answered: Answered, ran: str) -> Answer:
+        """Return the reply in an answer; raises Broke or NotYet if it is a failure."""
         self.output += answered.output[: MAX_OUTPUT - len(self.output)]
         match answered.reply:
             case Raised() as raised:
