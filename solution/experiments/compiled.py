@@ -2,7 +2,7 @@
 
 It needs mypy (python -m pip install mypy setuptools) and a C compiler. The folder stable_engine
 stays as it is; the compiled copy is the package stable_compiled in build/compiled. The window and
-the hard cases use it where it is, and accuracy.py times it beside the plain source. They say so.
+the leaderboard use it where it is built, and accuracy.py times it beside the plain source.
 
     python -m experiments.compiled
 
@@ -100,7 +100,7 @@ def build(folder):
 
 
 def load(folder):
-    """Import the compiled engine in folder. Return None without one for this source and Python."""
+    """Return the compiled engine in folder, or None if none is of this source and Python."""
     package = folder / NAME
     try:
         fresh = all((package / name).read_text("utf-8") == t for name, t in sources().items())
@@ -129,7 +129,7 @@ PLAIN = "The stable engine runs as plain source; python -m experiments.compiled 
 
 
 def use_compiled(folders=FOLDERS):
-    """Have the table of engines hold the compiled stable engine where there is one; say so."""
+    """Use the compiled stable engine where there is one. Return a sentence that says so."""
     folder = find(folders)
     if folder is None:
         return PLAIN
@@ -138,7 +138,7 @@ def use_compiled(folders=FOLDERS):
 
 
 def time_compiled(folders=FOLDERS):
-    """Have the compiled engine timed beside the plain one, whose opcodes count; say so."""
+    """Time the compiled engine beside the plain one. Return a sentence that says so."""
     folder = find(folders)
     if folder is None:
         return PLAIN
@@ -146,7 +146,7 @@ def time_compiled(folders=FOLDERS):
 
 
 def find(folders):
-    """Find the first folder with a compiled engine, and have Compiled use it. None without."""
+    """Return the first folder with a compiled engine, which Compiled then uses, or None."""
     for folder in folders:
         Compiled.package = load(folder)
         if Compiled.package:

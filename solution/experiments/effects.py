@@ -86,7 +86,7 @@ def settled(count):
 
 
 def neighbours(bodies):
-    """Return the closest pairs of balls that do not touch: tied, they lie as they lay before."""
+    """Return the closest pairs of balls that do not touch. Ties leave them where they are."""
     balls = [
         (i, body, State(*body.pos, 0, 0, 0, 0))
         for i, body in enumerate(bodies)
@@ -144,7 +144,7 @@ class RepeatedStep:
             engine.step(DT)
 
     def reset(self):
-        """Put every body back where the scene has it, and set back the time it has lain still."""
+        """Put every body back where the scene has it, and reset the time it has lain still."""
         if self.kind == "asleep":
             return
         for body, data in zip(self.engine.bodies, self.engine.scene.bodies, strict=True):
@@ -239,7 +239,7 @@ def list_prices(balls):
 
 
 def list_lesson(balls):
-    """Return what the lesson's engine does on the same pile, and leaves out where it can."""
+    """Return what the lesson's engine does on the same pile, and on scenes where it does less."""
     heap = settled(balls)
     scenes = {
         "balls far apart": row_of_balls(balls),
@@ -263,7 +263,7 @@ def list_bonus(balls):
         "B1: asleep": RepeatedStep(make_bonus_engine(scene, sleeping=True, grid=True), "asleep"),
     }
     return [
-        {"title": title, "asleep": count_sleepers(case.engine), **count(case, LESSON_WORK)}
+        {"title": title, "asleep": case.engine.asleep(), **count(case, LESSON_WORK)}
         for title, case in cases.items()
     ]
 
@@ -274,10 +274,6 @@ def make_bonus_engine(scene, sleeping=False, grid=False):
     engine.world = with_bonus(engine.world)
     engine.world.sleeping, engine.world.grid = sleeping, grid
     return engine
-
-
-def count_sleepers(engine):
-    return sum(getattr(body, "asleep", False) for body in engine.bodies)
 
 
 def measure(sizes=SIZES, heaps=HEAPS):

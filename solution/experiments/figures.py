@@ -1,7 +1,7 @@
 """Figures, drawn by matplotlib: the charts of accuracy.py, and bars of what effects cost.
 
-In a chart, failures are crosses at the top edge, errors too small to matter triangles at the bottom
-edge. Colours stay apart for colour-blind eyes, and every curve has a marker of its own as well.
+In a chart, crosses at the top edge are failures. Triangles at the bottom edge are errors too small
+to matter. Colour-blind readers can tell the colours apart, and every curve has its own marker.
 """
 
 import io
@@ -17,7 +17,7 @@ NO_MATPLOTLIB = "To draw the figures, install matplotlib: python -m pip install 
 
 
 def make_look(colour, marker, line):
-    """Return a look that tells a curve by its marker and by its line, without its colour."""
+    """Return the colour, marker and line of a curve."""
     return {"color": colour, "marker": marker, "linestyle": line}
 
 

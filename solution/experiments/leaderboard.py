@@ -91,9 +91,9 @@ def ask_at_equal_time(row, contestant, substeps, first):
 
 
 def ask_all(row, contestants, untimed=()):
-    """Return what each engine that has what the row needs comes to, in both modes.
+    """Return each engine's errors in a row, in both modes. Skip engines that lack what it needs.
 
-    Those named in untimed are asked at equal substeps alone.
+    Engines named in untimed are asked at equal substeps alone.
     """
     cells = {}
     for one in contestants:
@@ -120,10 +120,10 @@ def run(rows, contestants, recorded=None):
 
 
 def renew(rows, contestants, recorded):
-    """Return the cells of all rows: asked of these engines, and as recorded of all others.
+    """Ask these engines anew, and keep the recorded cells of all others.
 
-    An engine is asked in the modes in which it was recorded. New rows are asked of these engines
-    alone. Returns the engines too, those recorded included.
+    An engine is asked in the modes in which it was recorded. Other engines have no cell in new
+    rows. Return the cells of all rows, and the engines, recorded ones included.
     """
     cells = recorded["rows"]
     asked = run(rows, contestants, cells)
@@ -155,7 +155,7 @@ def read_number(text):
 
 
 def count_held(rows, found, name, mode):
-    """Return in how many of its rows an engine holds, and how many it has."""
+    """Return how many of its rows an engine holds, and how many rows it has."""
     mine = [(row, found[row.title][name]) for row in rows if name in found[row.title]]
     mine = [(row, cell[mode]) for row, cell in mine if mode in cell]
     return sum(holds(row, error) for row, error in mine), len(mine)
@@ -244,7 +244,7 @@ def list_lines(rows, found, contestants):
 
 
 def list_cells(rows, found):
-    """Return each row with its physics, its bound, and what each engine came to."""
+    """Return each row with its physics, its bound and each engine's errors."""
     return {
         row.title: {
             "physics": row.physics,
@@ -257,7 +257,7 @@ def list_cells(rows, found):
 
 
 def print_rows(rows, found):
-    """Print every row that some engine loses: its physics, its bound, and who loses it."""
+    """Print every row that some engine loses: its physics, its bound, and the losing engines."""
     for row in rows:
         errors = {name: cell["substeps"] for name, cell in found[row.title].items()}
         losers = [f"{name} {number(off)}" for name, off in errors.items() if not holds(row, off)]

@@ -13,7 +13,7 @@ from .scenes import DT, Ball, G
 
 
 class GaveUp(Exception):
-    """An engine did not get to what is measured; the message is one word that says how."""
+    """Raised when an engine gives up before anything is measured; the message says how."""
 
 
 def run(engine, seconds, dt=DT):
@@ -95,9 +95,9 @@ def worst_stretch(engine):
 
 
 def energy_height(engine, i, dt=DT):
-    """Return height above y = 0 that a ball could reach with the energy of its flight.
+    """Return the height above y = 0 that a ball could reach with the energy of its flight.
 
-    An engine's velocities belong to another moment than its places; gravity over that lag is added.
+    An engine's velocities lag behind its positions; gravity over that lag is added.
     """
     state = engine.read(i)
     vy = state.vy + G * engine.lag(dt)
@@ -121,9 +121,9 @@ def energy(engine, dt=DT):
 
 
 def lag_velocities(engine, dt):
-    """Return by what gravity changes the velocity of each body (px/s) over the engine's lag.
+    """Return how much gravity changes each body's velocity (px/s) over the engine's lag.
 
-    Rods take up what is along them: a ball that hangs at rest gains none.
+    Rods carry the part along them: a ball that hangs at rest gains nothing.
     """
     rods = engine.scene.rods if "Rods" in engine.scene.effects else []
     positions = np.array([state[:2] for state in states(engine)])

@@ -1,7 +1,7 @@
-"""Counting what runs, from outside: the engines hold no code for it, so it costs them nothing.
+"""Count what runs, from outside: the engines hold no code for it, so it costs them nothing.
 
-An opcode is one instruction of Python's machine. How many run is the same from run to run, unlike
-time; compare counts within one version of Python only.
+An opcode is one instruction of Python's machine. Unlike time, the number of opcodes is the same in
+every run. Compare counts within one version of Python only.
 """
 
 import gc

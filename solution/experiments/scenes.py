@@ -200,9 +200,9 @@ def closed_box(seed=1, half=150.0, thick=50.0, radii=(6, 22), fast=400.0, pairs=
 
 
 def rammer(mass=1000.0, speed=600.0, degrees=0.0, start=50.0, restitution=0.3, thick=20.0):
-    """Make 1 kg that flies at a wall start px away, and behind it mass kg on a rod of 30 px.
+    """Make a ball of 1 kg that flies at a wall start px away, with mass kg on a rod behind it.
 
-    The rod is turned by `degrees` from the flight. There is no gravity.
+    The rod is 30 px long and turned by `degrees` from the flight. There is no gravity.
     """
     back = math.radians(degrees)
     wall = Block((thick / 2, 0), (thick / 2, 300), restitution)

@@ -1,4 +1,4 @@
-"""Steps that vary, as those of a game do that steps by the time of each frame.
+"""Steps that vary, as in a game that steps by the time of each frame.
 
 Each function yields steps (s) without end; `lasting` takes as many as a time needs.
 """

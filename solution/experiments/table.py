@@ -38,7 +38,7 @@ class Table:
 def write_markdown(path, tables, lines, **more):
     """Put the tables between the two markers of a file, or into a file of their own.
 
-    lines, on which the text around them rests, go into results.json beside it, and so does more.
+    lines and more go into results.json beside it; the text around the tables rests on the lines.
     """
     block = "\n".join(table.markdown() for table in tables)
     text = path.read_text(encoding="utf-8") if path.exists() else f"{BEGIN}\n{END}\n"

@@ -1,6 +1,5 @@
 """Test the same scenes in Box2D, if it is installed."""
 
-import math
 from dataclasses import replace
 
 import pytest
@@ -13,12 +12,8 @@ from experiments.scenes import (
     NAMED,
     TOUCH,
     Ball,
-    G,
     Scene,
-    drop,
     oscillator,
-    pendulum,
-    slide,
     tower,
 )
 
@@ -30,27 +25,6 @@ def test_every_scene_of_the_window_runs(name):
     engine = Box2d(NAMED[name]())
     run(engine, 0.2)
     assert finite(engine)
-
-
-def test_a_state_is_in_px_and_starts_as_the_scene_says():
-    ball = Ball((30, -50), 10, 2.0, (70, -90), 3.0)
-    state = Box2d(Scene([ball])).read(0)
-    assert tuple(state) == pytest.approx((30, -50, 70, -90, 0, 3), rel=1e-6)
-
-
-def test_a_ball_falls_rolls_bounces_and_swings():
-    falling = Box2d(Scene([Ball((0, 0))], effects=()))
-    run(falling, 1)
-    assert falling.read(0).y == pytest.approx(G / 2, rel=0.01)
-    rolling = Box2d(slide())
-    run(rolling, 2)
-    assert rolling.read(1).vx == pytest.approx(200, rel=0.01)
-    bouncing = Box2d(drop(restitution=0.5))
-    run(bouncing, 0.8)
-    assert bouncing.read(1).vy == pytest.approx(-0.5 * math.sqrt(2 * G * 290), rel=0.3)
-    swinging = Box2d(pendulum())
-    run(swinging, 1)
-    assert math.hypot(*swinging.read(1)[:2]) == pytest.approx(140, rel=1e-3)
 
 
 def test_a_spring_has_its_frequency():

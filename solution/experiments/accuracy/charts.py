@@ -34,7 +34,7 @@ def make_chart(says, y, ends, panels, frame=""):
 
 
 def make_curve(look, name, points, ends):
-    """Return a curve of (x, y); of words and what lies beyond the ends only x is kept."""
+    """Return a curve of points (x, y). Words and points beyond the ends keep only their x."""
     bottom, top = ends
     high = [x for x, y in points if not is_number(y) or y >= top]
     low = [x for x, y in points if is_number(y) and y <= bottom]
@@ -75,7 +75,7 @@ def chart_budgets(scene):
 
 
 def find_front(runs, engine):
-    """Return the runs of an engine of which no other is both faster and better: (ms, error)."""
+    """Return (ms, error) of the runs that no other run of the engine beats in both."""
     known = [
         (median(run["ms"]), max(run["error"], EXACT))
         for run in runs

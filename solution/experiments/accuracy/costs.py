@@ -13,9 +13,9 @@ PROCESSOR = time.get_clock_info("process_time").resolution <= FINE
 
 
 def now():
-    """Return seconds of this process's own time where that clock is fine enough.
+    """Return this process's own time (s), or the time of day where that clock is too coarse.
 
-    Else the time of day. On an idle machine they run alike.
+    On an idle machine both run alike.
     """
     return time.process_time() if PROCESSOR else time.perf_counter()
 
@@ -23,8 +23,8 @@ def now():
 def wall_times(runs, rounds, slice_seconds=SLICE):
     """Measure seconds per simulated second, one for each (engine, dt) of runs.
 
-    Rounds are interleaved: each gives every engine a slice, so that a busy moment of the machine
-    hits all alike. Of each engine the fastest slice counts. None where an engine raises.
+    Each round gives every engine a slice, so that a busy moment of the machine slows all alike.
+    The fastest slice of each engine counts. The time is None where an engine raises.
     """
     best = [None] * len(runs)
     gc.disable()
@@ -51,9 +51,9 @@ def spread(values):
 
 
 def shares(taken, unit):
-    """Return a time in shares of another one: least, middle and most of the repeats, or None.
+    """Return a time as a share of another one: least, middle and most of the repeats, or None.
 
-    What slows down the machine for a while slows down both, and so leaves their share alone.
+    A busy moment of the machine slows both down, so their share stays.
     """
     if not taken or not unit:
         return None

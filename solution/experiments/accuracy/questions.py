@@ -106,7 +106,7 @@ class Question:
 
 
 def measure_sink(engine, seconds, dt):
-    """Return how far the top of a stack comes down at most: some engines push it up again."""
+    """Return how far the top of a stack ever comes down: some engines push it up again."""
     top = engine.scene.moving()[-1]
     start = engine.read(top).y
     drops = watch(engine, seconds, lambda: engine.read(top).y - start, dt)

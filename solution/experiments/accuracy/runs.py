@@ -71,7 +71,7 @@ def is_number(value):
 def study_dials(name, effort, tick=lambda engine: None):
     """Ask one question of every value of every dial of the lesson's engine.
 
-    Work is counted in opcodes, and given in that of the engine as it is.
+    Work is counted in opcodes; the engine as it is has a work of 1.
     """
     question, rows, runs = QUESTIONS[name], dials(effort.quick), {}
     for setting in dict.fromkeys(setting for row in rows.values() for setting in row.values()):
@@ -95,10 +95,10 @@ def describe(question, effort):
 
 
 def judge(runs):
-    """Say what a dial does to the error, and by what factor of work an error is a tenth, or None.
+    """Return what a dial does to the error, and how many times the work a tenth of it takes.
 
-    The first and the last value of the dial decide, carried on (or back) to an error ten times
-    smaller.
+    The first and the last value of the dial decide. The factor is carried on (or back) to an
+    error ten times smaller, and is None where the dial does not help.
     """
     known = [(run["error"], run["work"]) for run in runs]
     known = [pair for pair in known if is_number(pair[0]) and pair[1]]
@@ -116,7 +116,7 @@ def judge(runs):
 
 
 def study_budgets(name, effort, tick=lambda engine: None):
-    """Ask one question of every engine at ever more substeps, as long as a frame has time."""
+    """Ask each engine one question with 1, 2, 4 ... substeps, while they fit into a frame."""
     question = QUESTIONS[name]
     runs = []
     for engine, settings in families().items():
@@ -147,9 +147,9 @@ def climb(question, setting, effort):
 
 
 def find_least(runs, engine, budget):
-    """Return the setting and the smallest error of an engine in so many ms a frame, three times.
+    """Return an engine's smallest error, and its setting, in so many ms a frame.
 
-    By the times of the fastest repeat, of the middle one, and of the slowest.
+    There are three: by the times of the fastest repeat, of the middle one, and of the slowest.
     """
     ours = [run for run in runs if run["engine"] == engine]
     picked = [pick_within(ours, budget, which) for which in range(3)]
@@ -160,7 +160,7 @@ def pick_within(runs, budget, which):
     """Return the run with the smallest error of those that fit.
 
     If none of them gave a number, return the last that fits, or else "too slow" as the error.
-    which is that of the three times that spread gives of a run.
+    which is 0 for the fastest repeat, 1 for the middle one, 2 for the slowest.
     """
     fitting = [run for run in runs if run["ms"] and spread(run["ms"])[which] <= budget]
     known = [run for run in fitting if is_number(run["error"])]

@@ -106,7 +106,7 @@ def tabulate_orders(smooth):
 
 
 def say_order(order):
-    """Say the measured order, and by what factor of calls an error is a tenth."""
+    """Return the measured order, and how many times the calls a tenth of the error takes."""
     if order is None:
         return ["not reached", "-"]
     return [f"{order:.2f}", f"{10 ** (1 / order):.2g}x" if order > LEAST_ORDER else "-"]

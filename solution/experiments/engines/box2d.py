@@ -80,8 +80,8 @@ class InMetres(Builder):
 class Box2d(InMetres):
     """The same scene in Box2D 2.3.
 
-    Its friction is that of the other engines. Of two restitutions it takes the larger one: the same
-    where both surfaces are alike. It moves no body by more than 2 m, here 40 px, in a step.
+    Its friction is that of the other engines. It takes the larger of two restitutions, which is the
+    same where both surfaces are alike. It moves no body by more than 2 m, here 40 px, in a step.
     """
 
     name = "box2d"

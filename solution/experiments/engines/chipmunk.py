@@ -96,7 +96,7 @@ class Pymunk(Builder):
         return list(found.values())
 
     def lag(self, dt):
-        """Return the lag: pymunk moves first and changes velocities then, half a step ahead."""
+        """Return the lag: pymunk moves first and then changes velocities, half a step ahead."""
         return -dt / self.substeps / 2
 
     def asleep(self):

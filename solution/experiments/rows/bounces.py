@@ -85,7 +85,7 @@ def between_walls(fast, half=50, effects=("Contacts", "Bounce")):
 
 
 def keeps_flying(trial, scene, seconds=5):
-    """Return how far (px/s) the speed is off, or all of it if the ball has got out."""
+    """Return how far (px/s) the speed is off; a ball that has got out is off by all of it."""
     state, fast = run_for(trial, scene, seconds).read(2), scene.bodies[2].vel[0]
     return abs(abs(state.vx) - fast) if abs(state.x) < 100 else fast
 

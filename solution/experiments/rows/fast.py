@@ -14,15 +14,8 @@ SMOOTH_BULLETS = ("Contacts", "Bounce", "Bullets")
 def volley(fast, thick=20.0, radius=10.0, bullet=True):
     """Make bullets side by side, each from another height, above a ledge."""
     ledge = Block((0, thick / 2), (40.0 * COUNT, thick / 2))
-    balls = [
-        Ball(
-            (40.0 * (i - COUNT / 2), -100 - 1.37 * i * fast / 2448),
-            radius,
-            vel=(0, fast),
-            bullet=bullet,
-        )
-        for i in range(COUNT)
-    ]
+    places = [(40.0 * (i - COUNT / 2), -100 - 1.37 * i * fast / 2448) for i in range(COUNT)]
+    balls = [Ball(place, radius, vel=(0, fast), bullet=bullet) for place in places]
     return Scene([ledge, *balls], BULLETS, gravity=(0, 0))
 
 

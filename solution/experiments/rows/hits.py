@@ -152,7 +152,7 @@ def cradle_off(trial, scene, thrown):
 
 
 def into_valley(degrees, e=1.0, free_balls=False, fast=300.0):
-    """Make a ball that flies down between two others, whose normals are so far off upright."""
+    """Make a ball that flies down between two others. Their normals are degrees off upright."""
     a = math.radians(degrees)
     surface = {"restitution": e, "friction": 0.0}
     sides = [
@@ -205,7 +205,7 @@ def mirror_off(trial, scene, rows, fast):
 
 
 def order_matters(trial, scene, seconds):
-    """Return how far (px) any body ends from where it does when added in another order."""
+    """Return how far (px) any body ends from its end in a scene added in another order."""
     other, order = shuffled(scene)
     first, second = (run_for(trial, one, seconds) for one in (scene, other))
     return max(math.dist(first.read(i)[:2], second.read(j)[:2]) for j, i in enumerate(order))
@@ -219,17 +219,10 @@ def gas(count=20, masses=(1.0,), seed=3, e=1.0):
         for x, y in ((0, -200), (0, 200), (-200, 0), (200, 0))
     ]
     cells = [(x, y) for x in range(-120, 121, 48) for y in range(-120, 121, 48)]
-    balls = [
-        Ball(
-            cell,
-            10,
-            rng.choice(masses),
-            (rng.uniform(-300, 300), rng.uniform(-300, 300)),
-            restitution=e,
-            friction=0.0,
-        )
-        for cell in rng.sample(cells, count)
-    ]
+    balls = []
+    for cell in rng.sample(cells, count):
+        mass, vel = rng.choice(masses), (rng.uniform(-300, 300), rng.uniform(-300, 300))
+        balls.append(Ball(cell, 10, mass, vel, restitution=e, friction=0.0))
     return Scene([*walls, *balls], FREE, gravity=(0, 0))
 
 

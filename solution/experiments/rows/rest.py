@@ -55,7 +55,7 @@ def neat(rows, count, friction=0.6):
 
 
 def pyramid(rows):
-    """Make balls that lie in the gaps of those below, in a slot."""
+    """Make a pyramid of balls in a slot: each ball lies between two of the row below."""
     balls = []
     for row in range(rows):
         places = range(rows - row)

@@ -201,7 +201,7 @@ def damped(damping, stiffness=100.0):
 def swing_off(trial, scene, seconds=20, ever=False):
     """Return how far the swing of the last two seconds is off the first one, as a share.
 
-    With ever, by how much the swing is ever larger.
+    With ever, return how much larger any swing is.
     """
     engine = trial.build(scene)
     lengths = watch(engine, seconds, lambda: abs(engine.read(1).x - 100))
