@@ -32,8 +32,8 @@ to `right/TODO.toml`, with `why`, and `change` or `code`. The other members:
 
 - `right/NAME.py` and `hostile/NAME.py` hold regions that take the place of the solution's.
 - `right/NAME.toml` and `hostile/NAME.toml` edit a whole tree: `base` is the tree or right member to
-  begin with. Then come `remove` (files, folders), `copy` (new file = old file), `files` (pairs as
-  in `change`, by file), `add` (new files) and `everywhere` (code for every TODO).
+  begin with. Then come `copy` (new = old file or folder, of the member or of the kit), `remove`,
+  `files` (pairs as in `change`, by file), `add` (new files) and `everywhere` (code for every TODO).
 - `lesson.toml` holds variants of the lesson's programs in the same form. `verify` grades the
   programs as printed, `right/lesson-as-printed/`, and these before all others.
 - `right/NAME/` and `hostile/NAME/` hold files to add or replace, beside or without a NAME.toml. A
@@ -124,7 +124,7 @@ class Entry(Variant, frozen=True):
     base: str = "solution"  # or "starter", "empty", or the name of a right member
     add: dict[str, str] = {}  # new files
     remove: list[str] = []
-    copy: dict[str, str] = {}  # new file, old file
+    copy: dict[str, str] = {}  # new file or folder, old one
     everywhere: str = ""  # code for every TODO
     transform: str = ""
     loses: tuple[str, ...] = ()  # TODOs and checks without points, or "everything"
@@ -497,13 +497,18 @@ def lay_over(source: Path, folder: Path) -> None:
 def edit_tree(entry: Entry, folder: Path) -> None:
     """Copy, remove and change files of a tree."""
     for new, old in entry.copy.items():
-        (folder / new).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(folder / old, folder / new)
+        source = folder / old if (folder / old).exists() else KIT / old
+        if source.is_dir():
+            shutil.copytree(source, folder / new, ignore=CLEAN)
+        else:
+            (folder / new).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(source, folder / new)
     for name in entry.remove:
         path = folder / name
         shutil.rmtree(path) if path.is_dir() else path.unlink()
     change_files(entry.files, folder)
     for name, text in entry.add.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(text, encoding="utf-8")
     if entry.everywhere:
         fill_every_todo(folder, entry.everywhere)
@@ -624,14 +629,6 @@ def add_video(folder: Path) -> None:
         file.truncate(200 * 1024**2)  # no bytes on the disk
 
 
-def add_environment(folder: Path) -> None:
-    packages = folder / "env" / "lib" / "site-packages"
-    packages.mkdir(parents=True)
-    (folder / "env" / "pyvenv.cfg").write_text("home = /usr/bin\n", encoding="utf-8")
-    for name in ("integrators.py", "mini_engine.py", "pygame.py"):
-        (packages / name).write_text("raise SystemExit\n", encoding="utf-8")
-
-
 def add_stale_bytecode(folder: Path) -> None:
     for source in python_files(folder):
         cache = source.parent / "__pycache__"
@@ -651,41 +648,7 @@ def add_odd_names(folder: Path) -> None:
             return
 
 
-def copies_beside(folder: Path) -> None:
-    """Put copies of the starter beside the work, as people keep them."""
-    for name in ("backup", "original"):
-        shutil.copytree(KIT / "starter", folder / name, ignore=CLEAN)
-    shutil.copytree(KIT / "starter" / "mini_engine", folder / "mini_engine copy", ignore=CLEAN)
-    for name in ("integrators_original.py", "pymunk_scene2.py", "z_integrators.py"):
-        source = "pymunk_scene.py" if "scene" in name else "integrators.py"
-        shutil.copyfile(KIT / "starter" / source, folder / name)
-
-
-def copies_inside(folder: Path) -> None:
-    package = folder / "mini_engine"
-    shutil.copytree(KIT / "starter" / "mini_engine", package / "mini_engine")
-    for name in ("contacts", "solver", "world"):
-        starter = KIT / "starter" / "mini_engine" / f"{name}.py"
-        shutil.copyfile(starter, package / f"{name}_old.py")
-
-
-def use_printed_names(folder: Path) -> None:
-    for name in ("mini_engine", "pymunk_scene"):
-        (folder / f"{name}.py").rename(folder / f"{name}_starter.py")
-
-
-def leave_out_given_files(folder: Path) -> None:
-    """Hand in only what has a TODO."""
-    for path in [folder / "lab_runtime.py", *(folder / "mini_engine").rglob("*.py")]:
-        if not regions_in(read_source(path)):
-            path.unlink()
-
-
 TRANSFORMS: dict[str, Callable[[Path], None]] = {
-    "copies-beside": copies_beside,
-    "copies-inside": copies_inside,
-    "printed-names": use_printed_names,
-    "given-files-missing": leave_out_given_files,
     "crlf": rewrite(lambda data: data.replace(b"\n", b"\r\n")),
     "bom": rewrite(lambda data: b"\xef\xbb\xbf" + data),
     "tabs": rewrite(lambda data: data.replace(b"    ", b"\t")),
@@ -693,7 +656,6 @@ TRANSFORMS: dict[str, Callable[[Path], None]] = {
     "symlink": link_out,
     "many-files": many_files,
     "video": add_video,
-    "virtual-environment": add_environment,
     "stale-bytecode": add_stale_bytecode,
     "odd-names": add_odd_names,
 }
