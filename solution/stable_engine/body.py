@@ -88,6 +88,7 @@ class Body:
         mass: float = 0.0,
         restitution: float | None = None,
         friction: float | None = None,
+        *,
         bullet: bool = False,
         kinematic: bool = False,
     ) -> None:

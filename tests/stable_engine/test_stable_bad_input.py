@@ -100,6 +100,11 @@ def test_a_value_is_refused(field, call, value):
     refuse(field, value, lambda: call(value))
 
 
+def test_a_velocity_is_not_taken_for_a_flag():
+    with pytest.raises(TypeError, match="positional arguments"):
+        Body(Circle(1), (3, 4), 1.0, 0.3, 0.6, (0, 100))
+
+
 @pytest.mark.parametrize("number", NOT_FINITE)
 @pytest.mark.parametrize(
     ("slot", "field"),
