@@ -175,7 +175,15 @@ def compare_moments(
         math.dist(*pair) > tolerance.distance for pair in zip(moment.rods, other.rods, strict=True)
     ):
         return 0, "a rod has other ends"
+    depths = zip(list_depths(moment), list_depths(other), strict=True)
+    if any(abs(depth - right_depth) > tolerance.distance for depth, right_depth in depths):
+        return 0, "a contact has another depth"
     return None
+
+
+def list_depths(moment: Moment) -> list[float]:
+    """Return the depths of all contacts, px, in the order of their points."""
+    return [each.depth for each in sorted(moment.touches, key=lambda each: (each.x, each.y))]
 
 
 def name_of(number: int, runs: tuple[Run, Run]) -> str:

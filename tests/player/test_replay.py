@@ -48,6 +48,7 @@ from grader.protocol import (
     BodyLook,
     BodyRow,
     Call,
+    ContactRow,
     Moment,
     Record,
     Returned,
@@ -285,6 +286,15 @@ def test_a_missing_or_misplaced_rod_parts():
     without[0].lines[0].moments[0].rods.append((0.0, 0.0, 1.0, 2.0))
     found = pair_runs(without, with_rod).parting
     assert found is not None and found.words == "a rod has other ends"
+
+
+def test_another_depth_of_a_contact_parts():
+    yours, right = runs(AT_REST), runs(AT_REST)
+    for each, depth in ((yours, 0.0), (right, 0.25)):
+        contact = ContactRow(0.0, 0.0, 0.0, 1.0, depth, 1.0, 0.0, 0.6, 1, 2)
+        each[0].lines[0].moments[0].touches.append(contact)
+    found = pair_runs(yours, right).parting
+    assert found is not None and found.words == "a contact has another depth"
 
 
 def test_another_answer_parts_and_another_request_is_not_compared():
