@@ -333,21 +333,6 @@ def test_a_ball_rolls_in_real_time_and_stops_when_asked(screen: Screen) -> None:
     screen.page.clock.resume()
 
 
-@pytest.mark.soak
-def test_a_step_takes_a_fifth_of_a_rods_error(screen: Screen) -> None:
-    """The rods do not disturb each other: the middle is heavy, and the far end is in place."""
-    found = figure(screen, "rod")
-    found.get_by_role("button", name="Again").click()
-    slide(screen, "rod", "mass of B", 8)
-    slide(screen, "rod", "mass of C", 1)
-    found.locator(".handle").nth(1).focus()
-    for _ in range(15):
-        screen.page.keyboard.press("Shift+ArrowLeft")
-    assert "AB is 30.0 px too long" in words(screen, "rod")
-    found.get_by_role("button", name="One step").click()
-    assert "Rod AB is 24.0 px too long" in words(screen, "rod")
-
-
 # ---------------------------------------------------------------- other pages than wide and light
 
 

@@ -41,7 +41,6 @@ from grader.judge.wording import withhold_reasons
 from grader.release.build import build, build_wrong_members
 from grader.release.handed_out import make_students_tree, write_tree
 from grader.release.handouts import make_handouts
-from grader.release.leaks import find_leaks_in_text, find_secrets
 from grader.release.nbgrader_course import make_course
 from grader.release.notebooks import has_task, make_notebooks
 from grader.release.pages import make_anchor
@@ -487,18 +486,6 @@ def test_the_gradescope_zip_takes_the_course_along(tmp_path: Path):
     with zipfile.ZipFile(path) as archive:
         settings = msgspec.json.decode(archive.read("settings.json"), type=Settings)
     assert settings.course == COURSES["without-pymunk"]
-
-
-@pytest.mark.soak
-def test_code_that_is_given_is_no_secret_and_the_rest_is():
-    course = COURSES["engine"]
-    secrets = find_secrets(KIT, course)
-    named = " ".join(secret.what for secret in secrets)
-    assert "TODO 3" in named and "TODO 7a" not in named and "TODO B1" not in named
-    for name, content in make_students_tree(KIT, course).items():
-        assert not [*find_leaks_in_text(name, content.decode("utf-8", "replace"), secrets)]
-    solution = (KIT / "solution" / "mini_engine" / "joints.py").read_text(encoding="utf-8")
-    assert [*find_leaks_in_text("joints.py", solution, secrets)]
 
 
 # ---------------------------------------------------------------- verify and release
