@@ -22,7 +22,10 @@ from grader.protocol import (
     Moment,
     Record,
     Reply,
+    Request,
+    Set,
     ShapeLook,
+    Simulate,
     WithMoments,
 )
 from grader.worker.subject import Subject, refs_in
@@ -51,7 +54,7 @@ class Recorder:
         self.bodies: dict[int, Any] = {}  # by number
         self.numbers: dict[int, int] = {}  # by id(body); self.bodies keeps these alive
         self.hidden = 0  # objects of earlier scenes
-        self.given: list[int] = []  # numbers of the objects that the request names
+        self.given: list[int] = []  # numbers of the objects that requests of this scene name
         self.world: Any = None  # of the running program, if any
         self.owner: type | None = None
         self._reset(None)
@@ -60,11 +63,12 @@ class Recorder:
 
     def start(self, recording: Record) -> None:
         """Get ready to record one request."""
-        self.given = refs_in(recording.request) if isinstance(recording.request, Call) else []
         if recording.cut:
             self.hidden = len(self.subject.objects)
+            self.given.clear()
             self.bodies.clear()
             self.numbers.clear()
+        self.given += [ref for ref in list_named(recording.request) if ref not in self.given]
         self._reset(recording)
 
     def _reset(self, recording: Record | None) -> None:
@@ -197,6 +201,18 @@ def lesson_shape(shape: Any) -> ShapeLook:
         return ShapeLook([(0.0, 0.0)], field_number(shape, "radius"))
     x, y = field_pair(shape, "half")
     return ShapeLook([(-x, -y), (x, -y), (x, y), (-x, y)], 0.0)
+
+
+def list_named(request: Request) -> list[int]:
+    """Return the numbers of the objects that a request names; they may be of earlier scenes."""
+    match request:
+        case Call():
+            return refs_in(request)
+        case Set(ref=ref):
+            return [ref]
+        case Simulate(ref=ref, watch=watch):
+            return [ref, *watch]
+    return []
 
 
 def pymunk_shape(shape: pymunk.Shape) -> ShapeLook:

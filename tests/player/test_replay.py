@@ -22,6 +22,7 @@ from grader.bank.members import Member, put_regions
 from grader.bank.verify import shared_worker
 from grader.checks.todo_2 import checks as todo_2
 from grader.checks.todo_4 import checks as todo_4
+from grader.checks.todo_5 import checks as todo_5
 from grader.checks.todo_8 import checks as todo_8
 from grader.checks.whole import checks as whole
 from grader.judge.failures import Failing
@@ -826,6 +827,16 @@ def arm_recorder() -> Recorder:
 @pytest.fixture(scope="module")
 def arms(arm_recorder: Recorder) -> Replay:
     return pair_runs(arm_recorder.scenes[-1], arm_recorder.scenes[-1])
+
+
+def test_a_world_of_an_earlier_scene_is_shown_with_its_bodies():
+    (todo,) = (todo for todo in load_rubric().todos if todo.id == "5")
+    function = todo_5.one_world_follows_its_rates_and_its_step
+    check = next(each for each in todo.checks if each.id == function.__name__)
+    with child_opener(KIT / "solution") as children:
+        recorder = record_again(Failing(todo, check, function, []), children, []).recorder
+    for runs in recorder.scenes[1:]:
+        assert all(len(moment.bodies) == 1 for moment in runs[-1].lines[-1].moments)
 
 
 def test_a_script_makes_the_bodies_of_an_earlier_scene(arm_recorder: Recorder, tmp_path: Path):
