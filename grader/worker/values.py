@@ -106,9 +106,9 @@ def read_ends(joint: Any) -> Ends:
     if isinstance(joint, pymunk.constraints.Constraint):
         start = joint.a.local_to_world(joint.anchor_a)
         end = joint.b.local_to_world(joint.anchor_b)
-    else:
-        start, end = field_pair(field(joint, "a"), "pos"), field_pair(field(joint, "b"), "pos")
-    return start.x, start.y, end.x, end.y
+        return start.x, start.y, end.x, end.y
+    a, b = field_pair(field(joint, "a"), "pos"), field_pair(field(joint, "b"), "pos")
+    return a.x, a.y, b.x, b.y
 
 
 def shape_order(shape: pymunk.Shape) -> tuple[float, float]:
