@@ -15,13 +15,10 @@ member makes the same mistake, add `+` and more. TODO must lose points, and no o
 - Most members are graded as a package and, for TODO 1 to 6, as a single file too.
   `single_file = false` leaves that out.
 
-To read the report of a wrong member, put its code into a copy of the solution and grade that:
+To read the report of a member, write it as a submission and grade that:
 
-    cp -r solution build/member
-    .venv/bin/python -i -m grader.bank.members
-    >>> make_mistake("3-only-pulls", Path("build/member"))
-    >>> exit()
-    .venv/bin/python -m grader grade build/member --todo 3
+    .venv/bin/python -m grader verify --only wrong/3-only-pulls --write build/members
+    .venv/bin/python -m grader grade build/members/3-only-pulls --todo 3
 
 A member of `wrong/whole.toml` breaks a promise of the lesson in given code, by `files`. The program
 as a whole must lose points; only the TODOs in `also` may lose some.
@@ -545,11 +542,6 @@ def make_mistake(name: str, folder: Path) -> None:
     """Put the code of a wrong member into the files of `folder`."""
     wrong = wrong_members(KIT / "tests" / "bank")
     put_regions(next(member for member in wrong if member.name == name).regions, folder)
-
-
-def patch(source: Path, folder: Path) -> None:
-    """Replace regions in `folder` by the same regions of one file."""
-    put_regions(regions_of(source), folder)
 
 
 def regions_of(source: Path) -> Regions:

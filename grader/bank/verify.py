@@ -41,6 +41,7 @@ One = TypeVar("One")
 Found = TypeVar("Found")
 
 RESULTS = KIT / "build" / "verify"
+NOTHING = "nothing in the bank has {!r} in its kind/name, such as wrong/4-against-the-slip"
 MIN_HELPED = 0.95  # share of the half-way states whose first failure must say what is wrong
 
 
@@ -115,12 +116,10 @@ def verify(
     """
     course = course.as_rated
     report = Report(complaints=list(check_kit()))
-    everything = [*list_trees(course), *list_members(KIT, course)]
-    chosen = [each for each in everything if only in f"{each.kind}/{each.name}"]
+    chosen = choose_members(only, course)
     states = list_halfway(only, course, report.complaints)
     if not chosen and not states:
-        example = "wrong/4-against-the-slip"
-        raise Stop(f"nothing in the bank has {only!r} in its kind/name, such as {example}")
+        raise Stop(NOTHING.format(only))
     for what, some, found in (
         ("grading the bank", chosen, report.verdicts),
         ("grading half-way states", states, report.halfway),
@@ -132,13 +131,32 @@ def verify(
     return report
 
 
+def choose_members(only: str, course: Course = FULL) -> list[Member]:
+    everything = [*list_trees(course), *list_members(KIT, course)]
+    return [each for each in everything if only in f"{each.kind}/{each.name}"]
+
+
+def write_members(only: str, folder: Path) -> list[Path]:
+    """Write members and half-way states as submissions into a folder; return their paths."""
+    chosen = [*choose_members(only), *list_halfway(only, FULL, [])]
+    if not chosen:
+        raise Stop(NOTHING.format(only))
+    paths = []
+    for each in chosen:
+        paths.append(
+            folder / each.name if each.form == "package" else folder / f"{each.name}-single"
+        )
+        each.build(KIT, paths[-1])
+    return paths
+
+
 def count_unproven(course: Course) -> int:
     """Count the members of a course's bank that no `verify` of this version has proved.
 
     It grades by the whole rubric, so one `verify` serves every course.
     """
     results = Store(RESULTS)
-    all_of_them = [*list_trees(course.as_rated), *list_members(KIT, course.as_rated)]
+    all_of_them = choose_members("", course.as_rated)
     return sum(results.read(replace(each, course=FULL)) is None for each in all_of_them)
 
 

@@ -49,15 +49,6 @@ def circle_box(disc: Disc, rect: Rect) -> list[Touch | None]:
     return [touch for touch in ways if touch.depth <= shortest + 1e-9]
 
 
-def equally_near(disc: Disc, rect: Rect) -> bool:
-    """Return whether a centre inside has two nearest faces; then both ways out are right."""
-    across, down = rect.hx - abs(disc.x - rect.x), rect.hy - abs(disc.y - rect.y)
-    if min(across, down) < 0:
-        return False
-    in_the_middle = disc.x == rect.x if across < down else disc.y == rect.y
-    return across == down or in_the_middle
-
-
 @recorded.oracle()
 def ways_out(disc: Disc, rect: Rect) -> list[Touch]:
     """Return the contacts by which a centre inside could leave: left, right, top, bottom."""

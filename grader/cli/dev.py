@@ -53,6 +53,7 @@ def verify_command(
     jobs: MembersAtATime = 0,
     only: Annotated[str, typer.Option(help="Only members whose kind/name contains this.")] = "",
     fresh: Annotated[bool, typer.Option("--fresh", help=FRESH)] = False,
+    write: Annotated[Path | None, typer.Option(help="Only write the members here.")] = None,
     course: CourseFile = None,
 ) -> None:
     """Grade the bank of wrong, right and hostile submissions, to test the grader.
@@ -60,8 +61,12 @@ def verify_command(
     Unchanged members with a result in build/verify are not graded again.
     """
     require_checkout("verify")
-    from grader.bank.verify import verify
+    from grader.bank.verify import verify, write_members
 
+    if write is not None:
+        for path in write_members(only, write):
+            console.print(str(path))
+        return
     sound = verify(jobs, only, console, fresh, read_course(course)).sound
     raise typer.Exit(0 if sound else 1)
 

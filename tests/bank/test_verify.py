@@ -29,6 +29,7 @@ from grader.bank.verify import (
     judge,
     summarize,
 )
+from grader.errors import Stop
 from grader.judge.task import KIT
 from grader.judge.result import CheckResult, Result, TodoResult
 
@@ -166,6 +167,14 @@ def test_verify_grades_once_and_says_so(tmp_path: Path, monkeypatch: pytest.Monk
     assert "1 members: 0 graded now, 1 taken from an earlier run" in told[1]
     table = re.compile("│ wrong.*")
     assert table.findall(told[0]) == table.findall(told[1]) != []
+
+
+def test_members_are_written_as_submissions_to_grade_by_hand(tmp_path: Path):
+    paths = verify.write_members("wrong/5-spin-is-not-damped", tmp_path)
+    names = ["5-spin-is-not-damped", "5-spin-is-not-damped-single"]
+    assert [path.name for path in paths] == names == sorted(p.name for p in tmp_path.iterdir())
+    with pytest.raises(Stop, match="nothing in the bank has 'no-such-member'"):
+        verify.write_members("no-such-member", tmp_path)
 
 
 def test_what_a_half_way_state_must_say_is_in_the_key():

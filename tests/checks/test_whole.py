@@ -3,13 +3,15 @@
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
+from textwrap import dedent
 
 import msgspec
 import pytest
 
-from grader.bank.members import patch
+from grader.bank.members import put_regions
 from grader.judge.grade import grading
 from grader.judge.rubric import Rubric, Todo, load_rubric
+from grader.judge.submission import handed_out
 from grader.judge.task import KIT, Options
 from grader.judge.wall.children import Worker, start_worker
 
@@ -39,24 +41,11 @@ def find_failing(todo: Todo, work: Path, worker: Worker) -> set[str]:
     """Return the checks that fail with this TODO's stub instead of the solution's code."""
     tree = work / todo.id
     shutil.copytree(KIT / "solution", tree, ignore=shutil.ignore_patterns("notebooks", ".*"))
-    for path in (KIT / "starter").rglob("*.py"):
-        if f"# TODO {todo.id}:" in path.read_text(encoding="utf-8"):
-            stub = work / "stub.py"
-            stub.write_text(region_of(todo, path), encoding="utf-8")
-            patch(stub, tree)
+    put_regions({todo.id: tuple(dedent(handed_out().stubs[todo.id]).splitlines())}, tree)
     options = Options(only=frozenset({"whole"}))
     with grading(tree, options, worker, without_needs()) as ours:
         (whole,) = ours.run().todos
     return {check.id for check in whole.checks if check.state != "passed"}
-
-
-def region_of(todo: Todo, path: Path) -> str:
-    """Return the lines of a region with its two markers, moved to the left edge."""
-    lines = path.read_text(encoding="utf-8").splitlines()
-    begin = next(n for n, line in enumerate(lines) if f"# TODO {todo.id}:" in line)
-    end = next(n for n, line in enumerate(lines) if f"# END TODO {todo.id}" in line)
-    indent = len(lines[begin]) - len(lines[begin].lstrip())
-    return "\n".join(line[indent:] for line in lines[begin : end + 1]) + "\n"
 
 
 @pytest.mark.soak

@@ -737,9 +737,3 @@ def test_what_was_asked_is_known_again(first, second, same):
 def test_a_question_without_a_recorded_answer_is_named():
     with pytest.raises(LookupError, match=r"no recorded answer of damped to \(0.5, 7.0\)"):
         recorded.answer("damped", 0.5, 7.0)
-
-
-@pytest.mark.parametrize("centre", [(0, 0), (0, 3), (39, 0), (25, 5), (-25, -5), (40, 20), (39, 1)])
-def test_a_tie_of_two_faces_is_seen_without_the_closed_form(centre):
-    disc, rect = exact.Disc(*centre, 8), exact.Rect(0, 0, 40, 20)
-    assert exact.equally_near(disc, rect) == (len(exact.circle_box(disc, rect)) > 1)
