@@ -111,18 +111,18 @@ class Plan:
     changes: list[Change] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     unchanged: int = 0
-    left_out: int = 0
+    skipped: int = 0
 
-    def leave_out(self, name: str, why: str) -> None:
-        self.left_out += 1
-        self.notes.append(f"{name}: left out, {why}")
+    def skip(self, name: str, why: str) -> None:
+        self.skipped += 1
+        self.notes.append(f"{name}: skipped, {why}")
 
     def add(self, delivery: Delivery, there: Any, sent: list[str], over: bool) -> None:
         """Compare a mark with that in Canvas; only `over` replaces one that a person entered."""
         if there is None:
-            return self.leave_out(delivery.name, f"Canvas has no student {delivery.user} for it")
+            return self.skip(delivery.name, f"Canvas has no student {delivery.user} for it")
         if getattr(there, "excused", False):
-            return self.leave_out(delivery.name, "Canvas has them excused: change that there")
+            return self.skip(delivery.name, "Canvas has them excused: change that there")
         score = getattr(there, "entered_score", getattr(there, "score", None))
         before = "" if score is None else f"{score:g}"
         same, ours = is_score(delivery.mark, score), [m for m in sent if is_score(m, score)]
@@ -132,7 +132,7 @@ class Plan:
             self.changes.append(Change(delivery, there, before, ours))
         else:
             why = f"a person entered {before} in Canvas, and the mark here is {delivery.mark}"
-            self.leave_out(delivery.name, f"{why}: replace it with --over")
+            self.skip(delivery.name, f"{why}: replace it with --over")
 
 
 def is_score(mark: str, score: float | None) -> bool:
@@ -165,8 +165,8 @@ def upload_class(
         console.print(printable(note), soft_wrap=True)
     done = f"{len(sent)} sent" if send else f"{len(plan.changes)} to send"
     more = "" if send or not plan.changes else ": --send sends them"
-    console.print(f"{done}, {plan.unchanged} unchanged, {plan.left_out} left out{more}")
-    return plan.left_out > 0
+    console.print(f"{done}, {plan.unchanged} unchanged, {plan.skipped} skipped{more}")
+    return plan.skipped > 0
 
 
 def tabulate(changes: list[Change]) -> Table:
@@ -208,9 +208,9 @@ def list_deliveries(known: ClassFolder, others_known: bool, plan: Plan) -> list[
         user, full = row["ID"].strip(), list_name(row)
         name = f"{full} ({row[key]})" if full else row[key]
         if not mark:  # make_marks notes the reason
-            plan.left_out += 1
+            plan.skipped += 1
         elif not user or ids[user] > 1:
-            plan.leave_out(name, f"the class list has ID {user!r} {ids[user]} times")
+            plan.skip(name, f"the class list has ID {user!r} {ids[user]} times")
         else:
             found = next((by_name[each] for each in owners.find_results(row)), None)
             deliveries.append(make_delivery((name, user, mark), found, summary, graded))
@@ -303,7 +303,7 @@ def send_changes(plan: Plan, record: Record, path: Path) -> list[str]:
         with explain(f"{done}. The same command goes on from there"):
             why_not = send_change(each)
         if why_not:
-            plan.leave_out(delivery.name, f"Canvas refuses {delivery.mark}: {why_not}")
+            plan.skip(delivery.name, f"Canvas refuses {delivery.mark}: {why_not}")
             continue
         record.students[delivery.user] = [delivery.mark]
         write_whole(msgspec.json.encode(record), path)

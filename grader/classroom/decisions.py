@@ -142,10 +142,6 @@ def is_table(lines: str, kind: str, values: Table) -> bool:
 
 
 def write_table(kind: str, values: Table) -> str:
-    lines = [f"{name} = {write_value(value)}\n" for name, value in values.items()]
-    return "".join([f"[[{kind}]]\n", *lines])
-
-
-def write_value(value: object) -> str:
-    """Write a text, number or list of texts as TOML."""
-    return msgspec.json.encode(value).decode("utf-8").replace("\x7f", "\\u007f")
+    """Write a table of texts, numbers and lists of texts, which have the same form in JSON."""
+    lines = [f"{name} = {msgspec.json.encode(value).decode()}\n" for name, value in values.items()]
+    return "".join([f"[[{kind}]]\n", *lines]).replace("\x7f", "\\u007f")

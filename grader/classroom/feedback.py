@@ -68,7 +68,7 @@ def answer_export(
     for found in sorted(intake.found, key=lambda each: each.handed_in_by != ""):
         entry, path = entries.get(found.name), graded.find_page(found.name)
         if entry is None or path is None:
-            made.notes.append(f"{found.name}: left out, there is no page: grade the class again")
+            made.notes.append(f"{found.name}: skipped, there is no page: grade the class again")
             continue
         text = write_text(entry.outcome, entry.show_result(graded.course), graded.course)
         page = make_page(found, path.read_bytes(), text, people)
@@ -77,7 +77,7 @@ def answer_export(
         files = dict(lms.name_pages(sources[0], pages))
         if not files:
             who = " and ".join(each.name for each in pages)
-            made.notes.append(f"{who}: left out, {lms.name} does not name files so")
+            made.notes.append(f"{who}: skipped, {lms.name} does not name files so")
         for name, content in files.items():
             made.files[name] = zip_files(content) if isinstance(content, dict) else content
     return made
@@ -96,7 +96,7 @@ def answer_absent(
             made.files[file] = page.read_bytes()
         elif name in intake.troubles or page:
             why = intake.troubles.get(name, "no file of theirs came that a page could answer")
-            made.notes.append(f"{name}: left out, {why}")
+            made.notes.append(f"{name}: skipped, {why}")
 
 
 def make_page(found: Work, content: bytes, text: str, people: ClassList) -> Page:
@@ -147,7 +147,7 @@ def address_pages(roster: Roster, key: str, graded: GradedClass) -> Feedback:
         address, names = row[column].strip(), owners.find_results(row)
         if len(names) != 1 or not address:
             why = f"{' and '.join(names)} could be theirs" if names else "no page is theirs"
-            made.notes.append(f"{row[key] or address}: left out, {why}")
+            made.notes.append(f"{row[key] or address}: skipped, {why}")
         elif page := graded.find_page(names[0]):
             file = f"{make_portable(address)}.html"
             made.files[file] = page.read_bytes()

@@ -54,16 +54,13 @@ class Letter:
     body: str
 
 
-def ask_again(reason: str) -> str:
-    """Return the request to a student whose work could not be graded."""
-    words = next((words for sign, words in ASKS.items() if sign in reason), OTHERWISE)
-    return words.format(reason=clean(reason).rstrip("."))
-
-
 def write_body(name: str, reason: str, title: str) -> str:
+    """Return the request to a student whose work could not be graded."""
+    ask = next((words for sign, words in ASKS.items() if sign in reason), OTHERWISE)
+    ask = ask.format(reason=clean(reason).rstrip("."))
     greeting = f"Hello {name}," if name else "Hello,"
     words = f"your submission of “{title}” has no points yet."
-    return f"{greeting}\n\n{words} {ask_again(reason)}\n\nThank you.\n"
+    return f"{greeting}\n\n{words} {ask}\n\nThank you.\n"
 
 
 def find_decided(outcomes: list[Outcome], adjustments: Adjustments) -> Iterator[Outcome]:

@@ -265,16 +265,12 @@ def decide_comment(review: Review, name: str, form: Form) -> None:
     review.file.put("comment", encode_comment(comment))
 
 
-def remove_decision(review: Review, name: str, form: Form) -> None:
-    review.file.remove(form.get("key", ""))
-
-
 ACTS: dict[str, Callable[[Review, str, Form], None]] = {
     "/points": decide_points,
     "/work": decide_work,
     "/owner": decide_owner,
     "/comment": decide_comment,
-    "/remove": remove_decision,
+    "/remove": lambda review, name, form: review.file.remove(form.get("key", "")),
 }
 
 
@@ -331,8 +327,13 @@ def render_class(review: Review) -> str:
 def render_student(review: Review, name: str, given: Form, problem: str = "") -> str:
     """Return the page of a student; `given` fills in its forms."""
     shown, how = review.read_files(name)
-    decisions = review.list_decisions(name)
-    placed = [place_decision(each, dict(shown.files)) for each in decisions]
+    decisions, files = review.list_decisions(name), dict(shown.files)
+    placed = [  # comments beside their lines in these files
+        place_comment(msgspec.convert(each.values, Comment), files)
+        if each.kind == "comment"
+        else None
+        for each in decisions
+    ]
     remarks = [remark for remark in placed if remark and remark.line]
     return fill(
         "review_student.html",
@@ -355,13 +356,6 @@ def list_owners(review: Review) -> list[tuple[str, str]]:
     """Return possible owners, students who handed in nothing first."""
     names = [*review.absent, *(n for n in review.people.names if n not in review.absent)]
     return [(name, review.find_outcome(name).label) for name in names]
-
-
-def place_decision(decision: Decision, files: Mapping[str, bytes]) -> Remark | None:
-    """Return a comment beside its line in these files; None for other decisions."""
-    if decision.kind != "comment":
-        return None
-    return place_comment(msgspec.convert(decision.values, Comment), files)
 
 
 def list_files(shown: Contents, remarks: list[Remark]) -> list[File]:

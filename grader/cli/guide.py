@@ -34,8 +34,8 @@ from grader.judge.result import TodoResult
 from grader.judge.rubric import load_rubric
 from grader.judge.wall.children import start_worker
 from grader.judge.wording import command
-from grader.report.screen import Screen, Tasks, choose_failure, choose_todo, load_tasks
-from grader.report.terminal import find_replay, say, wrap, write
+from grader.report.screen import Screen, Tasks, choose_failure, load_tasks
+from grader.report.terminal import choose_todo, find_replay, say, wrap, write
 from grader.text import clean
 
 TICK = 200  # ms between two looks for keys

@@ -83,7 +83,7 @@ class Bounds:
             return []
         first, *others = self.left_out
         more = f" and {plural(len(others), 'more file')}" if others else ""
-        return [f"left out {first}{more}: size limit reached"]
+        return [f"skipped {first}{more}: size limit reached"]
 
 
 def unzip(path: Path, folder: Path, bounds: Bounds) -> None:

@@ -29,7 +29,6 @@ from grader.intake.pieces import (
 from grader.intake.places import (
     DEEPEST,
     cut_suffix,
-    enter_single_folders,
     is_archive,
     is_packed,
     list_modules,
@@ -150,22 +149,6 @@ def find_empty_programs(files: list[tuple[str, bytes]], asked: Collection[str]) 
 
 
 @contextmanager
-def lay_out(folder: Path, laid: Layout) -> Iterator[Path]:
-    """Lay opened work out in a folder as the lab does."""
-    if not laid.files:
-        yield enter_single_folders(folder)
-    elif laid.as_found:
-        yield laid.root
-    else:
-        with work_folder() as temporary:
-            for name, path in laid.files.items():
-                (temporary / name).parent.mkdir(parents=True, exist_ok=True)
-                with open_inside(folder, path) as file:
-                    copy_plain(file, temporary / name, size_of(file))
-            yield temporary
-
-
-@contextmanager
 def open_found(
     found: Work, asked: Collection[str] = ()
 ) -> Iterator[tuple[Path, Layout, list[str]]]:
@@ -223,7 +206,7 @@ def unpack(found: Work, folder: Path, bounds: Bounds, asked: Collection[str] = (
         why = (f"{name}: {words}" * (name not in names) or words for name, words in refused.items())
         more = [f"and {len(refused) - MENTIONED} more"] * (len(refused) > MENTIONED)
         raise CannotTake("; ".join([*islice(why, MENTIONED), *more]))
-    laid.notes += [f"left out {name}: {words}" for name, words in refused.items()]
+    laid.notes += [f"skipped {name}: {words}" for name, words in refused.items()]
     return laid
 
 

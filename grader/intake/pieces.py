@@ -9,8 +9,6 @@ import re
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from functools import cache, lru_cache
-from itertools import groupby
-from operator import attrgetter
 from pathlib import Path, PurePosixPath
 from typing import NoReturn
 from urllib.parse import unquote
@@ -58,8 +56,6 @@ class Layout:
     """The files of a submission by their names in the lab."""
 
     files: dict[str, Path]
-    as_found: bool = True  # they lie so in `root`
-    root: Path = Path()
     notes: list[str] = field(default_factory=list)
 
 
@@ -158,17 +154,20 @@ def arrange_rest(folder: Path, asked: Collection[str], left_out: set[PurePosixPa
     """
     found_paths = (PurePosixPath(p.relative_to(folder).as_posix()) for p in plain_files(folder))
     paths = sorted(path for path in found_paths if not is_covered(path, left_out))
-    notes = [f"{path} was left out: another was chosen" for path in sorted(left_out)]
+    notes = [f"{path} was skipped: another was chosen" for path in sorted(left_out)]
     found = find_candidates(paths)
     asked = asked or list_modules()
+    by_module: dict[str, list[Piece]] = {}
+    for each in [*found, *find_renamed(paths, found)]:
+        by_module.setdefault(each.module, []).append(each)
     pieces = [
-        choose_piece(each, folder, notes, each[0].module in asked)
-        for each in group_by_module([*found, *find_renamed(paths, found)])
+        choose_piece(by_module[module], folder, notes, module in asked)
+        for module in sorted(by_module)
     ]
     if PACKAGE not in {piece.module for piece in pieces}:
         pieces += find_loose_package(paths, folder)
     if not pieces:
-        return Layout({}, root=folder)
+        return Layout({})
     top = find_top(pieces)
     files: dict[str, Path] = {}
     elsewhere: set[PurePosixPath] = set()
@@ -186,8 +185,7 @@ def arrange_rest(folder: Path, asked: Collection[str], left_out: set[PurePosixPa
         for path in paths:
             if path.parent == parent and path.suffix == ".py" and path not in elsewhere:
                 files.setdefault(path.name, folder / path)
-    as_found = all(path == folder / top / name for name, path in files.items())
-    return Layout(files, as_found, folder / top, notes)
+    return Layout(files, notes)
 
 
 def find_candidates(paths: list[PurePosixPath]) -> list[Piece]:
@@ -249,11 +247,6 @@ def is_package(folder: PurePosixPath, inside: list[PurePosixPath]) -> bool:
     return INIT in direct or (not around and any(name.endswith(".py") for name in direct))
 
 
-def group_by_module(pieces: list[Piece]) -> list[list[Piece]]:
-    by_module = attrgetter("module")
-    return [list(group) for _, group in groupby(sorted(pieces, key=by_module), by_module)]
-
-
 def choose_piece(pieces: list[Piece], folder: Path, notes: list[str], matters: bool) -> Piece:
     """Return the candidate nearest to the top.
 
@@ -274,7 +267,7 @@ def choose_piece(pieces: list[Piece], folder: Path, notes: list[str], matters: b
         notes.append(f"{first.path} and {other.path} are the same")
     for other in pieces:
         if len(other.path.parts) > nearest and not first.is_same(other, folder):
-            notes.append(f"{other.path} was left out: {first.path} lies nearer to the top")
+            notes.append(f"{other.path} was skipped: {first.path} lies nearer to the top")
     return first
 
 
@@ -283,7 +276,7 @@ def drop_backups(pieces: list[Piece], notes: list[str]) -> list[Piece]:
     backups = [piece for piece in pieces if not piece.exact and is_backup(piece.path.name)]
     if len(backups) == len(pieces):
         return pieces
-    notes += [f"{piece.path} was left out as a backup" for piece in backups]
+    notes += [f"{piece.path} was skipped as a backup" for piece in backups]
     return [piece for piece in pieces if piece.exact or not is_backup(piece.path.name)]
 
 
@@ -334,7 +327,7 @@ def list_files(piece: Piece, folder: Path, notes: list[str]) -> list[tuple[str, 
         target = f"{PACKAGE}/{known}" if known else name
         other = files.setdefault(target, path)
         if other != path and is_backup(path.name):
-            notes.append(f"{path} was left out as a backup")
+            notes.append(f"{path} was skipped as a backup")
             continue
         if other != path and read_plain(folder, other, MOST_READ) != read_plain(
             folder, path, MOST_READ

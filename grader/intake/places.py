@@ -4,9 +4,8 @@ from pathlib import Path, PurePath
 
 from grader.judge.plain import open_plain
 from grader.judge.rubric import load_rubric
-from grader.judge.submission import IGNORED
 
-DEEPEST = 3  # folders around a program, and archives inside archives
+DEEPEST = 3  # archives inside archives
 SYSTEM_FILES = {"thumbs.db", "desktop.ini", "__macosx", "icon\r"}  # and all that is hidden
 SIGNS = (
     b"7z\xbc\xaf",
@@ -48,18 +47,6 @@ def cut_suffix(path: Path) -> str:
     packed = path.suffix.lower() in ARCHIVES
     stem = path.stem if packed else path.name
     return stem[:-4] if packed and stem.lower().endswith(".tar") else stem
-
-
-def enter_single_folders(folder: Path) -> Path:
-    """Return the innermost of folders that hold only one other folder."""
-    for _ in range(DEEPEST):
-        inside = list_folder(folder)
-        if len(inside) != 1 or inside[0].name in {"notebooks", *IGNORED}:
-            break
-        if not inside[0].is_dir() or inside[0].is_symlink():
-            break
-        folder = inside[0]
-    return folder
 
 
 def has_program(folder: Path) -> bool:

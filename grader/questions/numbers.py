@@ -50,7 +50,9 @@ class Maker:
 
     def ask(self, program: Program, seed: str, points: int) -> Question:
         """Make the question for one student; raise CannotAsk if no draw suits."""
-        for draw in draw_numbers(self, seed):
+        rng = random.Random(f"{seed}/{self.name}")
+        for _ in range(TRIES):
+            draw = {name: rng.choice(few) for name, few in self.draws.items()}
             try:
                 return make_question(self, self.find(program, draw), points)
             except Unsuited:
@@ -68,12 +70,6 @@ def maker(
         return Maker(name, tuple(todos.split()), draws, find, slot)
 
     return made
-
-
-def draw_numbers(each: Maker, seed: str) -> list[Draw]:
-    """Draw the numbers of a maker, and others in case the first are unsuited."""
-    rng = random.Random(f"{seed}/{each.name}")
-    return [{name: rng.choice(few) for name, few in each.draws.items()} for _ in range(TRIES)]
 
 
 def make_question(each: Maker, found: Case, points: int) -> Question:

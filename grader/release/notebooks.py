@@ -55,12 +55,6 @@ def make_cell(id: str, kind: str, text: str, metadata: Cell) -> Cell:
     return found | ({"execution_count": None, "outputs": []} if kind == "code" else {})
 
 
-def make_notebook(cells: list[Cell]) -> Cell:
-    python = {"display_name": "Python 3", "language": "python", "name": "python3"}
-    metadata = {"kernelspec": python, "language_info": {"name": "python"}}
-    return {"cells": cells, "metadata": metadata, "nbformat": 4, "nbformat_minor": 5}
-
-
 def encode_notebook(notebook: Cell) -> str:
     return json.dumps(notebook, indent=1, ensure_ascii=False) + "\n"
 
@@ -74,7 +68,9 @@ def make_engine_notebook(rubric: Rubric) -> Cell:
         if todo.function:
             text += f", for `{todo.function.partition(':')[2]}` in `{todo.module}`"
         cells.append(make_marked(f"todo-{todo.id}", "markdown", text, TASK, todo.max_points))
-    return make_notebook(cells)
+    python = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    metadata = {"kernelspec": python, "language_info": {"name": "python"}}
+    return {"cells": cells, "metadata": metadata, "nbformat": 4, "nbformat_minor": 5}
 
 
 def add_practice(notebook: Cell, page: str) -> Cell:

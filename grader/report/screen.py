@@ -13,11 +13,11 @@ from grader.judge.result import FAILED, CheckResult, Result, State, TodoResult
 from grader.judge.rubric import CHECKS
 from grader.judge.wording import NAMES, command, list_reasons, task_of, total
 from grader.report.terminal import (
-    FIRST,
     MARGIN,
     MAX_COLUMNS,
     STATES,
     STYLES,
+    choose_todo,
     describe_obstacle,
     group_checks,
     is_endless,
@@ -185,23 +185,6 @@ class Screen:
             whole = len(kept) == len(text)
             shown[name] = kept if whole else [*kept[:-1], self.cut(kept[-1], 2) + " …"]
         return [*(line for name in texts for line in shown[name]), *rerun, *replay]
-
-
-def choose_todo(result: Result, touched: Collection[str] = ()) -> TodoResult | None:
-    """Return the next TODO: the first that fails, or else the first that is not started.
-
-    Bonus tasks come last.
-    """
-    states = (*FAILED, "not started")
-    left = [todo for todo in result.main_todos or result.todos if todo.state in states]
-    left = left or [todo for todo in result.todos_to_show if todo.state in FAILED]
-
-    def rank(todo: TodoResult) -> tuple[bool, ...]:
-        is_last, is_later = todo.id == "whole", todo.id != FIRST
-        return not todo.failed, todo.id not in touched, not todo.remark, is_last, is_later
-
-    begun = [todo for todo in result.todos_to_show if todo.id in touched and todo.failed]
-    return min([*begun, *left], key=rank, default=None)
 
 
 def list_remarks(result: Result) -> list[str]:

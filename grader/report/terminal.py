@@ -2,7 +2,7 @@
 
 import os
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from itertools import chain
 from pathlib import Path
@@ -160,17 +160,10 @@ def show_all(result: Result, console: Console, replays: Path | None = None) -> N
 
 
 def show_next(result: Result, console: Console) -> None:
-    """Print what to do next: the first started TODO, or else the first of all.
-
-    Bonus tasks come last.
-    """
-    todos = result.main_todos or result.todos
-    left = [todo for todo in todos if todo.state in (*FAILED, "not started")]
-    if not left:
+    """Print what to do next; bonus tasks only if nothing else was asked for."""
+    todo = choose_todo(result)
+    if todo is None or (todo.bonus and result.counted):
         return
-    todo = min(
-        left, key=lambda each: (each.id == "whole", each.state == "not started", each.id != FIRST)
-    )
     if words := describe_obstacle(todo):
         say(words, console, 6, "bold")
         return
@@ -178,6 +171,23 @@ def show_next(result: Result, console: Console) -> None:
     say(headline, console, 6, "bold")
     for line in commands:
         say(line, console)
+
+
+def choose_todo(result: Result, touched: Collection[str] = ()) -> TodoResult | None:
+    """Return the next TODO: the first that fails, or else the first that is not started.
+
+    Bonus tasks come last.
+    """
+    states = (*FAILED, "not started")
+    left = [todo for todo in result.main_todos or result.todos if todo.state in states]
+    left = left or [todo for todo in result.todos_to_show if todo.state in FAILED]
+
+    def rank(todo: TodoResult) -> tuple[bool, ...]:
+        is_last, is_later = todo.id == "whole", todo.id != FIRST
+        return not todo.failed, todo.id not in touched, not todo.remark, is_last, is_later
+
+    begun = [todo for todo in result.todos_to_show if todo.id in touched and todo.failed]
+    return min([*begun, *left], key=rank, default=None)
 
 
 def describe_obstacle(todo: TodoResult) -> str:

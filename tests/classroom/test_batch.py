@@ -232,18 +232,6 @@ def test_names_that_are_no_text_are_graded(classroom):
     assert not any(each.trouble for each in run.outcomes)
 
 
-def test_results_land_beside_the_class_unless_said_otherwise(classroom, monkeypatch):
-    monkeypatch.setattr(grading, "open_executor", lambda wanted: FragilePool(wanted.options, 1))
-    (classroom / "roster.csv").write_text(
-        "First name,Last name,Email address\nA,A,ann@x\nD,D,dora@x\n", encoding="utf-8"
-    )
-    (classroom / "adjustments.toml").write_text("[late]\nper_day = 10\n", encoding="utf-8")
-    run = run_class(classroom, ClassOptions(Options()), QUIET)
-    assert run.book.folder == classroom.parent / "class-results"
-    assert "nothing was handed in by dora@x" in run.notes
-    assert "not in the class list: ben, cem" in run.notes
-
-
 # ---------------------------------------------------------------- processes
 
 

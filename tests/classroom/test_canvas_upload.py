@@ -63,7 +63,7 @@ def lab(
     monkeypatch.setenv("CANVAS_TOKEN", TOKEN)
     lab = shutil.copytree(graded_class, tmp_path / "lab")
     said, _ = upload(lab, "--to", f"{server.base}/courses/7/assignments/9?module_item_id=3")
-    assert "4 to send, 0 unchanged, 2 left out" in said
+    assert "4 to send, 0 unchanged, 2 skipped" in said
     return lab
 
 
@@ -90,8 +90,8 @@ def scores(server: Canvas) -> list[float | None]:
 def test_a_first_run_sends_nothing_and_a_second_run_nothing_again(lab: Path, server: Canvas):
     assert scores(server) == [None] * 5 and not server.files
     said, status = upload(lab, "--send")
-    assert "4 sent, 0 unchanged, 2 left out" in said and status == 1
-    assert "Finn, A (finn): left out, Canvas has no student 6" in said
+    assert "4 sent, 0 unchanged, 2 skipped" in said and status == 1
+    assert "Finn, A (finn): skipped, Canvas has no student 6" in said
     assert "eve: no mark yet, engine must be graded by hand" in said
     assert scores(server) == [2.5, 6.0, 10.0, 0.0, None]  # those of the gradebook
     said, _ = upload(lab, "--send")
@@ -124,10 +124,10 @@ def test_what_a_person_entered_in_canvas_stays_unless_told(lab: Path, server: Ca
     server.users[1]["entered_score"] = 9.0
     server.users[3]["excused"] = True
     said, status = upload(lab, "--send", "--over")
-    assert "Cem, A (cem): left out, Canvas has them excused" in said and scores(server)[0] == 2.5
+    assert "Cem, A (cem): skipped, Canvas has them excused" in said and scores(server)[0] == 2.5
     server.users[1]["entered_score"] = 9.0
     said, status = upload(lab, "--send")
-    assert "Ann, A (ann): left out, a person entered 9 in Canvas, and the mark here is 2.5" in said
+    assert "Ann, A (ann): skipped, a person entered 9 in Canvas, and the mark here is 2.5" in said
     assert status == 1 and scores(server)[0] == 9.0
 
 
@@ -175,7 +175,7 @@ def test_a_throttled_request_is_made_again_but_not_for_ever(
 def test_a_mark_that_is_refused_stops_no_other(lab: Path, server: Canvas, method: str, status: int):
     server.troubles = [(method, status)]
     said, code = upload(lab, "--send")
-    assert "Ann, A (ann): left out, Canvas refuses 2.5" in said and "3 sent" in said and code == 1
+    assert "Ann, A (ann): skipped, Canvas refuses 2.5" in said and "3 sent" in said and code == 1
     assert "1 sent, 3 unchanged" in upload(lab, "--send")[0]
 
 

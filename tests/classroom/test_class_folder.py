@@ -55,12 +55,6 @@ def test_bonus_tasks_are_named_too(place: Path):
     assert "4 points, TODO 8a, 8c; bonus B1, B4" in said
 
 
-def test_a_new_class_says_what_its_gradebook_lacks(place: Path):
-    (place / "list.csv").write_text('Student,ID,SIS Login ID,Section\n"Lee, A",1,ann,A\n')
-    words = ("--roster", place / "list.csv", "--course", place / "autumn.toml")
-    assert "has no column 'Lab 3'" in call_class("new", place / "lab", *words)
-
-
 def read_grades(lab: Path) -> list[str]:
     with open(lab / "marks.csv", encoding="utf-8") as table:
         return [row["Grade"] for row in csv.DictReader(table)]
@@ -156,14 +150,6 @@ def test_a_class_draws_a_seed_that_nobody_can_try_and_keeps_it(place: Path):
     assert read_class_folder(lab).settings.seed == first
     call_class("new", lab, "--seed", "7")
     assert read_class_folder(lab).settings.seed == 7
-
-
-def test_a_class_that_was_stopped_goes_on_from_there(place: Path, monkeypatch: pytest.MonkeyPatch):
-    lab = make(place, "--submissions", place / "export")
-    monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline(1))
-    assert "the same command goes on from there" in call_class("grade", lab)
-    monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
-    assert "2 graded, 1 kept" in call_class("grade", lab)
 
 
 def test_what_needs_review_names_the_file_of_decisions_and_takes_them(place: Path):

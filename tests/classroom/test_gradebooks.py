@@ -8,9 +8,8 @@ import classes
 import gradebooks
 import pytest
 from classes import FULL, TITLE, Student
-from command_line import run_in_class
 
-from grader.classroom.book import NOTHING, Book, Outcome
+from grader.classroom.book import NOTHING, Outcome
 from grader.classroom.marks import Marking, Scores, make_marks, make_parts, score_sheets
 from grader.intake.systems import read_roster
 from grader.judge.course import Course
@@ -129,16 +128,3 @@ def test_a_group_that_handed_in_two_ways_is_for_a_person(tmp_path):
     outcomes = [Outcome("ann@x", "", 80, 100, final=80), Outcome("ben@x", "", 60, 100, final=60)]
     content, _ = made(tmp_path, text, outcomes)
     assert [row["Grade"] for row in gradebooks.rows_of(content)] == ["16.0", "12.0", ""]
-
-
-def test_the_command_writes_blackboards_file_as_blackboard_does(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    with Book(tmp_path / "out") as book:
-        book.finish(grade_all("blackboard"))
-    (tmp_path / "list.xls").write_bytes(list_class("blackboard").encode("utf-16"))
-    settings = tmp_path / "marks.toml"
-    settings.write_text(f'title = "{TITLE}"\n[shares]\nengine = 1\n', encoding="utf-8")
-    done = run_in_class(tmp_path, "marks", roster="list.xls", results="out")
-    assert done.exit_code == 1, done.output
-    told = gradebooks.blackboard((tmp_path / "marks.csv").read_bytes(), TITLE)
-    assert told["cem"] == ("70.0", "") and told["ben"] == ("", "")

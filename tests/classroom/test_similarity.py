@@ -2,8 +2,6 @@
 
 import io
 import re
-import subprocess
-import sys
 import tokenize
 from pathlib import Path
 
@@ -142,23 +140,6 @@ def test_pairs_are_of_two_students_of_the_class_who_share_what_few_have(right_me
     pairs = {each.names for each in find_pairs(prints("a", "b", "c"), of={"a"})}
     assert pairs == {("a", "b"), ("a", "c")}
     assert not find_pairs(prints(*(f"s{number}" for number in range(9))))
-
-
-@pytest.mark.soak
-def test_the_same_pairs_whatever_the_hash_seed_is():
-    text = "a = b + c * d - e / f\n" * 9
-    code = f"from grader.classroom.similarity import hash_runs; print(sorted(hash_runs({text!r})))"
-    told = {
-        subprocess.run(
-            [sys.executable, "-c", code],
-            env={"PYTHONHASHSEED": seed},
-            cwd=KIT,
-            capture_output=True,
-            check=True,
-        ).stdout
-        for seed in ("1", "2")
-    }
-    assert len(told) == 1
 
 
 def test_pairs_are_on_the_class_page_side_by_side_and_in_a_table(

@@ -279,7 +279,7 @@ def check_feedback(graded_class: Class) -> None:
         for student in graded_class.students:
             text = student.text and graded_class.system == "brightspace"  # has a folder there
             without = not (student.files or text) and has_page(graded_class, student)
-            named = f"{graded_class.name(student)}: left out, " in done.output
+            named = f"{graded_class.name(student)}: skipped, " in done.output
             assert named == (without and graded_class.system != "moodle"), student.login
     elif graded_class.system in classes.BY_EMAIL:
         send_back(graded_class, "email")

@@ -234,7 +234,7 @@ def test_one_submission_is_laid_out_as_one_of_a_class_is(tmp_path):
     with open_submission(path, said.append) as folder:
         assert folder.name == "ann"
         assert {name for name in PROGRAM if (folder / name).is_file()} == set(PROGRAM)
-    assert not folder.exists() and "old/integrators.py was left out" in said[0]
+    assert not folder.exists() and "old/integrators.py was skipped" in said[0]
     for files, words in (({"../up.py": ""}, "reaches outside"), ({"a.txt": ""}, "nothing of the")):
         path.write_bytes(zipped(files))
         for each in (path, tmp_path):

@@ -122,7 +122,7 @@ def test_a_bomb_of_one_file_gives_the_program_alone(tmp_path, kind):
     bomb = bytes(MAX_UPLOAD + 1)
     found = make_work(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {"big.bin": bomb}))
     package = read_package(found)
-    assert names(package) == ALL and package.notes == ["left out big.bin: size limit reached"]
+    assert names(package) == ALL and package.notes == ["skipped big.bin: size limit reached"]
 
 
 def test_a_class_in_an_archive_loses_nobody_for_being_large(tmp_path):
@@ -215,7 +215,7 @@ READ: dict[str, tuple[packed.Files | bytes, list[str], str]] = {  # files, names
     "nearer": (
         PROGRAM | {"old/integrators.py": "x = 0\n"},
         [*ALL, "old/integrators.py"],
-        "old/integrators.py was left out: integrators.py lies nearer to the top",
+        "old/integrators.py was skipped: integrators.py lies nearer to the top",
     ),
     "inside the package": (
         {n.replace("solver.py", "solver (1).py"): t for n, t in PROGRAM.items()},

@@ -180,10 +180,6 @@ def test_the_release_is_what_the_starter_holds(course):
         assert all((source(a), a["metadata"]) == (source(b), b["metadata"]) for a, b in pairs)
 
 
-def test_nothing_is_written_to_a_folder_named_solution(course):
-    assert not (course / "solution").exists()
-
-
 # ---------------------------------------------------------------- marks
 
 

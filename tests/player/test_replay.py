@@ -40,7 +40,6 @@ from grader.player.runs import Line, Replay, Run
 from grader.player.script import (
     Step,
     Translator,
-    fold_repeats,
     write_polynomial,
     write_script,
 )
@@ -395,14 +394,6 @@ def test_names_begin_at_one_and_agree_with_the_picture(pages: Path):
         assert not names or seen <= names, path
         bodies += len(names)
     assert bodies > 20
-
-
-def test_the_same_line_many_times_over_is_a_loop():
-    lines = ["world.step(1 / 60)"] * 5 + ["print(1)"] * 2
-    assert list(fold_repeats(lines)) == [
-        *("for _ in range(5):", "    world.step(1 / 60)"),
-        *("print(1)", "print(1)"),
-    ]
 
 
 def test_scripts_are_short(pages: Path):

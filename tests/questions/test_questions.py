@@ -314,11 +314,6 @@ def test_what_a_person_marks_waits_for_one(handed_back: Path):
     assert all("needs manual marking: 0 to 3" in each.note for each in found.marks[4:])
 
 
-def test_who_is_not_in_the_table_is_named(handed_back: Path):
-    found = mark(handed_back, "student,question,answer\n")
-    assert found.notes == ["no answer of ada is in the table"]
-
-
 def sheet_of(student: str, full_name: str, *questions: Question) -> Sheet:
     return Sheet(student, "1", questions, full_name=full_name)
 

@@ -114,10 +114,6 @@ def test_replays_are_taken_in_and_what_is_gone_is_linked(tmp_path: Path):
     assert ("a", {"href": "replays/gone.html"}) in gone.tags
 
 
-def test_the_same_result_gives_the_same_page(tmp_path: Path):
-    assert written(tmp_path, result()).source == written(tmp_path, result()).source
-
-
 def test_a_browser_shows_the_replay_and_obeys_no_words(browser: Any, tmp_path: Path):
     (tmp_path / "replays").mkdir()
     (tmp_path / "replays" / "2-b.html").write_text(little_replay(), encoding="utf-8")

@@ -12,7 +12,8 @@ from rich.console import Console
 from grader.judge.numbers import shorten_both, shorten_numbers
 from grader.judge.result import CheckResult, Result, State, TodoResult, Where, state_of
 from grader.judge.task import KIT
-from grader.report.screen import LINES, Screen, choose_todo
+from grader.report.screen import LINES, Screen
+from grader.report.terminal import choose_todo
 
 LONG = "as much friction at a slip of 300 px/s as at 3000, and twice as much with jn twice as much "
 HALF = "Half of it is missing: add the other half, too"

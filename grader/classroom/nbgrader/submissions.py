@@ -3,7 +3,7 @@
 import re
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -17,7 +17,7 @@ from grader.classroom.fingerprint import make_key
 from grader.errors import Stop
 from grader.intake.found import Intake, Work
 from grader.intake.listing import open_class
-from grader.intake.packing import lay_out, open_found
+from grader.intake.packing import open_found
 from grader.judge.plain import copy_plain, open_plain, size_of
 from grader.judge.submission import explain_unreadable, plain_files
 from grader.judge.task import KIT, Options
@@ -61,23 +61,26 @@ def collect_submissions(folder: Path, course: Path) -> Iterator[StudentFolder]:
 def take_found(found: Work, course: Path) -> StudentFolder:
     """Take one submission, or return the reason why that fails."""
     try:
-        with open_found(found) as (folder, laid, _), lay_out(folder, laid) as path:
-            return take_submission(found.name, path, folder, course)
+        with open_found(found) as (folder, laid, _):
+            files = laid.files or {str(p.relative_to(folder)): p for p in plain_files(folder)}
+            return take_submission(found.name, files, folder, course)
     except Stop as error:
         return StudentFolder(found.name, str(error), False)
 
 
-def take_submission(student: str, path: Path, folder: Path, course: Path) -> StudentFolder:
+def take_submission(
+    student: str, files: Mapping[str, Path], folder: Path, course: Path
+) -> StudentFolder:
     """Put one student's files into nbgrader's folder, unless they are there already.
 
-    `path` has the programs as in the lab; `folder` has all submitted files.
+    `files` has them by their names in the lab; `folder` has all submitted files.
     """
     if not NAME.fullmatch(student):
         return StudentFolder(student, "nbgrader cannot work with this name: rename it", False)
     target = course / "submitted" / student / ASSIGNMENT
     with tempfile.TemporaryDirectory() as temporary:
         copy = Path(temporary) / ASSIGNMENT
-        notebooks = copy_files(path, folder, copy)
+        notebooks = copy_files(files, folder, copy)
         if target.exists() and read_files(copy) == read_files(target):
             return StudentFolder(student, "unchanged")
         shutil.rmtree(target, ignore_errors=True)
@@ -86,18 +89,18 @@ def take_submission(student: str, path: Path, folder: Path, course: Path) -> Stu
     return StudentFolder(student, f"{notebooks} notebooks" if notebooks else "no notebook")
 
 
-def copy_files(path: Path, folder: Path, target: Path) -> int:
+def copy_files(files: Mapping[str, Path], folder: Path, target: Path) -> int:
     """Copy a submission as nbgrader needs it, notebooks on top; return their number.
 
     A notebook that is not beside the programs is searched in all submitted files.
     """
     target.mkdir()
     wanted = {path.name for path in (KIT / "solution" / NOTEBOOKS).glob("*.ipynb")}
-    for source in plain_files(path):
-        inside = source.relative_to(path)
+    for name, source in files.items():
+        inside = Path(name)
         if inside.name in wanted and inside.parts[:-1] in ((), (NOTEBOOKS,)):
             inside = Path(inside.name)
-        copy_one(path, source, target / inside)
+        copy_one(folder, source, target / inside)
     for name in sorted(name for name in wanted if not (target / name).exists()):
         if notebook := find_notebook(folder, name):
             copy_one(folder, notebook, target / name)

@@ -27,7 +27,7 @@ class Brightspace(Lms):
     )
     download = (
         "`123-456 - Jane Doe - May 4, 2026 1159 PM` becomes `Jane Doe_123-456`, and the time; "
-        "the last of several counts, `index.html` is left out"
+        "the last of several counts, `index.html` is skipped"
     )
     marks_file = "`OrgDefinedId`, `Username`, `TITLE Points Grade`, `End-of-Line Indicator`"
     rank = 1

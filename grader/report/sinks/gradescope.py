@@ -42,19 +42,17 @@ def write_gradescope(result: Result, course: Course = FULL) -> bytes:
 
 
 def make_test(todo: TodoResult, check: CheckResult, number: int) -> dict[str, object]:
+    """Return a test; a bonus has points in its name, so that sums are right."""
+    name = add_task(todo, check.title)
+    points: dict[str, object] = {"score": check.points, "max_score": check.max_points}
+    if todo.bonus:
+        name, points = f"{name} (bonus: {check.points} of {check.max_points})", {}
     return {
-        **make_points(todo, check),
+        "name": name,
+        **points,
         "status": "passed" if check.state == "passed" else "failed",
         "number": f"{todo.id}.{number}",
         "output": "\n".join(format_reasons(check)) if check.state != "passed" else "",
         "tags": [f"todo-{todo.id}", check.kind, check.state.replace(" ", "-")],
         **SHOWN,
     }
-
-
-def make_points(todo: TodoResult, check: CheckResult) -> dict[str, object]:
-    """Return the name and the points; a bonus has points in its name, so that sums are right."""
-    name = add_task(todo, check.title)
-    if todo.bonus:
-        return {"name": f"{name} (bonus: {check.points} of {check.max_points})"}
-    return {"name": name, "score": check.points, "max_score": check.max_points}

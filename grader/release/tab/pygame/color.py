@@ -1,5 +1,7 @@
 """Color, and the conversion of pygame's colours to those of a canvas."""
 
+from functools import lru_cache
+
 from .naming import Named, full_name
 
 INVALID = (
@@ -38,7 +40,6 @@ ee82ee violetred d02090 wheat f5deb3 white ffffff whitesmoke f5f5f5 yellow ffff0
 """
 NAMES = COLORS.split()
 THECOLORS = dict(zip(NAMES[::2], NAMES[1::2], strict=True))  # name: RRGGBB
-MOST = 4096  # colours that are kept as texts
 
 
 class Color(metaclass=Named):
@@ -112,33 +113,15 @@ def read_text(text):
         raise ValueError("invalid color name") from None
 
 
-opaque, translucent = {}, {}  # texts of colours that were used, by what the program gave
-
-
-def opaque_css(color):
-    """Return a colour as #RRGGBB, for a surface without transparency."""
+def css(color, opaque):
+    """Return a colour as #RRGGBB or, for a surface with transparency, also as #RRGGBBAA."""
     try:
-        return opaque[color]
-    except (KeyError, TypeError):
-        return cache_text(opaque, color, "#%02x%02x%02x" % read_color(color)[:3])
+        return make_css(color, opaque)
+    except TypeError:  # a list or a Color cannot be cached
+        return make_css.__wrapped__(color, opaque)
 
 
-def css(color):
-    """Return a colour as #RRGGBB or #RRGGBBAA, for a surface with transparency."""
-    try:
-        return translucent[color]
-    except (KeyError, TypeError):
-        text = "#%02x%02x%02x%02x" % read_color(color)
-        return cache_text(translucent, color, text[:7] if text[7:] == "ff" else text)
-
-
-def cache_text(texts, color, text):
-    """Cache the text of a colour that can be a key; return the text."""
-    if len(texts) >= MOST:
-        texts.clear()
-    if getattr(color, "__hash__", None):
-        try:
-            texts[color] = text
-        except TypeError:  # a tuple with a list in it
-            pass
-    return text
+@lru_cache(4096)
+def make_css(color, opaque):
+    text = "#%02x%02x%02x%02x" % read_color(color)
+    return text[:7] if opaque or text[7:] == "ff" else text

@@ -90,18 +90,13 @@ def make_filter(types):
     return lambda event: event.type in types
 
 
-def get(eventtype=None, pump=True, exclude=None):
+def get(eventtype=None, pump=True):
     """Remove and return the events in the queue, or those of these types."""
     need_window()
     if pump and pump_hook:
         pump_hook()
-    if eventtype is None and exclude is None:
-        found, queue[:] = list(queue), []
-        return found
-    is_wanted = make_filter(eventtype)
-    is_excluded = make_filter(exclude if exclude is not None else ())
-    found = [event for event in queue if is_wanted(event) and not is_excluded(event)]
-    queue[:] = [event for event in queue if not is_wanted(event) or is_excluded(event)]
+    found = list(filter(make_filter(eventtype), queue))
+    clear(eventtype)
     return found
 
 

@@ -1,6 +1,8 @@
 """Surface: a list of draw commands, see the package's docstring for what they are."""
 
-from .color import Color, css, opaque_css
+from functools import partial
+
+from .color import Color, css
 from .constants import SRCALPHA
 from .errors import error
 from .math import is_number
@@ -29,7 +31,7 @@ class Surface(metaclass=Named):
     def __init__(self, size, flags=0, depth=0, masks=None):
         self._width, self._height = read_size(size)
         self._flags = int(getattr(flags, "_flags", flags)) & SRCALPHA
-        self.css = css if self._flags else opaque_css
+        self.css = partial(css, opaque=not self._flags)
         self.ops = []
         self._into, self._clip = self.ops, None
         if not self._flags:
