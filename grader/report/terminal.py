@@ -162,7 +162,7 @@ def show_all(result: Result, console: Console, replays: Path | None = None) -> N
 def show_next(result: Result, console: Console) -> None:
     """Print what to do next; bonus tasks only if nothing else was asked for."""
     todo = choose_todo(result)
-    if todo is None or (todo.bonus and result.counted):
+    if todo is None or (todo.bonus and result.main_todos):
         return
     if words := describe_obstacle(todo):
         say(words, console, 6, "bold")
