@@ -392,18 +392,20 @@ def statements(text: str) -> list[ast.stmt]:
     return tree.body if tree else []
 
 
+def list_functions(body: list[ast.stmt]) -> Iterator[tuple[str, ast.FunctionDef]]:
+    """Yield the functions among the statements of a file, and methods as `Class.name`."""
+    for node in body:
+        inside, owner = (
+            (node.body, f"{node.name}.") if isinstance(node, ast.ClassDef) else ([node], "")
+        )
+        for each in inside:
+            if isinstance(each, ast.FunctionDef):
+                yield owner + each.name, each
+
+
 def find_function(body: list[ast.stmt], path: str) -> ast.FunctionDef | None:
-    """Return the definition of `name` or `Class.name` among the statements of a file."""
-    owner, _, name = path.rpartition(".")
-    if owner:
-        body = [
-            each
-            for node in body
-            if isinstance(node, ast.ClassDef) and node.name == owner
-            for each in node.body
-        ]
-    found = [node for node in body if isinstance(node, ast.FunctionDef) and node.name == name]
-    return found[-1] if found else None
+    """Return the last definition of `name` or `Class.name` among the statements of a file."""
+    return dict(list_functions(body)).get(path)
 
 
 def source_of(text: str, function: Function | ast.FunctionDef) -> str:

@@ -191,7 +191,7 @@ def read_source(text: str) -> None:
     program = Program({Path("integrators.py"): text})
     program.definition("integrators", "step")
     program.names_used("integrators", "step")
-    program.loaded("integrators")
+    program.list_loaded("integrators")
 
 
 def read_tokens(text: str) -> None:

@@ -14,7 +14,7 @@ from functools import cache, cached_property
 from itertools import islice
 
 from grader.judge.submission import handed_out, load_given
-from grader.source.definitions import statements
+from grader.source.definitions import list_functions, statements
 from grader.source.given import given_pieces, imported_names
 from grader.source.regions import read_regions
 from grader.source.suspects import REBOUND
@@ -436,14 +436,10 @@ def given_arguments() -> dict[str, list[str]]:
     """Return the arguments of each given function and method, by its name and with its class."""
     found: dict[str, list[str]] = {}
     for text in load_given().values():
-        for node in statements(text):
-            inside = node.body if isinstance(node, ast.ClassDef) else [node]
-            for each in inside:
-                if isinstance(each, ast.FunctionDef):
-                    names = [arg.arg for arg in each.args.args if arg.arg != "self"]
-                    found.setdefault(each.name, names)
-                    if isinstance(node, ast.ClassDef):
-                        found[f"{node.name}.{each.name}"] = names
+        for path, node in list_functions(statements(text)):
+            names = [arg.arg for arg in node.args.args if arg.arg != "self"]
+            found.setdefault(node.name, names)
+            found.setdefault(path, names)
     return found
 
 

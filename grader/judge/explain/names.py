@@ -4,7 +4,6 @@ A renamed function, or one whose arguments are in another order, counts as the c
 only if it is the TODO's own, or if the failure names it.
 """
 
-import ast
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -19,7 +18,7 @@ from grader.judge.explain.error_words import explain_error
 from grader.judge.result import CheckResult
 from grader.judge.rubric import CHECKS, Todo, load_rubric
 from grader.judge.submission import Submission, load_given
-from grader.source.definitions import MAX_READ, statements
+from grader.source.definitions import MAX_READ, list_functions, statements
 from grader.source.regions import python_files, read_source
 
 MOST = 1000  # functions of a program; the lesson's have sixty
@@ -50,35 +49,25 @@ class Signature:
         return f"{self.name}({', '.join(names)})"
 
 
-def signatures(text: str) -> Iterator[Signature]:
-    """Yield the functions and methods of a source text."""
-    for node in statements(text):
-        if isinstance(node, ast.FunctionDef):
-            yield signature(node, "")
-        elif isinstance(node, ast.ClassDef):
-            for each in node.body:
-                if isinstance(each, ast.FunctionDef):
-                    yield signature(each, f"{node.name}.")
-
-
-def signature(node: ast.FunctionDef, owner: str) -> Signature:
-    args = [*node.args.posonlyargs, *node.args.args]
-    names = tuple(each.arg for each in args)
-    least = len(names) - len(node.args.defaults)
-    return Signature(owner + node.name, names, least, node.args.vararg is not None)
+def list_signatures(text: str) -> Iterator[Signature]:
+    """Yield the signatures of the functions and methods of a source text."""
+    for path, node in list_functions(statements(text)):
+        names = tuple(each.arg for each in (*node.args.posonlyargs, *node.args.args))
+        least = len(names) - len(node.args.defaults)
+        yield Signature(path, names, least, node.args.vararg is not None)
 
 
 @cache
 def handed_out(module: str) -> dict[str, Signature]:
     """Return the functions of a program as it was handed out."""
     texts = [text for name, text in load_given().items() if name.split("/")[0] == module]
-    found = {each.path: each for text in texts for each in signatures(text)}
+    found = {each.path: each for text in texts for each in list_signatures(text)}
     stubs = msgspec.json.decode((CHECKS / "stubs.json").read_bytes(), type=dict[str, str])
     for todo in load_rubric().todos:
         path = todo.function.partition(":")[2]
         if todo.module == module and f"def {todo.id}" in stubs:
             owner = path.rpartition(".")[0]
-            for each in signatures(stubs[f"def {todo.id}"]):
+            for each in list_signatures(stubs[f"def {todo.id}"]):
                 whole = f"{owner}.{each.path}" if owner else each.path
                 found[whole] = Signature(whole, each.names, each.least, each.open)
     return found
@@ -132,7 +121,7 @@ class Names:
             package, single = folder / module, folder / f"{module}.py"
             paths = python_files(package) if package.is_dir() else [single]
             texts = read_bounded(path for path in paths if path.is_file())
-            all_of_them = (each for text in texts for each in signatures(text))
+            all_of_them = (each for text in texts for each in list_signatures(text))
             self.found[module] = {each.path: each for each in islice(all_of_them, MOST)}
         return self.found[module]
 
