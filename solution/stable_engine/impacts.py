@@ -244,7 +244,8 @@ class Impacts:
     def settle(self, body: Body, ago: float, reached: dict[Body, float]) -> None:
         """Stop what closes in slowly in the island of a ball that was hit, at once.
 
-        Where joints or static bodies have a part in it, the solver does.
+        Where joints or static bodies have a part in it, the solver does. Where anything was fast at
+        the moment of the hit, stopping it would take energy.
         """
         slow = self.island_of(body, reached)
         hit = balls_of(slow)
@@ -253,7 +254,8 @@ class Impacts:
         self.fly_on(hit, -ago)
         for c in slow:
             c.nx, c.ny, c.gap = collide(c.a, c.b)
-        self.resolve(slow, settle, [], TURNS)
+        if all(c.closing_speed() <= self.slow for c in slow):
+            self.resolve(slow, settle, [], TURNS)
         self.fly_on(hit, ago)
         self.look_around(hit, ago)
 

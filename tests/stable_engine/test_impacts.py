@@ -179,9 +179,10 @@ def test_friction_takes_mu_times_the_impulse_of_an_impact_and_no_more(mu, restit
 # ---------------------------------------------------------------- rows of balls
 
 
-def test_a_gas_of_unequal_masses_keeps_its_energy():
+@pytest.mark.parametrize("seed", [3, 8, 12, 68])  # each has lost energy
+def test_a_gas_of_unequal_masses_keeps_its_energy(seed):
     """Also for slow impacts: without gravity, nothing rests."""
-    run_gas = build(gas(20, (1.0, 100.0)))
+    run_gas = build(gas(20, (1.0, 100.0), seed))
     before = kinetic(run_gas)
     run(run_gas, 10)
     assert kinetic(run_gas) == pytest.approx(before, rel=1e-9)
