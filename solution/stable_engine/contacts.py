@@ -169,7 +169,10 @@ class Contacts(Effect):
             else:
                 statics.append(c)
         self.touching, self.balls.contacts, self.statics.contacts = touching, balls, statics
+        was_idle = self.is_idle()
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
+        if self.is_idle() != was_idle:
+            self.world.update_hooks()
         self.broad_phase.add_looks(len(self.broad_phase.pairs) - len(touching), dt)
         if self.unpaired:
             self.end_unpaired()
@@ -510,6 +513,9 @@ class Contacts(Effect):
         self.crowd = {c: None for c in self.crowd if not ends <= {c.a, c.b}}
         self.unpaired = {n: c for n, c in self.unpaired.items() if not ends <= {c.a, c.b}}
         self.broad_phase.bounds = []
+
+    def is_idle(self) -> bool:
+        return not self.groups
 
     def is_used(self) -> bool:
         return len(self.world.bodies) > 1

@@ -15,8 +15,8 @@ class Damping(Effect):
     rank = 0
 
     def __init__(self, linear: float = 0.05, angular: float = 0.3) -> None:
-        self.linear = linear
-        self.angular = angular
+        self.linear_rate = self.angular_rate = 0.0
+        self.linear, self.angular = linear, angular
 
     @property
     def linear(self) -> float:
@@ -26,6 +26,7 @@ class Damping(Effect):
     @linear.setter
     def linear(self, value: float) -> None:
         self.linear_rate = not_negative("Damping.linear", value)
+        self.update()
 
     @property
     def angular(self) -> float:
@@ -35,13 +36,20 @@ class Damping(Effect):
     @angular.setter
     def angular(self, value: float) -> None:
         self.angular_rate = not_negative("Damping.angular", value)
+        self.update()
 
     def is_used(self) -> bool:
         return self.linear > 0 or self.angular > 0
 
+    def update(self) -> None:
+        """Tell the world, if there is one, that damping may have anything to do now or not."""
+        if hasattr(self, "world"):
+            self.world.update_hooks()
+
+    def is_idle(self) -> bool:
+        return not self.is_used()
+
     def force(self, h: float) -> None:
-        if not self.is_used():
-            return
         keep_vel, keep_omega = exp(-self.linear * h), exp(-self.angular * h)
         for body in self.world.awake:
             body.vx *= keep_vel

@@ -33,11 +33,22 @@ class WorldState(Listeners):
         """Take a body or joint out: see World.remove."""
         raise NotImplementedError
 
-    def hooks(self, name: str) -> list[Callable[..., Any]]:
-        """Return the hooks of this name that the scene's effects override, lowest rank first."""
+    def hooks(self, name: str, busy: bool = False) -> list[Callable[..., Any]]:
+        """Return the hooks of this name that the scene's effects override, lowest rank first.
+
+        Only those of effects that are busy, where asked for.
+        """
         effects = sorted(self.effects.values(), key=lambda effect: effect.rank)
         base = getattr(Effect, name)
-        return [getattr(e, name) for e in effects if getattr(type(e), name) is not base]
+        return [
+            getattr(e, name)
+            for e in effects
+            if getattr(type(e), name) is not base and not (busy and e.is_idle())
+        ]
+
+    def update_hooks(self) -> None:
+        """Call in substeps the effects that have anything to do now, and no others."""
+        raise NotImplementedError
 
     def need(self, name: str, user: object) -> Any:
         """Return the effect of that name. Raises ValueError when the scene does not declare it."""
@@ -80,6 +91,13 @@ class Effect:
         Asked by World.check alone.
         """
         return True
+
+    def is_idle(self) -> bool:
+        """Return whether the hooks of the substeps have nothing to do now.
+
+        When that changes, call update_hooks of the world.
+        """
+        return False
 
     # once per step
 

@@ -26,6 +26,9 @@ class Friction(Effect):
     def is_used(self) -> bool:
         return any(body.mu > 0 for body in self.world.bodies)
 
+    def is_idle(self) -> bool:
+        return not self.contacts.groups
+
     def begin_contact(self, c: Contact) -> None:
         a, b = c.a, c.b
         spin = a.r * a.r * a.inv_inertia + b.r * b.r * b.inv_inertia

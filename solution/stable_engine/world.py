@@ -67,10 +67,6 @@ class World(WorldState):
         self.detect_hooks = self.hooks("detect")
         self.impact_hooks = self.hooks("impact")
         self.prepare_hooks = self.hooks("prepare")
-        self.force_hooks = self.hooks("force")
-        self.warm_start_hooks = self.hooks("warm_start")
-        self.solve_hooks = self.hooks("solve")
-        self.relax_hooks = self.hooks("relax")
         self.finish_hooks = self.hooks("finish")
         self.tell_hooks = self.hooks("tell")
         self.coast_hooks = self.hooks("coast")
@@ -79,6 +75,14 @@ class World(WorldState):
         self.body_changed_hooks = self.hooks("body_changed")
         self.lighter_hooks = self.hooks("lighter")
         self.forget_hooks = self.hooks("forget")
+        self.update_hooks()
+
+    def update_hooks(self) -> None:
+        pushes = [self.apply_forces] if self.forces else []
+        self.force_hooks = [*self.hooks("force", busy=True), *pushes]
+        self.warm_start_hooks = self.hooks("warm_start", busy=True)
+        self.solve_hooks = self.hooks("solve", busy=True)
+        self.relax_hooks = self.hooks("relax", busy=True)
 
     def __repr__(self) -> str:
         names = ", ".join(f"{name}()" for name in self.effects)
@@ -217,7 +221,7 @@ class World(WorldState):
     def push(self, body: Body, fx: float, fy: float, torque: float) -> None:
         """Add to the force and the torque that act on a body in the next step."""
         if not self.forces:
-            self.force_hooks = [*self.hooks("force"), self.apply_forces]
+            self.force_hooks = [*self.hooks("force", busy=True), self.apply_forces]
             self.finish_hooks = [self.clear_forces, *self.hooks("finish")]
         before_x, before_y, before = self.forces.get(body, (0.0, 0.0, 0.0))
         self.forces[body] = before_x + fx, before_y + fy, before + torque
@@ -232,7 +236,8 @@ class World(WorldState):
     def clear_forces(self, h: float) -> None:
         """End all forces, with the step they were for."""
         self.forces = {}
-        self.force_hooks, self.finish_hooks = self.hooks("force"), self.hooks("finish")
+        self.finish_hooks = self.hooks("finish")
+        self.force_hooks = self.hooks("force", busy=True)
 
     def check(self) -> list[str]:
         """Return a sentence for each effect that is needed but not declared, or declared in vain.

@@ -142,7 +142,7 @@ def test_contacts_cost_little_where_nobody_is_near(speed, gravity):
         run(world, 3 * DT)
         return sum(count_opcodes(lambda: run(world, 60 * DT)).values())
 
-    assert price("Contacts") < 1.27 * price()
+    assert price("Contacts") < 1.2 * price()
 
 
 def test_a_tall_silo_costs_no_more_than_a_wide_bin():
