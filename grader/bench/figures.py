@@ -1,27 +1,30 @@
-"""Measure what grading costs: a student's wait, a full grade, and a class.
+"""Measure what grading costs: a student's wait, a full grade, a class, and a release.
 
 All figures are measured in turns, those of another checkout too, so that a slow minute of the
-machine slows all of them.
+machine slows all of them. It runs on Linux.
 """
 
 import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
-from functools import partial
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory, mkdtemp
 from time import perf_counter, sleep
 from typing import Any, NamedTuple
 
+import msgspec
+import psutil
 from rich.console import Console
 from rich.table import Table
 
 from grader.bank.members import list_members
 from grader.judge.task import KIT
+
+LOOK_SECONDS = 0.02  # between two looks at the memory in use
 
 
 class Tested(NamedTuple):
@@ -37,19 +40,30 @@ class Tested(NamedTuple):
         command = [sys.executable, "-m", "grader", *words]
         return subprocess.Popen(command, env=environment, **usual | how)
 
-    def run(self, *words: str, **how: Any) -> tuple[float, float]:
-        """Run a command, which must succeed; return its seconds, and those of the processor.
-
-        Only Unix has the latter.
-        """
-        start, process = perf_counter(), self.start(*words, **how)
-        cpu = 0.0
-        if hasattr(os, "wait4"):
-            _, status, used = os.wait4(process.pid, 0)
-            process.returncode = os.waitstatus_to_exitcode(status)
-            cpu = used.ru_utime + used.ru_stime
+    def run(
+        self, *words: str, look: Callable[[int], None] | None = None, **how: Any
+    ) -> tuple[float, float]:
+        """Run a command while looking at it; return its seconds, and those of the processor."""
+        start, before = perf_counter(), sum(os.times()[2:4])
+        process = self.start(*words, **how)
+        while look is not None and process.poll() is None:
+            look(process.pid)
+            sleep(LOOK_SECONDS)
         assert process.wait() == 0, words
-        return perf_counter() - start, cpu
+        return perf_counter() - start, sum(os.times()[2:4]) - before
+
+
+def measure_memory(tested: Tested, *words: str) -> tuple[float, float]:
+    """Run a command; return its seconds, and the most memory of all its processes at once, MB."""
+    found = [0.0]
+
+    def look(pid: int) -> None:
+        with suppress(psutil.Error):
+            top = psutil.Process(pid)
+            every = [top, *top.children(recursive=True)]
+            found.append(sum(each.memory_full_info().pss for each in every) / 1e6)
+
+    return tested.run(*words, look=look)[0], max(found)
 
 
 def bench(rounds: int, size: int, console: Console, against: Path | None = None) -> None:
@@ -62,10 +76,9 @@ def bench(rounds: int, size: int, console: Console, against: Path | None = None)
             tested = Tested(kit, Path(temporary, str(len(turns))))
             prepare(tested, size)
             turns.append((name, tested, stack.enter_context(watch_todo_4(tested))))
-        for _ in range(rounds):
-            measured = [measure(each, watch, size) for _, each, watch in turns]
-            for figures in zip(*measured, strict=True):
-                for (name, _, _), (figure, value) in zip(turns, figures, strict=True):
+        for number in range(rounds):
+            for name, tested, watch in turns:
+                for figure, value in measure(tested, watch, size, first=number == 0):
                     found[name].setdefault(figure, []).append(value)
             turns.reverse()
     title = f"{rounds} rounds, {size} in the class: minimum, median, maximum"
@@ -80,44 +93,71 @@ def prepare(tested: Tested, size: int) -> None:
     for number in range(size):
         member = chosen[number * len(chosen) // size]
         member.build(KIT, tested.work / "class" / f"{number:04}-{member.name}")
+    tested.run("release")  # the next one finds nothing new
 
 
 def measure(
-    tested: Tested, watch: "subprocess.Popen[str]", size: int
+    tested: Tested, watch: "subprocess.Popen[str]", size: int, first: bool
 ) -> Iterator[tuple[str, float]]:
-    """Measure each figure once."""
+    """Measure each figure once; those that take long only in the `first` round."""
     tree = tested.work / "tree"
     seconds, cpu = tested.run("grade", str(tree))
     yield "full grade on all cores, s", seconds
     yield "full grade, processor s", cpu
-    yield "full grade on one core, s", tested.run("grade", str(tree), **on_one_core())[0]
+    yield "full grade on one core, s", tested.run("grade", str(tree), preexec_fn=use_one_core)[0]
+    yield "full grade, MB at most", measure_memory(tested, "grade", str(tree))[1]
     yield "check --todo 4, s", tested.run("check", "--todo", "4", cwd=tree)[0]
     yield "check --watch, after a save, s", measure_save(tree, watch)
-    one, _ = grade_class(tested, 1)
-    two, first = grade_class(tested, 2)
+    one, cpu, _ = grade_class(tested, 1)
+    two, _, until_first = grade_class(tested, 2)
+    yield "class, processor s per submission", cpu / size
     yield "class on one core, s per submission", one / size
-    yield "class, two jobs, s per submission", two / size
-    yield "class, s until the first result", first
+    yield "class, two jobs: times as fast", one / two
+    yield "class, s until the first result", until_first
+    if first:
+        yield from measure_outputs(tested, 10_000)
+        yield "release, nothing new, s", tested.run("release")[0]
 
 
-def on_one_core() -> dict[str, Any]:
-    """Return the prefix that starts a command on one core, if the system allows it."""
-    if not hasattr(os, "sched_setaffinity"):
-        return {}
-    return {"preexec_fn": partial(os.sched_setaffinity, 0, {min(os.sched_getaffinity(0))})}
+def use_one_core() -> None:
+    os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
 
 
-def grade_class(tested: Tested, jobs: int) -> tuple[float, float]:
-    """Grade a class on as many cores; return the seconds in all and until the first result."""
+def grade_class(tested: Tested, jobs: int) -> tuple[float, float, float]:
+    """Grade a class on as many cores; return its seconds, those of the processor, and those until
+    the first result."""
     out = Path(mkdtemp(dir=tested.work), "results")  # in a new folder all are graded again
     words = ["--class", str(tested.work / "class"), "--jobs", str(jobs), "--out", str(out)]
-    start = perf_counter()
-    process = tested.start("grade", *words, **(on_one_core() if jobs == 1 else {}))
-    while process.poll() is None and not any(out.glob("[!.]*.json")):
-        sleep(0.01)
-    first = perf_counter() - start
-    assert process.wait() == 0, words
-    return perf_counter() - start, first
+    start, waits = perf_counter(), [0.0]
+
+    def look(_: int) -> None:
+        if not any(out.glob("[!.]*.json")):
+            waits.append(perf_counter() - start)
+
+    seconds, cpu = tested.run(
+        "grade", *words, look=look, preexec_fn=use_one_core if jobs == 1 else None
+    )
+    return seconds, cpu, waits[-1]
+
+
+def measure_outputs(tested: Tested, count: int) -> Iterator[tuple[str, float]]:
+    """Make the pages and the gradebook of a class of many, out of the results of the class."""
+    book = next(tested.work.glob("*/results.class.jsonl"))
+    lines = [msgspec.json.decode(line) for line in book.read_bytes().splitlines()]
+    names = {f"student-{number:05}": lines[number % len(lines)] for number in range(count)}
+    results = Path(mkdtemp(dir=tested.work), "many")
+    results.mkdir()
+    for name, line in names.items():
+        os.link(book.with_name("results") / f"{line['name']}.json", results / f"{name}.json")
+    rows = b"\n".join(msgspec.json.encode(line | {"name": name}) for name, line in names.items())
+    results.with_suffix(".class.jsonl").write_bytes(rows + b"\n")
+    results.with_name("roster.csv").write_text("\n".join(["Email address", *names]), "utf-8")
+    results.with_name("class.toml").write_text('roster = "roster.csv"\nresults = "many"\n', "utf-8")
+    pages, most = measure_memory(tested, "dashboard", str(results))
+    yield f"pages and gradebook of {count}, MB at most", most
+    gradebook, _ = tested.run("class", "marks", str(results.parent))
+    yield f"pages and gradebook of {count}, s", pages + gradebook
+    shutil.rmtree(results.parent)
 
 
 @contextmanager
@@ -134,8 +174,7 @@ def watch_todo_4(tested: Tested) -> Iterator["subprocess.Popen[str]"]:
 
 def read_until(process: "subprocess.Popen[str]", start: str) -> None:
     assert process.stdout is not None
-    if not any(line.startswith(start) for line in process.stdout):
-        raise RuntimeError(f"check --watch ended before it said: {start}")
+    next(line for line in process.stdout if line.startswith(start))
 
 
 def measure_save(tree: Path, watch: "subprocess.Popen[str]") -> float:

@@ -23,8 +23,9 @@ from grader.judge.course import FULL, Course
 from grader.judge.result import Result, State, TodoResult
 from grader.judge.wall.outer import Allowance, call_each_within, call_within
 from grader.judge.wording import withhold_reasons
-from grader.player.page import clean_line, fill_template
+from grader.player.page import clean_line, fill_template, load_templates
 from grader.report.files import write_whole
+from grader.report.html import TEMPLATES as REPORTS
 from grader.report.html import Standing, write_report, write_standing
 
 TEMPLATES = Path(__file__).with_name("templates")
@@ -187,6 +188,7 @@ def find_mistakes(entries: list[Entry]) -> list[Mistake]:
 def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) -> Path:
     """Write the page beside the folder of results, and a report per student into it."""
     folder = Book(results).folder
+    load_templates(REPORTS)
     works = [partial(write_entry, folder, entry, course) for entry in entries]
     for entry, answer in zip(entries, call_each_within(WRITING, None, works), strict=True):
         if isinstance(answer, Exception):

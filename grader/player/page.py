@@ -63,6 +63,13 @@ def load_environment(templates: Path) -> jinja2.Environment:
     return jinja2.Environment(loader=loader, autoescape=True, undefined=jinja2.StrictUndefined)
 
 
+def load_templates(folder: Path) -> None:
+    """Load all templates of a folder, before processes fork that fill them in."""
+    environment = load_environment(folder)
+    for name in environment.list_templates(extensions=["html"]):
+        environment.get_template(name)
+
+
 @cache
 def read_style(path: Path) -> str:
     """Read a style sheet, after the theme of all pages for light and dark."""
