@@ -24,6 +24,7 @@ from rich.table import Table
 from grader.bank.members import list_members
 from grader.judge.task import KIT
 
+Process = subprocess.Popen[str]
 LOOK_SECONDS = 0.02  # between two looks at the memory in use
 
 
@@ -33,7 +34,7 @@ class Tested(NamedTuple):
     kit: Path
     work: Path
 
-    def start(self, *words: str, cwd: Path | None = None, **how: Any) -> "subprocess.Popen[str]":
+    def start(self, *words: str, cwd: Path | None = None, **how: Any) -> Process:
         """Start a command of this kit's grader."""
         environment = os.environ | {"PYTHONPATH": str(self.kit)}
         usual: dict[str, Any] = {"stdout": subprocess.DEVNULL, "cwd": cwd or self.kit, "text": True}
@@ -71,7 +72,7 @@ def bench(rounds: int, size: int, console: Console, against: Path | None = None)
     kits = {"this kit": KIT} | ({str(against): against.resolve()} if against else {})
     found: dict[str, dict[str, list[float]]] = {name: {} for name in kits}
     with TemporaryDirectory(prefix="bench-") as temporary, ExitStack() as stack:
-        turns: list[tuple[str, Tested, subprocess.Popen[str]]] = []
+        turns: list[tuple[str, Tested, Process]] = []
         for name, kit in kits.items():
             tested = Tested(kit, Path(temporary, str(len(turns))))
             prepare(tested, size)
@@ -96,9 +97,7 @@ def prepare(tested: Tested, size: int) -> None:
     tested.run("release")  # the next one finds nothing new
 
 
-def measure(
-    tested: Tested, watch: "subprocess.Popen[str]", size: int, first: bool
-) -> Iterator[tuple[str, float]]:
+def measure(tested: Tested, watch: Process, size: int, first: bool) -> Iterator[tuple[str, float]]:
     """Measure each figure once; those that take long only in the `first` round."""
     tree = tested.work / "tree"
     seconds, cpu = tested.run("grade", str(tree))
@@ -161,7 +160,7 @@ def measure_outputs(tested: Tested, count: int) -> Iterator[tuple[str, float]]:
 
 
 @contextmanager
-def watch_todo_4(tested: Tested) -> Iterator["subprocess.Popen[str]"]:
+def watch_todo_4(tested: Tested) -> Iterator[Process]:
     """Start a `check --watch` that has shown its first result."""
     words = ["check", "--todo", "4", "--watch"]
     with tested.start(*words, cwd=tested.work / "tree", stdout=subprocess.PIPE) as process:
@@ -172,12 +171,12 @@ def watch_todo_4(tested: Tested) -> Iterator["subprocess.Popen[str]"]:
             process.terminate()
 
 
-def read_until(process: "subprocess.Popen[str]", start: str) -> None:
+def read_until(process: Process, start: str) -> None:
     assert process.stdout is not None
     next(line for line in process.stdout if line.startswith(start))
 
 
-def measure_save(tree: Path, watch: "subprocess.Popen[str]") -> float:
+def measure_save(tree: Path, watch: Process) -> float:
     """Save a new comment inside TODO 4; return the seconds until its points are shown."""
     path = tree / "mini_engine" / "solver.py"
     text = path.read_text(encoding="utf-8").replace("    # END TODO 4", "    #\n    # END TODO 4")

@@ -158,7 +158,7 @@ def bench_command(
 ) -> None:
     """Measure a student's waiting time, and the cost of a grade and a class.
 
-    A round takes about a minute, twice as long with --against.
+    A round takes about a minute, the first one two more; twice as long with --against.
     """
     require_checkout("bench")
     from grader.bench.figures import bench
