@@ -29,7 +29,7 @@ def scene(length, names):
 
     def ball(x, y, vx=0.0, bullet=False):
         shape = Circle(10 * length)
-        body = Body(shape, (x * length, y * length), 1.0, 0.6, 0.4, bullet)
+        body = Body(shape, (x * length, y * length), 1.0, 0.6, 0.4, bullet=bullet)
         body.vel = (vx * length, 0)
         return world.add(body)
 
