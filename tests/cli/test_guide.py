@@ -2,8 +2,8 @@
 
 import io
 import os
+import select
 import sys
-import time
 from collections.abc import Callable, Iterator
 from types import SimpleNamespace
 
@@ -209,7 +209,7 @@ def test_a_letter_is_read_without_enter_and_an_arrow_is_no_letter():
         assert read_key(terminal) == ""
         for typed, letter in ((b"h", "h"), (b"Q", "q"), (b"\x1b[A", "")):
             os.write(controller, typed)
-            time.sleep(0.05)
+            select.select([terminal], [], [])  # until the letters are there
             assert read_key(terminal) == letter
     finally:
         os.close(controller)

@@ -32,9 +32,6 @@ from grader.protocol import (
     Vec,
 )
 
-QUICK, CAMPAIGN = 1_500, 100_000  # messages
-
-
 VALUES = [
     None,
     1.5,
@@ -173,13 +170,8 @@ def survive(messages: int, seed: int) -> Counter[str]:
     return ended
 
 
-def test_the_judge_survives_spoilt_messages():
-    ended = survive(QUICK, seed=1)
-    assert min(ended[how] for how in ("answered", "refused", "raised", "ended the child")) > 20
-
-
-@pytest.mark.soak
-def test_the_judge_survives_a_campaign_of_spoilt_messages():
-    ended = survive(CAMPAIGN, seed=2)
+@pytest.mark.parametrize("messages", [1_500, pytest.param(100_000, marks=pytest.mark.soak)])
+def test_the_judge_survives_spoilt_messages(messages: int):
+    ended = survive(messages, seed=1)
     print(f"{ended.total()} messages: {dict(ended)}")
-    assert ended.total() >= CAMPAIGN
+    assert min(ended[how] for how in ("answered", "refused", "raised", "ended the child")) > 20

@@ -265,15 +265,15 @@ def try_shapes(kind: str, examples: int) -> None:
     holds()
 
 
-@pytest.mark.parametrize("kind", [kind for kind in WORKS if kind != "archive"])
-def test_work_grows_little_faster_than_its_input(kind: str):
-    try_shapes(kind, 10)
-
-
-@pytest.mark.soak
-@pytest.mark.parametrize("kind", WORKS)
-def test_work_grows_little_faster_than_any_input(kind: str):
-    try_shapes(kind, 300)
+@pytest.mark.parametrize(
+    ("kind", "examples"),
+    [
+        *((kind, 10) for kind in WORKS if kind != "archive"),
+        *(pytest.param(kind, 300, marks=pytest.mark.soak) for kind in WORKS),
+    ],
+)
+def test_work_grows_little_faster_than_its_input(kind: str, examples: int):
+    try_shapes(kind, examples)
 
 
 @pytest.mark.parametrize(
