@@ -267,12 +267,6 @@ def test_the_bonus_tasks_have_the_points_of_the_rubric() -> None:
     }
     assert [row["todo"] for row in bonus_rows()] == [f"B{number}" for number in range(1, 7)]
     assert {row["todo"]: row["points"] for row in bonus_rows()} == points
-    in_all = sum(points.values())
-    assert f"They give bonus points, {in_all} in all," in text_of("bonus.md")
-    assert f"for {in_all} bonus points" in text_of("lab-sheet.md")
-    heads, guide = re.findall(r"^\|(?: B1 sleeping| 4 ).*\|$", text_of("instructor/guide.md"), re.M)
-    assert re.findall(r"B\d", heads) == list(points)
-    assert [*map(int, guide.strip("|").split("|"))] == [*points.values(), in_all]
 
 
 def test_every_section_says_the_same_as_the_plan(plan: dict[str, Any]) -> None:
