@@ -203,12 +203,14 @@ def check(only, columns):
     from rich.console import Console
 
     from grader.cli.restore import list_notes
+    from grader.report.screen import Screen
 
     result = grade_lab(json.loads(only))
     console = Console(file=io.StringIO(), width=min(max(columns, COLUMNS[0]), COLUMNS[-1]))
     notes = [note.partition(" Undo it:")[0] for note in list_notes(LAB, result)]
     notes += list_lacked("\n".join(each.got for todo in result.todos for each in todo.checks))
-    lines = make_screen(console).lay_out(result, (), notes)
+    screen = Screen(console, None, 200, tasks={})  # no commands, which cannot be typed here
+    lines = screen.lay_out(result, (), notes)
     todos = [[each.id, each.state, each.points, each.max_points] for each in result.todos]
     titles = {(t.id, c.id): f"TODO {t.id}: {c.title}" for t in result.todos for c in t.checks}
     replays = [[*key, titles[key]] for key in failed]
@@ -246,24 +248,6 @@ def warm():
     for todo in FULL.rubric.todos:
         load_checks(todo)
     measure_pace()
-
-
-def make_screen(console):
-    """Make the screen of `check` without commands, which cannot be typed here."""
-    from grader.report.screen import Screen
-    from grader.report.terminal import describe_obstacle
-
-    class Page(Screen):
-        def suggest_commands(self, todo):
-            words = describe_obstacle(todo)
-            return self.set_bold(words) if words else []
-
-        def lay_out(self, result, touched=(), notes=()):
-            typed = ("  check it alone:", "  a hint:")
-            lines = super().lay_out(result, touched, notes)
-            return [line for line in lines if not line.text.startswith(typed)]
-
-    return Page(console, None, 200)
 
 
 def grade_as_json(only):
