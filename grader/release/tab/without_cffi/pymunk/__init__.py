@@ -16,6 +16,7 @@ SHAPES = ("Circle", "Poly", "Segment", "Shape", "ShapeFilter")
 for each in ("Arbiter", "BB", "Body", "Constraint", "Space", *SHAPES):
     globals()[each] = type(each, (Missing,), {"step": lambda self, dt: None})
 Vec2d = type("Vec2d", (Missing,), {})
+from . import constraints  # noqa: E402, F401 - as pymunk itself does, before __getattr__
 
 
 def __getattr__(name):
