@@ -100,9 +100,9 @@ def report_of(name, folder):
     """Grade this member of the bank; return the page of its report."""
     from grader.bank.members import list_members
 
-    named = (each for each in list_members(KIT) if each.name == name)
+    named = (each for each in list_members() if each.name == name)
     (member,) = (each for each in named if each.form == "package")
-    member.build(KIT, folder / name)
+    member.build(folder / name)
     command = [sys.executable, "-m", "grader", "grade", folder / name, "--out", folder / "out"]
     subprocess.run(command, cwd=KIT, stdout=subprocess.DEVNULL, check=False)  # 1: not full marks
     return folder / "out" / f"{name}.html"

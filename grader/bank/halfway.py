@@ -27,11 +27,13 @@ import msgspec
 from msgspec import Struct
 
 from grader.bank.members import (
+    BANK,
     Entry,
     Member,
     Regions,
+    Wrong,
     indent_like,
-    read_wrong,
+    read_tables,
     solution_code,
 )
 from grader.judge.grade import grading
@@ -41,8 +43,6 @@ from grader.judge.submission import handed_out
 from grader.judge.task import KIT, Options
 from grader.judge.wall.children import Worker
 from grader.source.regions import python_files, read_source, regions_in
-
-BANK = KIT / "tests" / "bank"
 
 # Position of the code: alone in its region, with the stub's lines above or below, or below a region
 # that holds the stub.
@@ -91,8 +91,8 @@ class Halfway(Member):
         }
         return {todo: tuple(lines[self.entry.place])}
 
-    def build(self, kit: Path, folder: Path) -> None:
-        super().build(kit, folder)
+    def build(self, folder: Path) -> None:
+        super().build(folder)
         (todo,) = self.replaced_todos
         start = f"# TODO {todo}: "
         file = next(path for path in python_files(folder) if start in read_source(path))
@@ -100,7 +100,7 @@ class Halfway(Member):
             put_below(self.entry.code, todo, file)
         if self.entry.moved:
             shutil.copyfile(file, folder / self.entry.moved)
-            shutil.copyfile(kit / "starter" / file.relative_to(folder), file)
+            shutil.copyfile(KIT / "starter" / file.relative_to(folder), file)
         file.write_text(file.read_text(encoding="utf-8"), encoding=self.entry.encoding)
 
     def complaint(self, result: Result, seconds: float) -> str:
@@ -140,7 +140,7 @@ def list_states(todo: str = "") -> Iterator[Halfway]:
         for name, state in sheet.state.items():
             yield make_state(path.stem, name, sheet.code, state)
     for path in sorted((BANK / "wrong").glob(f"{todo or '*'}.toml")):
-        for name, wrong in read_wrong(path).items():
+        for name, wrong in read_tables(path, Wrong).items():
             if wrong.says:
                 words = State(
                     wrong.why, wrong.code, wrong.change, says=wrong.says, never=wrong.never

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
 
-from grader.bank.members import Member, read_rungs
+from grader.bank.members import Member, Rung, read_tables
 from grader.judge.result import Result
 
 
@@ -29,7 +29,7 @@ class Ladder:
     @property
     def complaint(self) -> str:
         """Return what is wrong with the points of its rungs."""
-        bottom, *_, top = read_rungs(self.sheet)
+        bottom, *_, top = read_tables(self.sheet, Rung)
         if self.points.get(bottom, 0) > 0:
             return f"{bottom} earns {self.points[bottom]} points for nothing"
         for below, above in pairwise(self.points):

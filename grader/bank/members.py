@@ -51,7 +51,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
-from typing import Literal
+from typing import Literal, TypeVar
 
 import msgspec
 from msgspec import Struct
@@ -69,6 +69,7 @@ Form = Literal["package", "single file"]
 Pairs = list[tuple[str, str]]  # old text, which must stand once, and new text
 Regions = Mapping[str, tuple[str, ...]]  # lines of code, by TODO
 
+BANK = KIT / "tests" / "bank"
 CONSTANTS = "all-constants"  # the member that is made of the ladders' constants
 MOST_FOR_CONSTANTS = 3  # points of all TODOs together
 LESSON = "lesson-"  # prefix of the lesson's programs and their variants
@@ -100,6 +101,9 @@ def call(*arguments):
 number = {{"x86_64": {}, "aarch64": {}}}[os.uname().machine]
 """
 SKIPPED_LINES = r"\n(?:.*\n)*?"  # for a line `...`
+
+
+Read = TypeVar("Read", bound=Struct)
 
 
 class Variant(Struct, frozen=True, forbid_unknown_fields=True):
@@ -207,11 +211,6 @@ class Member:
         return self.kind == "ladder" and self.name != CONSTANTS
 
     @property
-    def is_patch(self) -> bool:
-        """Return whether it replaces the regions of TODOs."""
-        return bool(self.replaced_todos)
-
-    @property
     def breach(self) -> Wrong | None:
         """Return the entry of a member that breaks a promise of the lesson."""
         return self.entry if isinstance(self.entry, Wrong) and self.entry.breaks else None
@@ -256,7 +255,7 @@ class Member:
         """Yield the member itself and the right members that it is based on."""
         yield self
         if self.entry.base not in (*TREES, "empty"):
-            yield from base_of(self, KIT).lineage
+            yield from base_of(self).lineage
 
     def belongs_to(self, course: Course) -> bool:
         """Return whether a course has the TODOs and programs that it is about."""
@@ -267,18 +266,18 @@ class Member:
             return not self.todos or not asked.isdisjoint(self.todos)
         return self.todos <= asked
 
-    def build(self, kit: Path, folder: Path) -> None:
+    def build(self, folder: Path) -> None:
         """Write the submission into `folder`, which must not exist."""
         if self.entry.base == "empty":
             folder.mkdir(parents=True)
         elif self.entry.base in TREES:
-            shutil.copytree(kit / self.entry.base, folder, ignore=CLEAN)
+            shutil.copytree(KIT / self.entry.base, folder, ignore=CLEAN)
         else:
-            base_of(self, kit).build(kit, folder)
+            base_of(self).build(folder)
         if self.form == "single file":
-            use_single_file(kit, folder)
+            use_single_file(folder)
         if self.name == CONSTANTS:
-            for rung in list_constants(kit):
+            for rung in list_constants():
                 put_regions(rung.regions, folder)
         put_regions(self.regions, folder)
         edit_tree(self.entry, folder)
@@ -332,138 +331,116 @@ class Member:
         return "right" if names == {self.name.partition("-")[2].partition("+")[0]} else "wrong"
 
 
-def base_of(member: Member, kit: Path) -> Member:
+def base_of(member: Member) -> Member:
     """Return the right member that another one is based on."""
-    return read_submission(kit / "tests" / "bank", "right", member.entry.base)
+    return read_submission("right", member.entry.base)
 
 
 # ---------------------------------------------------------------- reading the bank
 
 
-def list_members(kit: Path, course: Course = FULL) -> Iterator[Member]:
+def list_members(course: Course = FULL) -> Iterator[Member]:
     """Yield the members that concern a course.
 
     Attacks target the judge, not a course: they are graded on every TODO.
     """
-    for member in every_member(kit):
+    for member in list_all():
         if member.kind == "hostile":
             yield member
         elif member.belongs_to(course):
             yield replace(member, course=course)
 
 
-def every_member(kit: Path) -> Iterator[Member]:
+def list_all() -> Iterator[Member]:
     """Yield the whole bank, wrong members in each form they can take."""
-    bank = kit / "tests" / "bank"
-    yield from lesson_members(bank)
-    yield from wrong_members(bank)
-    yield from right_variants(bank)
-    yield from (each for each in list_submissions(bank, "right") if not is_of_lesson(each.name))
-    yield from list_submissions(bank, "hostile")
-    yield from list_attacks(bank)
+    right = list(list_submissions("right"))
+    yield from (each for each in right if is_of_lesson(each.name))
+    yield from list_tables("right", BANK / "lesson.toml", Printed, LESSON)
+    for sheet in list_sheets("wrong"):
+        for member in list_tables("wrong", sheet, Wrong):
+            yield member
+            if member.entry.single_file and member.todos <= set("123456"):
+                yield replace(
+                    member, form="single file", entry=replace_in(member.entry, base="solution")
+                )
+    for sheet in list_sheets("right"):
+        yield from list_tables("right", sheet, Entry)
+    yield from (each for each in right if not is_of_lesson(each.name))
+    yield from list_submissions("hostile")
+    yield from list_attacks()
     yield Member("right", "single-file", "single file", Entry(), None)
-    yield from list_rungs(bank)
-    if any(list_constants(kit)):
+    yield from list_rungs()
+    if any(list_constants()):
         yield Member("ladder", CONSTANTS, "package", Entry(base="starter"), None)
+
+
+def list_tables(
+    kind: Kind, sheet: Path, entries: type[Entry], prefix: str | None = None
+) -> Iterator[Member]:
+    """Yield the members that are tables of one file, by default named after its TODO."""
+    start = f"{sheet.stem}-" if prefix is None else prefix
+    for name, entry in read_tables(sheet, entries).items():
+        yield Member(kind, f"{start}{name}", "package", entry, sheet)
+
+
+def read_tables(sheet: Path, entries: type[Read]) -> dict[str, Read]:
+    return msgspec.toml.decode(sheet.read_bytes(), type=dict[str, entries])  # type: ignore[valid-type]
 
 
 def is_of_lesson(name: str) -> bool:
     return name.startswith(LESSON)
 
 
-def lesson_members(bank: Path) -> Iterator[Member]:
-    """Yield the lesson's programs as printed, and the variants of them."""
-    yield from (each for each in list_submissions(bank, "right") if is_of_lesson(each.name))
-    sheet = bank / "lesson.toml"
-    entries = msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Printed])
-    for name, entry in entries.items():
-        yield Member("right", f"{LESSON}{name}", "package", entry, sheet)
-
-
-def wrong_members(bank: Path) -> Iterator[Member]:
-    for sheet in list_sheets(bank / "wrong"):
-        for name, entry in read_wrong(sheet).items():
-            member = Member("wrong", f"{sheet.stem}-{name}", "package", entry, sheet)
-            yield member
-            if entry.single_file and member.todos <= set("123456"):
-                single = replace_in(entry, base="solution")
-                yield replace(member, form="single file", entry=single)
-
-
-def read_wrong(sheet: Path) -> dict[str, Wrong]:
-    """Return the wrong members of one TODO by the names of their mistakes."""
-    return msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Wrong])
-
-
-def right_variants(bank: Path) -> Iterator[Member]:
-    """Yield the right members that differ from the solution in one TODO."""
-    for sheet in list_sheets(bank / "right"):
-        entries = msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Entry])
-        for name, entry in entries.items():
-            yield Member("right", f"{sheet.stem}-{name}", "package", entry, sheet)
-
-
-def list_sheets(folder: Path) -> list[Path]:
+def list_sheets(kind: Kind) -> list[Path]:
     """Return the files that hold members of one TODO each."""
-    return [path for path in sorted(folder.glob("*.toml")) if IS_TODO.fullmatch(path.stem)]
+    paths = sorted((BANK / kind).glob("*.toml"))
+    return [path for path in paths if IS_TODO.fullmatch(path.stem)]
 
 
-def list_submissions(bank: Path, kind: Literal["right", "hostile"]) -> Iterator[Member]:
+def list_submissions(kind: Literal["right", "hostile"]) -> Iterator[Member]:
     """Yield the members that have a file or folder of their own, or only marks in bank.toml."""
-    names = {path.stem for path in (bank / kind).glob("*")} | set(read_marks(bank, kind))
+    names = {path.stem for path in (BANK / kind).glob("*")} | set(read_marks()[kind])
     for name in sorted(names):
         if not IS_TODO.fullmatch(name):
-            yield read_submission(bank, kind, name)
+            yield read_submission(kind, name)
 
 
-def list_attacks(bank: Path) -> Iterator[Member]:
+def list_attacks() -> Iterator[Member]:
     """Yield the hostile members that attack in the region of one TODO."""
-    sheet = bank / "hostile" / f"{ATTACKED}.toml"
-    entries = msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Attack])
-    for name, entry in entries.items():
-        yield Member("hostile", name, "package", entry, sheet)
+    return list_tables("hostile", BANK / "hostile" / f"{ATTACKED}.toml", Attack, prefix="")
 
 
-def read_submission(bank: Path, kind: Literal["right", "hostile"], name: str) -> Member:
+def read_submission(kind: Literal["right", "hostile"], name: str) -> Member:
     """Return one member, described by its own TOML or by bank.toml."""
-    described = bank / kind / f"{name}.toml"
-    sources = (bank / kind / name, bank / kind / f"{name}.py", described)
+    described = BANK / kind / f"{name}.toml"
+    sources = (BANK / kind / name, BANK / kind / f"{name}.py", described)
     source = next((path for path in sources if path.exists()), None)
     if described.exists():
         entry = msgspec.toml.decode(described.read_bytes(), type=Entry)
     else:
-        entry = read_marks(bank, kind).get(name, Entry())
+        entry = read_marks()[kind].get(name, Entry())
     return Member(kind, name, "package", entry, source)
 
 
-def read_marks(bank: Path, kind: Literal["right", "hostile"]) -> dict[str, Entry]:
-    """Return the entries of right or hostile members in bank.toml, by name."""
-    return parse_marks((bank / "bank.toml").read_bytes())[kind]
-
-
 @cache
-def parse_marks(text: bytes) -> dict[str, dict[str, Entry]]:
-    """Return the entries of bank.toml by kind and name; cached, since each member reads it."""
-    return msgspec.toml.decode(text, type=dict[str, dict[str, Entry]])
+def read_marks() -> dict[str, dict[str, Entry]]:
+    """Return the entries of bank.toml by kind and name."""
+    return msgspec.toml.decode((BANK / "bank.toml").read_bytes(), type=dict[str, dict[str, Entry]])
 
 
-def list_rungs(bank: Path) -> Iterator[Member]:
+def list_rungs() -> Iterator[Member]:
     """Yield each rung of each ladder, lowest first."""
-    for sheet in sorted((bank / "ladders").glob("*.toml")):
-        mistakes = read_wrong(bank / "wrong" / sheet.name)
-        for name, rung in read_rungs(sheet).items():
+    for sheet in sorted((BANK / "ladders").glob("*.toml")):
+        mistakes = read_tables(BANK / "wrong" / sheet.name, Wrong)
+        for name, rung in read_tables(sheet, Rung).items():
             variant = mistakes[rung.wrong] if rung.wrong else rung
             entry = Entry(code=variant.code, change=variant.change)
             yield Member("ladder", f"{sheet.stem}-{name}", "package", entry, sheet)
 
 
-def read_rungs(sheet: Path) -> dict[str, Rung]:
-    return msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Rung])
-
-
-def list_constants(kit: Path) -> Iterator[Member]:
+def list_constants() -> Iterator[Member]:
     """Yield the rungs that give the same answer to every question."""
-    for rung in list_rungs(kit / "tests" / "bank"):
+    for rung in list_rungs():
         if re.match(r"\w+-\d+-constant", rung.name):
             yield rung
 
@@ -478,10 +455,9 @@ def solution_code() -> dict[str, str]:
 # ---------------------------------------------------------------- edits
 
 
-def use_single_file(kit: Path, folder: Path) -> None:
+def use_single_file(folder: Path) -> None:
     shutil.rmtree(folder / "mini_engine")
-    single = kit / "tests" / "bank" / "single_file" / "mini_engine.py"
-    shutil.copyfile(single, folder / "mini_engine.py")
+    shutil.copyfile(BANK / "single_file" / "mini_engine.py", folder / "mini_engine.py")
 
 
 def lay_over(source: Path, folder: Path) -> None:
@@ -540,8 +516,9 @@ def fill_every_todo(folder: Path, code: str) -> None:
 
 def make_mistake(name: str, folder: Path) -> None:
     """Put the code of a wrong member into the files of `folder`."""
-    wrong = wrong_members(KIT / "tests" / "bank")
-    put_regions(next(member for member in wrong if member.name == name).regions, folder)
+    sheet = BANK / "wrong" / f"{name.partition('-')[0]}.toml"
+    (wrong,) = (each for each in list_tables("wrong", sheet, Wrong) if each.name == name)
+    put_regions(wrong.regions, folder)
 
 
 def regions_of(source: Path) -> Regions:

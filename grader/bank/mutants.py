@@ -193,7 +193,7 @@ def grade_mutant(mutant: Mutant, alone: bool = False) -> Outcome:
     with tempfile.TemporaryDirectory(prefix="mutant-") as folder:
         submission = Path(folder).resolve() / "mutant"
         member = Member("wrong", f"{mutant.todo}-mutant", "package", Entry(code=mutant.code), None)
-        member.build(KIT, submission)
+        member.build(submission)
         if alone:
             return Outcome(mutant, find_first_failure(submission, mutant.todo))
         result, _ = grade_quickly(submission, member.judged_by)

@@ -132,7 +132,7 @@ def verify(
 
 
 def choose_members(only: str, course: Course = FULL) -> list[Member]:
-    everything = [*list_trees(course), *list_members(KIT, course)]
+    everything = [*list_trees(course), *list_members(course)]
     return [each for each in everything if only in f"{each.kind}/{each.name}"]
 
 
@@ -146,7 +146,7 @@ def write_members(only: str, folder: Path) -> list[Path]:
         paths.append(
             folder / each.name if each.form == "package" else folder / f"{each.name}-single"
         )
-        each.build(KIT, paths[-1])
+        each.build(paths[-1])
     return paths
 
 
@@ -256,7 +256,7 @@ def grade_member(
     with tempfile.TemporaryDirectory(prefix="bank-") as folder:
         submission = Path(folder).resolve() / member.name
         try:
-            member.build(KIT, submission)
+            member.build(submission)
         except ValueError as error:  # an edit of text that the solution no longer has
             return Verdict(member, None, 0.0, f"cannot be built: {error}")
         worker = shared_worker()

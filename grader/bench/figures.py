@@ -90,10 +90,10 @@ def prepare(tested: Tested, size: int) -> None:
     """Lay out a kit's own solution, and a class of this kit's bank, spread over all of it."""
     without = shutil.ignore_patterns("__pycache__")
     shutil.copytree(tested.kit / "solution", tested.work / "tree", ignore=without)
-    chosen = [each for each in list_members(KIT) if each.kind in ("wrong", "right")]
+    chosen = [each for each in list_members() if each.kind in ("wrong", "right")]
     for number in range(size):
         member = chosen[number * len(chosen) // size]
-        member.build(KIT, tested.work / "class" / f"{number:04}-{member.name}")
+        member.build(tested.work / "class" / f"{number:04}-{member.name}")
     tested.run("release")  # the next one finds nothing new
 
 

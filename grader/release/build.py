@@ -81,9 +81,9 @@ def release(out: Path, console: Console, fresh: bool = False, course: Course = F
 
 def build_wrong_members(folder: Path, course: Course) -> Iterator[Tree]:
     """Build the bank's wrong members of a course one after the other."""
-    for member in list_members(KIT, course):
-        if member.kind == "wrong" and member.form == "package" and member.is_patch:
-            member.build(KIT, folder / member.name)
+    for member in list_members(course):
+        if member.kind == "wrong" and member.form == "package" and member.replaced_todos:
+            member.build(folder / member.name)
             yield folder / member.name, member.todos
 
 

@@ -53,5 +53,5 @@ def make_record_key(course: Course) -> str:
     rooms = [KIT / "grader" / room for room in RECORDING]
     code = [row for room in rooms for row in hash_contents(room, "__pycache__")]
     asked = msgspec.json.encode([course, course.rubric]).decode()
-    wrong = [make_key(member) for member in list_members(KIT, course) if member.kind == "wrong"]
+    wrong = [make_key(member) for member in list_members(course) if member.kind == "wrong"]
     return hash_lines([hash_surroundings(), asked, *code, *wrong])

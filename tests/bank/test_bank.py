@@ -15,7 +15,7 @@ from grader.source.regions import python_files, read_source, regions_in
 
 EVERY = bank()
 MEMBERS = [member for member in EVERY if member.kind != "ladder"]
-RUNGS = [member for member in EVERY if member.kind == "ladder" and member.is_patch]
+RUNGS = [member for member in EVERY if member.kind == "ladder" and member.replaced_todos]
 WHOLE = "lesson-as-printed"  # graded in full
 # Each of these takes as long as ten others.
 TOO_LONG = (
@@ -86,7 +86,7 @@ def test_a_breach_breaks_what_is_given_and_no_region(tmp_path: Path):
     """A TODO's own mistakes are patches. `make verify` builds all breaches."""
     breaches = [member for member in MEMBERS if member.breach is not None]
     for member in breaches[::8]:
-        member.build(KIT, tmp_path / member.name)
+        member.build(tmp_path / member.name)
         for path in python_files(tmp_path / member.name):
             original = KIT / "solution" / path.relative_to(tmp_path / member.name)
             texts = [read_source(each) for each in (path, original)]

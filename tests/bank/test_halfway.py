@@ -40,7 +40,7 @@ def test_there_are_states_of_every_todo_and_each_can_be_built(tmp_path: Path):
     assert len(STATES) >= 150 and len({each.name for each in STATES}) == len(STATES)
     assert {todo for each in STATES for todo in each.todos} >= set("123456") | {"7a", "7b", "7c", "7d", "8a", "8c"}
     for state in STATES[:: len(STATES) // 10]:
-        state.build(KIT, tmp_path / state.name)
+        state.build(tmp_path / state.name)
 
 
 # ---------------------------------------------------------------- messages

@@ -63,7 +63,7 @@ def grade_as_json(member: Member, tree: Path, jobs: int, passed_programs: Passed
 )
 def test_a_result_is_the_same_bytes(member: Member, tmp_path: Path, passed_programs: PassedPrograms):
     tree = tmp_path / member.name
-    member.build(KIT, tree)
+    member.build(tree)
     memories = [None] if member.kind == "hostile" else [None, passed_programs]  # as in verify
     results: dict[object, bytes] = {
         (jobs, memory is not None): grade_as_json(member, tree, jobs, memory)

@@ -79,8 +79,8 @@ def film_without_end(folder: Path) -> None:
 
 
 def answer_by_the_megabyte(folder: Path) -> None:
-    found = {each.name: each for each in list_attacks(KIT / "tests" / "bank")}
-    found["answers-by-the-megabyte"].build(KIT, folder)
+    found = {each.name: each for each in list_attacks()}
+    found["answers-by-the-megabyte"].build(folder)
 
 
 def resemble_everything(folder: Path) -> None:

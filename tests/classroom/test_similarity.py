@@ -49,7 +49,7 @@ def pack_members(place: Path, pattern: str) -> dict[str, Package]:
     found = {}
     for member in bank():
         if member.kind == "right" and re.fullmatch(pattern, member.name):
-            member.build(KIT, place / member.name)
+            member.build(place / member.name)
             found[member.name] = pack(Work(member.name, (place / member.name,)))
     return found
 

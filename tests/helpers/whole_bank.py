@@ -8,12 +8,11 @@ from msgspec.structs import replace as replace_in
 from grader.bank.members import Member, list_members
 from grader.bank.verify import Verdict, grade_member
 from grader.judge.result import is_bonus
-from grader.judge.task import KIT
 
 
 @cache
 def bank() -> tuple[Member, ...]:
-    return (*list_members(KIT),)
+    return (*list_members(),)
 
 
 def member_named(name: str) -> Member:

@@ -317,7 +317,7 @@ def test_what_deserves_points_is_taken_in_whole(tmp_path):
     """The intake of a right submission of the bank loses no file and has no doubts."""
     for member in bank():
         if member.kind == "right" and member.name.startswith(("copies", "structure", "imports-m")):
-            member.build(KIT, tmp_path / member.name)
+            member.build(tmp_path / member.name)
             package = read_package(Work("ann", (tmp_path / member.name,)))
             there = {
                 path.relative_to(tmp_path / member.name).as_posix()

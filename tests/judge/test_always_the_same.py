@@ -52,7 +52,7 @@ def test_twenty_grades_are_one(tree: str):
 def submission(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a submission that earns some of the points and gets messages about the others."""
     folder = tmp_path_factory.mktemp("bank") / "submission"
-    next(each for each in bank() if each.name == "4-clamps-the-increment").build(KIT, folder)
+    next(each for each in bank() if each.name == "4-clamps-the-increment").build(folder)
     return folder
 
 

@@ -131,7 +131,7 @@ def test_no_more_than_one_process_of_a_submission_is_open(tmp_path: Path, monkey
     """So its memory is at most that of one process: RLIMIT_AS plus the scratch folder in memory."""
     member = next(each for each in bank() if each.todos == {"8a"} and each.kind == "wrong")
     tree = tmp_path / "tree"
-    member.build(KIT, tree)
+    member.build(tree)
     worker, counts = shared_worker(), [0]
     usual_open, usual_end = worker.open, worker.end
 
@@ -328,7 +328,7 @@ def test_answers_cost_the_judge_little(tmp_path: Path):
     for member in bank():
         if member.name in names:
             names.remove(member.name)
-            member.build(KIT, tmp_path / member.name)
+            member.build(tmp_path / member.name)
             trees.append(tmp_path / member.name)
     assert not names
     (plain, before), *others = cost("8a,8b", *trees)

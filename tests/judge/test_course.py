@@ -492,7 +492,7 @@ def test_the_gradescope_zip_takes_the_course_along(tmp_path: Path):
 
 
 def test_verify_leaves_out_what_the_course_leaves_out():
-    engine = [*list_members(KIT, COURSES["engine"])]
+    engine = [*list_members(COURSES["engine"])]
     assert {"4-clamps-the-increment", "starts-threads"} <= {each.name for each in engine}
     wrong = {each.name for each in engine if each.kind == "wrong"}
     assert {name.partition("-")[0] for name in wrong} == set("123456")
@@ -503,7 +503,7 @@ def test_verify_leaves_out_what_the_course_leaves_out():
 
 def test_a_member_is_graded_by_the_course():
     course = COURSES[CHEAP]
-    every = list_members(KIT, course.as_rated)
+    every = list_members(course.as_rated)
     verdict = grade_member(next(each for each in every if each.name == "8a-position-first"))
     assert verdict.complaint == "" and verdict.result is not None
     assert {todo.id for todo in verdict.result.todos} <= set(course.todos or ())

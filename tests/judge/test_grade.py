@@ -108,7 +108,7 @@ def test_earlier_grades_change_nothing(tmp_path: Path, chosen: tuple[str, ...]):
             only = Options(shipped_reference(), only=member.todos)
             folder = tmp_path / member.name
             if not folder.exists():
-                member.build(KIT, folder)
+                member.build(folder)
             again.append(as_json(grade_tree(folder, only)))
         touched = frozenset().union(*(member.todos for member in members))
         options = Options(shipped_reference(), only=touched)
@@ -167,7 +167,7 @@ def test_in_one_file_too_an_unfinished_todo_costs_its_own_points(
         unfinished.write_text(text, encoding="utf-8")
         folder = tmp_path / f"all-but-{id}"
         shutil.rmtree(folder, ignore_errors=True)
-        Member("wrong", id, "package", Entry(transform="one-file"), unfinished).build(KIT, folder)
+        Member("wrong", id, "package", Entry(transform="one-file"), unfinished).build(folder)
         result = grade_tree(folder, engine)
         assert {each.id for each in result.todos if each.state != "passed"} == {id}
         assert points(result, id) == 0

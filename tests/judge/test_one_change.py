@@ -62,7 +62,7 @@ def wrong_members() -> list[Member]:
 def test_a_named_line_is_one_that_is_wrong(member: Member, tmp_path: Path):
     """Students see it in their own checks alone; they see where, and not what. Marks stay."""
     tree = tmp_path / "tree"
-    member.build(KIT, tree)
+    member.build(tree)
     (todo,) = member.todos
     own = grade_todo(tree, todo).checks
     named = [check for check in own if "look there" in check.meaning and check.where]

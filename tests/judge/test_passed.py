@@ -86,7 +86,7 @@ def test_the_bank_gets_the_same_results_without_a_memory(tmp_path: Path):
     """Grade every member, without a time limit."""
     passed = PassedPrograms(tmp_path / "passed")
     differ = []
-    for member in list_members(KIT):
+    for member in list_members():
         with_memory, without = (grade_member(member, passed=each) for each in (passed, None))
         if with_memory.result != without.result:
             differ.append(f"{member.kind}/{member.name} as {member.form}")

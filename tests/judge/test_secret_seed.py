@@ -127,7 +127,7 @@ def test_a_mistake_costs_the_same_under_every_seed(tmp_path: Path):
     known = {each.name: each for each in bank() if each.form == "package"}
     for name in MISTAKES:
         folder = tmp_path / name
-        known[name].build(KIT, folder)
+        known[name].build(folder)
         usual = marks_under(None, known[name], folder)
         assert any(points for _, points in usual) and not all(points for _, points in usual), name
         for seed in range(1, 11):

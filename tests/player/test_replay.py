@@ -82,7 +82,7 @@ def grade_mistakes(once: Once, name: str, todos: set[str]) -> Path:
     def fill(top: Path) -> None:
         folder = top / "mistaken"
         chosen = [m for m in bank() if m.name in MISTAKES and m.form == "package"]
-        chosen[0].build(KIT, folder)
+        chosen[0].build(folder)
         for member in chosen[1:]:
             put_regions(member.regions, folder)
         options = Options(shipped_reference(), only=frozenset(todos))
@@ -363,7 +363,7 @@ def test_the_script_shows_the_mistake_in_the_tree_as_it_is(
 def test_the_scene_of_a_forbidden_change_is_shown(tmp_path: Path):
     """The check ends two scenes later, where nothing is wrong."""
     (member,) = [m for m in bank() if (m.name, m.form) == ("1-lifts-the-circle-out", "package")]
-    member.build(KIT, tmp_path / "tree")
+    member.build(tmp_path / "tree")
     options = Options(shipped_reference(), only=frozenset({"1"}))
     grade_with_replays(tmp_path / "tree", options, tmp_path / "pages", shared_worker())
     shown = read_replay(tmp_path / "pages/1-a_centre_inside_leaves_by_the_nearest_face.html")
@@ -788,7 +788,7 @@ UNSEEN = {
 )
 def test_wrong_answers_of_the_bank_part_and_their_scripts_run(member: Member, tmp_path: Path):
     tree = tmp_path / "tree"
-    member.build(KIT, tree)
+    member.build(tree)
     options = Options(shipped_reference(), only=member.todos)
     result = grade_with_replays(tree, options, tmp_path / "pages", shared_worker())
     for check in (check for todo in result.todos for check in todo.checks):

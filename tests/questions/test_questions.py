@@ -519,7 +519,7 @@ def solution_lines() -> set[str]:
 def test_no_line_of_the_solution_is_shown_to_who_wrote_another(tmp_path: Path, solution: Result):
     (member,) = (each for each in bank() if each.name == "8-in-other-words")
     folder = tmp_path / "other"
-    member.build(KIT, folder)
+    member.build(folder)
     todos = [t for t in solution.todos if t.id in ("8a", "8b", "8c")]
     with program_of(folder, solution.with_todos(todos)) as program:
         sheet = make_sheet(program, "dee", "1", Asked(number=0, film=0))
@@ -537,7 +537,7 @@ def test_every_right_member_of_the_bank_gets_a_whole_sheet(
     member: Member, tmp_path: Path, solution: Result
 ):
     folder = tmp_path / "handed-in"
-    member.build(KIT, folder)
+    member.build(folder)
     with program_of(folder, solution) as program:
         sheet = make_sheet(program, member.name, "bank", Asked())
     assert len(sheet.questions) == 6

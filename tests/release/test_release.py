@@ -47,7 +47,7 @@ from grader.release.students_copy import Tree, cut_checks, list_hidden_checks, r
 from grader.source.cut import prune, replace_bodies
 from grader.source.regions import replace_regions
 
-WRONG = [m for m in bank() if m.kind == "wrong" and m.form == "package" and m.is_patch]
+WRONG = [m for m in bank() if m.kind == "wrong" and m.form == "package" and m.replaced_todos]
 REGIONS = {todo.id: todo.folder for todo in load_rubric().todos if todo.function}
 for todo in REGIONS:
     misconceptions.load_known(todo)
@@ -107,7 +107,7 @@ def make(work: Path, chosen: list[Member]) -> Released:
 
     def written() -> Iterator[tuple[Path, frozenset[str]]]:
         for member in chosen:
-            member.build(KIT, wrong[member.name])
+            member.build(wrong[member.name])
             yield wrong[member.name], member.todos
 
     (archive,) = build(work, written()).glob("*.zip")

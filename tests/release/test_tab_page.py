@@ -414,7 +414,7 @@ def write_members(members: Iterable[tuple[Member, list[str]]], folder: Path) -> 
     (folder / "asked").mkdir(parents=True)
     for number, (member, todos) in enumerate(members):
         tree = folder / "trees" / str(number)
-        member.build(KIT, tree)
+        member.build(tree)
         texts = {p.relative_to(tree).as_posix(): read_source(p) for p in tree.rglob("*.py")}
         asked = json.dumps({"todos": todos, "files": texts})
         (folder / "asked" / f"{number:04}.json").write_text(asked, encoding="utf-8")
@@ -487,7 +487,7 @@ def test_members_get_the_same_on_the_page(site: Path, tmp_path: Path):
 
 def needs_more(member: Member, tree: Path) -> bool:
     """Return whether a member needs numpy or threads, which the page lacks."""
-    member.build(KIT, tree)
+    member.build(tree)
     texts = [read_source(path) for path in tree.rglob("*.py")]
     return any(re.search("import numpy|import (_thread|threading)", text) for text in texts)
 

@@ -83,7 +83,7 @@ def test_the_solution_gets_the_same(todo: str, tab: InlineWorker):
 )
 def test_members_get_the_same(name: str, tab: InlineWorker, tmp_path: Path):
     member = member_named(name)
-    member.build(KIT, tmp_path / name)
+    member.build(tmp_path / name)
     assert_same(tmp_path / name, tab, *(member.todos or {"1"}))
 
 
@@ -92,7 +92,7 @@ def test_a_sample_of_the_bank_gets_the_same(tab: InlineWorker, tmp_path: Path):
     own = [each for each in bank() if each.kind in ("wrong", "right") and each.form == "package"]
     for member in random.Random(1).sample(own, SAMPLE):
         folder = tmp_path / f"{member.kind}-{member.name}"
-        member.build(KIT, folder)
+        member.build(folder)
         assert_same(folder, tab, *(member.todos if member.kind == "wrong" else ()))
 
 

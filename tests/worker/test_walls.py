@@ -29,7 +29,7 @@ pytestmark = pytest.mark.skipif(
 STOPPED_BY = tomllib.loads(Path(__file__).with_name("walls.toml").read_text("utf-8"))["stopped_by"]
 MEMBERS = {
     each.name: each
-    for each in list_attacks(KIT / "tests" / "bank")
+    for each in list_attacks()
     if "refused: no points" in "\n".join(each.regions["8a"])
 }
 NAMESPACES = {"user-namespace", "network-namespace", "pid-namespace"}
