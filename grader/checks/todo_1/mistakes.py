@@ -82,12 +82,11 @@ def change_if(case: Case, change: Change) -> Model:
     return model
 
 
-inside, outside = partial(except_if, is_inside), partial(except_if, is_outside)
+if_inside, if_on_edge = partial(except_if, is_inside), partial(except_if, is_on_the_edge)
 change_inside, change_outside = partial(change_if, is_inside), partial(change_if, is_outside)
-on_the_edge = partial(except_if, is_on_the_edge)
 
 
-def always(error: str) -> Model:
+def raise_error(error: str) -> Model:
     return lambda disc, rect: error
 
 
@@ -224,7 +223,7 @@ def divide_by_square(disc: Disc, rect: Rect) -> Right:
 register("1", "order", [("the-box-comes-first", lambda disc, rect: (False, False))])
 MODELS: Models = (
     ("normal-points-out-of-the-box", change_if(lambda disc, rect: True, turn_normal)),
-    ("inside-is-forgotten", inside(lambda disc, rect: None)),
+    ("inside-is-forgotten", if_inside(lambda disc, rect: None)),
     ("inside-normal-points-out", change_inside(turn_normal)),
     ("inside-has-no-case-of-its-own", change_inside(centre_with_normal(0.0, 1.0))),
     ("inside-has-no-case-of-its-own", change_inside(centre_with_normal(0.0, -1.0))),
@@ -239,12 +238,15 @@ MODELS: Models = (
         "inside-point-is-the-centre",
         change_inside(lambda t, disc, rect: t._replace(px=disc.x, py=disc.y)),
     ),
-    ("inside-leaves-by-the-farthest-face", inside(farthest_face)),
-    ("inside-always-leaves-by-the-top", inside(lambda disc, rect: exact.ways_out(disc, rect)[2])),
-    ("edge-counts-as-outside", on_the_edge(always("ZeroDivisionError"))),
-    ("edge-counts-as-outside", on_the_edge(always("ValueError"))),
-    ("face-by-the-distance-from-the-middle", inside(face_by_offset)),
-    ("face-by-share-of-the-half", inside(face_by_share)),
+    ("inside-leaves-by-the-farthest-face", if_inside(farthest_face)),
+    (
+        "inside-always-leaves-by-the-top",
+        if_inside(lambda disc, rect: exact.ways_out(disc, rect)[2]),
+    ),
+    ("edge-counts-as-outside", if_on_edge(raise_error("ZeroDivisionError"))),
+    ("edge-counts-as-outside", if_on_edge(raise_error("ValueError"))),
+    ("face-by-the-distance-from-the-middle", if_inside(face_by_offset)),
+    ("face-by-share-of-the-half", if_inside(face_by_share)),
     (
         "depth-is-the-distance",
         change_outside(lambda t, disc, rect: t._replace(depth=disc.r - t.depth)),
@@ -261,8 +263,8 @@ MODELS: Models = (
             lambda t, disc, rect: t._replace(px=disc.x + t.nx * disc.r, py=disc.y + t.ny * disc.r)
         ),
     ),
-    ("inside-normalises-zero", inside(always("ValueError"))),  # of normalize()
-    ("inside-normalises-zero", inside(always("ZeroDivisionError"))),
+    ("inside-normalises-zero", if_inside(raise_error("ValueError"))),  # of normalize()
+    ("inside-normalises-zero", if_inside(raise_error("ZeroDivisionError"))),
     ("apart-is-not-noticed", find_at_any_distance),
     ("touching-counts-as-overlap", touching_counts),
     ("half-is-taken-for-the-full-size", find_in_box(lambda x, y, hx, hy: (x, y, hx / 2, hy / 2))),
@@ -300,5 +302,5 @@ mistake(
     "inside-leaves-by-the-farthest-face",
     "A centre inside leaves to the side where up or down is nearer, and the other way round: "
     "compare the two gaps once more.",
-    inside(farther_way),
+    if_inside(farther_way),
 )

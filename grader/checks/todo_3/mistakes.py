@@ -81,12 +81,12 @@ def right_impulse(rod: Rod) -> float:
     return (rod.bias - rod.speed) / rod.k
 
 
-def for_speed(speed: Impulse) -> Callable[[Rod], Ends]:
+def with_speed(speed: Impulse) -> Callable[[Rod], Ends]:
     """Return the right model with another speed along the rod."""
     return push(lambda rod: (rod.bias - speed(rod)) / rod.k)
 
 
-def for_bias(bias: Impulse) -> Callable[[Rod], Ends]:
+def with_bias(bias: Impulse) -> Callable[[Rod], Ends]:
     return push(lambda rod: (bias(rod) - rod.speed) / rod.k)
 
 
@@ -179,22 +179,22 @@ def nothing_if_exact(rod: Rod) -> Ends:
 MODELS: Models = (
     ("only-pulls", push(lambda rod: min(0.0, right_impulse(rod)))),
     ("only-pushes", push(lambda rod: max(0.0, right_impulse(rod)))),
-    ("ignores-the-bias", for_bias(lambda rod: 0.0)),
-    ("ignores-the-speed", for_speed(lambda rod: 0.0)),
-    ("speed-of-b-alone", for_speed(lambda rod: rod._replace(vel_a=STILL).speed)),
-    ("speed-of-a-alone", for_speed(lambda rod: rod._replace(vel_b=STILL).speed)),
-    ("adds-the-speed", for_speed(lambda rod: -rod.speed)),
+    ("ignores-the-bias", with_bias(lambda rod: 0.0)),
+    ("ignores-the-speed", with_speed(lambda rod: 0.0)),
+    ("speed-of-b-alone", with_speed(lambda rod: rod._replace(vel_a=STILL).speed)),
+    ("speed-of-a-alone", with_speed(lambda rod: rod._replace(vel_b=STILL).speed)),
+    ("adds-the-speed", with_speed(lambda rod: -rod.speed)),
     ("pushes-the-wrong-way", push(lambda rod: -right_impulse(rod))),
     ("multiplies-by-k", push(lambda rod: (rod.bias - rod.speed) * rod.k)),
     ("not-divided-by-k", push(lambda rod: rod.bias - rod.speed)),
-    ("bias-has-the-wrong-sign", for_bias(lambda rod: -rod.bias)),
+    ("bias-has-the-wrong-sign", with_bias(lambda rod: -rod.bias)),
     ("impulse-is-not-applied", lambda rod: (rod.vel_a, rod.vel_b)),
     ("moves-only-a", lambda rod: (right_a(rod), rod.vel_b)),
     ("moves-only-b", lambda rod: (rod.vel_a, right_b(rod))),
     ("b-does-it-all", lambda rod: push_by(rod, 0.0, rod.bias - rod.speed, rod.axis)),
-    ("speeds-by-their-lengths", for_speed(difference_of_lengths)),
-    ("length-error-for-the-bias", for_bias(length_error)),
-    ("length-error-for-the-bias", for_bias(lambda rod: -length_error(rod))),
+    ("speeds-by-their-lengths", with_speed(difference_of_lengths)),
+    ("length-error-for-the-bias", with_bias(length_error)),
+    ("length-error-for-the-bias", with_bias(lambda rod: -length_error(rod))),
     ("impulse-made-anew", lambda rod: (right_a(rod), right_b(rod._replace(vel_a=right_a(rod))))),
     ("impulse-made-anew", lambda rod: (right_a(rod._replace(vel_b=right_b(rod))), right_b(rod))),
     ("nothing-where-bias-is-0", nothing_if_exact),
@@ -219,10 +219,10 @@ MODELS: Models = (
         share_equally,
     ),
     ("stops-the-sideways-speed", stop_sideways_speed),
-    ("speed-in-every-direction", for_speed(speed_in_every_direction)),
+    ("speed-in-every-direction", with_speed(speed_in_every_direction)),
     ("k-of-one-end", push(lambda rod: (rod.bias - rod.speed) * mass_of(rod.mass_b))),
     ("k-of-one-end", push(lambda rod: (rod.bias - rod.speed) * mass_of(rod.mass_a))),
-    ("distance-for-speed", for_speed(lambda rod: math.hypot(*rod.offset))),
+    ("distance-for-speed", with_speed(lambda rod: math.hypot(*rod.offset))),
 )
 
 
