@@ -102,8 +102,16 @@ class Recorder:
         if self._new_scene and self.scenes[-1]:
             self.scenes.append([])
             self.steps.append([])
+            self._forget_old_scenes()
         self._new_scene = self._new_run = False
         self.scenes[-1].append(Run(self.experiment))
+
+    def _forget_old_scenes(self) -> None:
+        """Leave half of all moments to a new scene; the last one is shown."""
+        for number, runs in enumerate(self.scenes[:-1]):
+            if self._count > MAX_MOMENTS // 2:
+                self._count -= sum(len(line.moments) for run in runs for line in run.lines)
+                self.scenes[number], self.steps[number] = [], []
 
     def _add_line(self, request: Request, answered: Answered, recorded: WithMoments) -> None:
         run = self.scenes[-1][-1]

@@ -101,7 +101,11 @@ class Translator:
                 given += [f"{name}={self.write_argument(each)}" for name, each in kwargs.items()]
                 return [self._assign(value, f"{function}({', '.join(given)})", target)]
             case Get(ref, name):
-                return [self._assign(value, f"{self.name(ref)}.{name}")] if name else []
+                code = f"{self.name(ref)}.{name}"
+                for number, each in enumerate(value.items if isinstance(value, Items) else ()):
+                    for part in list_refs(each):
+                        self.names.setdefault(part, f"{code}[{number}]")
+                return [self._assign(value, code)] if name else []
             case Set(ref, fields):
                 return self._set_fields(self.name(ref), fields)
             case Simulate(ref, dt, steps):
@@ -396,7 +400,7 @@ def print_last_state(steps: Sequence[Step]) -> Iterator[str]:
         if name.startswith("space") and name.isidentifier():
             yield f"print([(each.mass, each.moment) for each in {name}.bodies])"
             continue
-        pymunk = not name.isidentifier() or name.startswith("body")
+        pymunk = name.startswith(("body", "list(")) or name.endswith(".static_body")
         fields = ("position", "velocity", "angle", "angular_velocity") if pymunk else STATE
         yield f"print({', '.join(f'{name}.{each}' for each in fields)})"
 

@@ -44,6 +44,7 @@ def a_body_is_drawn_on_its_way_through_the_step(lab: Lab) -> None:
         before = begin[0] + x, begin[1] + y, begin[2] + angle
         now = end[0] + x, end[1] + y, end[2] + angle
         vel, omega, mass, restitution, friction = STATES[number % len(STATES)]
+        lab.ran(f"between(body, {SHARES[0]:g}) after a step from {before[:2]} to {now[:2]}")
         body = make_moved_body(
             lab, before, now, dt, mass, restitution=restitution, friction=friction
         )
@@ -62,7 +63,6 @@ def want_all_shares(lab: Lab, body: Thing, before: Place, now: Place) -> None:
     lab.settle()
     for share, answer in zip(asked, answers, strict=True):
         lab.saw("between", (before, now, share), answer[:2])
-    lab.ran(f"between(body, {asked[0]:g}) after a step from {before[:2]} to {now[:2]}")
     was = lab.items(lab.get(body, "before"), "Body.before")
     kept = (*lab.pair(was[0], "Body.before"), lab.number(was[1], "Body.before"))
     lab.want(
