@@ -27,6 +27,7 @@ from grader.judge.explain import misconceptions
 from grader.judge.explain.misconceptions import Undecided
 from grader.judge.grade import grading
 from grader.judge.lab import Observation
+from grader.judge.passed import PASSED
 from grader.judge.result import CheckResult, Result
 from grader.judge.rubric import Rubric, load_rubric
 from grader.judge.task import KIT, Options, shipped_reference
@@ -196,7 +197,7 @@ def grade_mutant(mutant: Mutant, alone: bool = False) -> Outcome:
         member.build(submission)
         if alone:
             return Outcome(mutant, find_first_failure(submission, mutant.todo))
-        result, _ = grade_quickly(submission, member.judged_by)
+        result, _ = grade_quickly(submission, member.judged_by, passed=PASSED)
         lost = {t.id: t.max_points - t.points for t in result.todos if t.points != t.max_points}
         mistake = next((t.misconception for t in result.todos if t.misconception), None)
         misnamed = mistake is not None and not name_holds(submission, mutant.todo, mistake)
