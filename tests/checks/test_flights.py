@@ -31,7 +31,7 @@ def test_a_free_ball_falls_faster_in_each_step_and_may_be_damped(vx: float, vy: 
 
 
 @pytest.mark.parametrize(("vx", "vy"), [(0, 0), (300, -400), (-200, 100)])
-def test_it_neither_hangs_nor_turns_nor_jumps(vx: float, vy: float):
+def test_a_free_ball_neither_hangs_nor_turns_nor_jumps(vx: float, vy: float):
     before = ball(450, 100, vx, vy)
     assert not flew(before, next_to(before, vx, vy))
     assert not flew(before, next_to(before, -vx, vy + FALL + 2.0))
@@ -40,7 +40,7 @@ def test_it_neither_hangs_nor_turns_nor_jumps(vx: float, vy: float):
     assert not flew(before, ball(jumped.x + 3.0, jumped.y, jumped.vx, jumped.vy))
 
 
-def test_what_is_near_something_is_not_judged():
+def test_a_ball_near_something_is_not_judged():
     assert is_clear(ball(450, 100), [], [])
     assert not is_clear(ball(200, 225), [], [])  # above the ledge
     assert not is_clear(ball(450, 100), [ball(490, 100)], [0.0])
@@ -70,7 +70,7 @@ def test_a_run_begins_with_the_balls_of_the_scene_which_may_change_their_places_
         ball(200, 226, 4_000, 0),  # faster than anything falls
     ],
 )
-def test_what_touches_something_is_pushed_and_does_not_jump(after: Moment):
+def test_a_ball_that_touches_something_does_not_jump(after: Moment):
     lab = Lab("mini_engine", lambda: pytest.fail("a child"), [])
     before = ball(200, 230, 0, 500)  # on the ledge
     want_no_jump(lab, before, [next_to(before, 0, 0)], 2)

@@ -54,7 +54,7 @@ def test_the_zip_holds_the_work_and_nothing_else(tree):
     }
 
 
-def test_what_is_packed_is_what_is_taken_in(tree):
+def test_all_packed_files_are_taken_in(tree):
     path, names = pack_tree(tree)
     package = pack(Work("ann", (path,)))
     assert [name for name, _ in package.files] == sorted(names) and not package.notes
@@ -82,7 +82,7 @@ def test_more_than_will_be_read_is_refused(tree, monkeypatch):
     assert not (tree / PACKED).exists()
 
 
-def test_what_may_not_be_meant_is_said_before_it_is_handed_in(tree):
+def test_hand_in_names_copies_errors_and_missing_answers(tree):
     shutil.copyfile(tree / "integrators.py", tree / "integrators (1).py")
     (tree / "helper.py").write_text("x = (", encoding="utf-8")
     for name in ("quiz", "journal"):

@@ -286,7 +286,7 @@ def test_a_hint_is_for_one_todo_and_says_more_by_level(words: str, said: str):
     assert said in run_grader("hint", *words.split()).output
 
 
-def test_what_was_printed_and_what_runs_it_again_are_shown(hand_in):
+def test_printed_text_and_the_script_are_shown(hand_in):
     tree = hand_in("starter")
     code = "    print('x is', x)\n    return v, x"
     fill_in(tree, INTEGRATORS, _8a=code)

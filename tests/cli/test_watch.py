@@ -235,7 +235,7 @@ def test_a_given_file_that_goes_is_supplied_as_it_was_handed_out(open_session):
     assert session.watch.result.points == 10 and session.is_up_to_date()
 
 
-def test_what_editors_leave_beside_a_file_is_nothing(open_session):
+def test_files_of_editors_are_no_saves(open_session):
     session = open_session()
     for name in (".solver.py.swp", "solver.py~", "4913", "#solver.py#", ".#solver.py"):
         (session.folder / "mini_engine" / name).write_text("half a file", encoding="utf-8")
@@ -274,7 +274,7 @@ def test_a_virtual_environment_is_not_watched(hand_in):
     assert not any("some.py" in file for file in read_sources(tree))
 
 
-def test_it_looks_from_time_to_time_and_ends_with_the_folder(hand_in, monkeypatch):
+def test_a_watch_looks_from_time_to_time_and_ends_with_the_folder(hand_in, monkeypatch):
     monkeypatch.setattr(grader.cli.watch, "WITHOUT_EVENTS", 10)
     tree = hand_in()
     looks = wait_for_saves(tree)
@@ -288,7 +288,7 @@ def test_it_looks_from_time_to_time_and_ends_with_the_folder(hand_in, monkeypatc
     [pytest.param(False, id="writes"), pytest.param(True, id="replaces", marks=pytest.mark.soak)],
 )
 @pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is no signal there")
-def test_from_the_first_line_to_control_c(hand_in, replaces: bool):
+def test_a_watch_runs_until_control_c(hand_in, replaces: bool):
     tree = hand_in("starter")
     command = [sys.executable, "-m", "grader", "check", "--todo", "5", "--watch"]
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it

@@ -148,7 +148,7 @@ def shown_words(page: Path) -> int:
     return len(re.findall(r"\w[\w'.-]*", html.unescape(re.sub(r"<[^>]+>", " ", text))))
 
 
-def test_what_students_get_with_the_lab_is_short(handout_pages: Path) -> None:
+def test_pages_of_the_lab_are_short(handout_pages: Path) -> None:
     measured = {Path(name).stem for name in MEASURED}
     pages = [page for page in handout_pages.glob("*.html") if page.stem not in measured]
     readme = (STARTER / "README.md").read_text(encoding="utf-8").split()

@@ -41,7 +41,7 @@ def test_prices_add_up_to_those_of_all_together() -> None:
 
 
 @pytest.mark.soak
-def test_what_is_declared_is_paid_for(screen: Screen) -> None:
+def test_prices_of_declared_effects_add_up(screen: Screen) -> None:
     figure, prices = open_figure(screen, "effects-stacked"), json.loads(SCRIPT)["prices"]
     words, drawing = figure.locator("output"), figure.locator("svg[role]")
     every = sum(prices["40"].values())
@@ -148,7 +148,7 @@ def test_a_figure_with_two_axes_along_has_a_choice(screen: Screen) -> None:
         *(pytest.param(name, marks=pytest.mark.soak) for name in list(CHARTS)[1:]),
     ],
 )
-def test_it_fits_a_phone_and_paper_has_the_still(screen: Screen, name: str) -> None:
+def test_a_figure_fits_a_phone_and_is_printed_as_a_picture(screen: Screen, name: str) -> None:
     figure = open_figure(screen, name)
     screen.page.set_viewport_size({"width": 390, "height": 800})
     assert screen.page.evaluate("document.documentElement.scrollWidth") <= 390

@@ -64,7 +64,7 @@ def test_an_error_is_explained(error: str, line: int, says: str):
     assert says in words and bool(says) == bool(words)
 
 
-def test_what_the_stub_set_must_be_set():
+def test_a_name_that_the_stub_set_must_get_a_value():
     assert "must give it a value" in explain("NameError: name 'keep_vel' is not defined", 13, "5")
     assert "must give it a value" not in explain(
         "NameError: name 'keep_vel' is not defined", 13, "3"

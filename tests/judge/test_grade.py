@@ -157,7 +157,7 @@ def earned_in_the_whole(todo: str) -> set[str]:
 @pytest.mark.parametrize(
     ("todos", "asked"), [("5", "35"), pytest.param("123456", "123456", marks=SOAK)]
 )
-def test_in_one_file_too_an_unfinished_todo_costs_its_own_points(
+def test_an_unfinished_todo_of_a_single_file_costs_its_own_points(
     tmp_path: Path, todos: str, asked: str
 ):
     engine = Options(shipped_reference(), only=frozenset(asked))

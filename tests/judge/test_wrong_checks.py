@@ -76,5 +76,5 @@ def test_a_submission_that_fails_what_the_right_code_passes_is_to_blame(
     assert state in ("not yet", "error")
 
 
-def test_what_the_right_code_passes_is_no_wrong_check(monkeypatch: pytest.MonkeyPatch):
+def test_a_check_that_the_right_code_passes_is_not_wrong(monkeypatch: pytest.MonkeyPatch):
     assert grade_check(RIGHT, KIT / "solution", monkeypatch) == "passed"

@@ -303,7 +303,7 @@ def test_many_regions_and_pieces_take_no_more_than_their_sum():
     assert read(400) < 3 * read(200)
 
 
-def test_of_a_long_function_the_first_lines_are_compared():
+def test_only_the_first_lines_of_a_long_function_are_compared():
     def read(count: int) -> int:
         mine = [f"y = {number}" for number in range(count)]
         return count_calls(lambda: first_difference(mine, ["pass", "x = 2"] * 60))

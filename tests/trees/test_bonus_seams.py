@@ -115,7 +115,7 @@ def test_a_sleeper_is_met_as_a_static_body_is_and_named_in_the_contact():
 
 
 @pytest.mark.parametrize("kind", ["rod", "spring"])
-def test_what_pulls_a_sleeper_leaves_it_alone(kind):
+def test_rods_and_springs_do_not_move_a_sleeper(kind):
     sleeper, other = ball(0), ball(100)
     world = room(sleeper, other)
     if kind == "rod":

@@ -39,7 +39,7 @@ def test_the_pymunk_scene_runs_without_a_screen():
 
 
 @pytest.mark.parametrize("loop", LOOPS.values(), ids=LOOPS)
-def test_it_runs_on_with_many_balls(loop):
+def test_the_starter_runs_with_many_balls(loop):
     played = probe(STARTER, "play", loop, [17] * FRAMES, CLICKS)
     assert len(played["frames"]) == FRAMES
 
@@ -48,7 +48,7 @@ def test_it_runs_on_with_many_balls(loop):
     "todo",
     [todo if todo in ("4", "7b") else pytest.param(todo, marks=SOAK) for todo in TODOS],
 )
-def test_it_runs_with_one_todo_finished(todo, tmp_path):
+def test_the_starter_runs_with_one_todo_finished(todo, tmp_path):
     tree = mix_trees(tmp_path / "tree", "starter", "solution", [todo])
     if todo.startswith("8"):
         assert run_in(tree, *INTEGRATORS).count("\n") == 5

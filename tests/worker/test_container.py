@@ -73,7 +73,7 @@ def list_copied() -> list[str]:
     return re.findall(r"^COPY (\S+) ", INSTRUCTIONS, re.MULTILINE)
 
 
-def test_what_is_copied_is_not_ignored():
+def test_copied_files_are_not_ignored():
     kept = re.findall(r"^!(\S+)$", (KIT / ".dockerignore").read_text(), re.MULTILINE)
     assert sorted(kept) == sorted(list_copied())
     assert all((KIT / name).exists() for name in list_copied())
@@ -126,7 +126,7 @@ def test_a_missing_folder_is_named(tmp_path: Path):
 
 @posix
 @pytest.mark.soak
-def test_what_is_copied_grades_a_class_and_writes_nowhere_else(tmp_path: Path):
+def test_the_container_grades_a_class_and_writes_nowhere_else(tmp_path: Path):
     """Run the entry point on the container's files, in another folder."""
     kit = tmp_path / "kit"
     kit.mkdir()

@@ -291,7 +291,7 @@ def test_the_scratch_folder_is_small_and_ends_with_the_child(probe: Prober):
 
 
 @needs("own-root")
-def test_what_lies_outside_has_no_name(probe: Prober, tmp_path: Path):
+def test_files_outside_have_no_name(probe: Prober, tmp_path: Path):
     other = tmp_path / "other" / "integrators.py"
     other.parent.mkdir()
     other.write_text("x = 1\n", encoding="utf-8")
@@ -314,7 +314,7 @@ def test_what_lies_outside_has_no_name(probe: Prober, tmp_path: Path):
 
 
 @needs("own-root")
-def test_what_lies_inside_stays_as_it_is(probe: Prober):
+def test_files_inside_cannot_be_changed(probe: Prober):
     library, before = str(probe("a_library")), Path(os.__file__).stat()
     assert library == os.__file__
     for name in ("change_mode", "change_times", "change_attribute"):
@@ -439,7 +439,7 @@ def test_the_name_of_the_machine_is_hidden(probe: Prober):
     assert probe("host") == "check check"
 
 
-def test_what_is_open_is_named():
+def test_missing_layers_are_named():
     assert list_unconfined(["processes", "rlimits"]) == ["files", "network", "other processes"]
     assert list_unconfined(sorted(expected_layers())) == []
 

@@ -169,7 +169,7 @@ def test_nothing_that_a_submission_changes_stays(tab: InlineWorker, hand_in: Han
 # ---------------------------------------------------------------- a student's own work only
 
 
-def test_it_refuses_other_peoples_work(tab: InlineWorker):
+def test_the_tab_refuses_work_of_others(tab: InlineWorker):
     with pytest.raises(CannotGrade, match="may not run inside the grader's own process"):
         grade(KIT / "starter", Options(), tab)
     assert find_refusal("none", [ONE_PROCESS], trusted=False)

@@ -119,7 +119,7 @@ linux = pytest.mark.skipif(
 
 @linux
 @forked
-def test_what_sdl_looks_for_in_each_frame_is_there_before_the_fork(ask: Asker):
+def test_a_library_of_sdl_is_loaded_before_the_fork(ask: Asker):
     """Otherwise children would load this library 2,000 times in a grade."""
     try:
         ctypes.CDLL("libudev.so.1")
@@ -138,7 +138,7 @@ def test_the_environment_tells_nothing(ask: Asker, monkeypatch: pytest.MonkeyPat
     assert os.name == "nt" or ask("variable", "PATH") == os.defpath  # Windows finds libraries by it
 
 
-def test_it_works_in_a_copy_of_the_submission_in_an_empty_folder(ask: Asker, tmp_path: Path):
+def test_a_child_works_in_a_copy_of_the_submission(ask: Asker, tmp_path: Path):
     folder, _, names = str(ask("folder")).partition(" ")
     assert Path(folder).parts[-2:] == ("scratch", "submission")
     assert names == "__pycache__,hostile.py"
@@ -202,7 +202,7 @@ def test_a_process_left_behind_is_ended(ask: Asker):
 
 
 @linux
-def test_where_processes_are_numbered_with_all_others_none_is_left_behind(tmp_path: Path):
+def test_a_process_left_behind_is_ended_without_a_pid_namespace(tmp_path: Path):
     """On macOS and in a bare container, strays are found by their parents."""
     worker = start_worker(without=("pid-namespace", "system-calls"))
     asker = Asker(tmp_path, worker)
@@ -251,7 +251,7 @@ def test_the_warm_process_is_replaced_when_it_is_killed(tmp_path: Path):
 # ---------------------------------------------------------------- compiled files
 
 
-def test_to_compile_runs_nothing_and_stops_when_the_folder_is_full(tmp_path: Path):
+def test_compiling_runs_nothing_and_stops_when_the_folder_is_full(tmp_path: Path):
     tree, bytecode = tmp_path / "tree", tmp_path / "bytecode"
     (tree / "deep").mkdir(parents=True)
     (tree / "a_first.py").write_text(f"open({str(tmp_path / 'ran')!r}, 'w')\n", encoding="utf-8")
