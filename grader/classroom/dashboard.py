@@ -4,7 +4,6 @@ All of it comes from the results and the class book. Names and words of students
 """
 
 import statistics
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -15,7 +14,7 @@ from markupsafe import Markup
 from msgspec import structs
 
 from grader.classroom.adjustments import write_time
-from grader.classroom.book import Book, Outcome, make_outcome
+from grader.classroom.book import Book, Outcome
 from grader.classroom.marks import USUAL_TOTAL, compute_mark, make_parts, mark_by_course
 from grader.classroom.similarity import read_pairs
 from grader.errors import Stop
@@ -122,20 +121,12 @@ def read_class(results: Path) -> list[Entry]:
 
 
 def read_outcomes(results: Path) -> list[Outcome]:
-    """Return the lines of the class book or, without a book, a line for each result."""
+    """Return the lines of the class book; raise Stop if there are none."""
     book = Book(results)
-    outcomes = list(book.outcomes.values()) or list(read_results_alone(book))
+    outcomes = list(book.outcomes.values())
     if not outcomes:
         raise Stop(f"there are no results in {results}: grade a class first, with --class")
     return sorted(outcomes, key=lambda each: each.order)
-
-
-def read_results_alone(book: Book) -> Iterator[Outcome]:
-    for path in sorted(book.folder.glob("[!.]*.json")):
-        try:
-            yield make_outcome(path.stem, path.read_bytes(), 0.0, "")
-        except msgspec.MsgspecError as error:
-            yield Outcome(path.stem, f"{path.name} is no result of the grader ({error})")
 
 
 def read_entry(book: Book, outcome: Outcome) -> Entry:

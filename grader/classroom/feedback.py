@@ -136,7 +136,7 @@ def find_address_column(roster: Roster) -> str:
 
 
 def address_pages(roster: Roster, key: str, graded: GradedClass) -> Feedback:
-    """Return the pages by addresses, for mailing, and a list of them; a group's go to all of it."""
+    """Return the pages by addresses, for mailing, and a list; each member of a group gets one."""
     column = find_address_column(roster)
     made = Feedback()
     outcomes = [each.outcome for each in graded.entries]

@@ -204,8 +204,7 @@ def open_zip(path: Path, bounds: Bounds) -> Iterator[zipfile.ZipFile]:
 class ZipReader(io.BufferedReader):
     """A file for `zipfile` that limits the size of one read, and so of the list of files.
 
-    `zipfile` finds that list in its own way and reads it at once. A check before it could find
-    another list.
+    A check of our own might find another list than `zipfile`, which reads its list at once.
     """
 
     def __init__(self, path: Path, most: int) -> None:
@@ -264,7 +263,7 @@ def check_name(name: str) -> str:
 def write_member(archive: zipfile.ZipFile, member: zipfile.ZipInfo, path: Path) -> None:
     """Unpack one file, up to the size that the zip gives.
 
-    `zipfile` uses no more memory than the file only with these two methods.
+    With other methods than these two, `zipfile` may need more memory than the file has bytes.
     """
     if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
         raise CannotTake(OWN_WAY)

@@ -5,11 +5,8 @@ libraries for these formats read untrusted bytes. It prints the names of files t
 line each, or the reason why there is no zip.
 """
 
-import bz2
-import gzip
 import importlib
 import io
-import lzma
 import os
 import sys
 import tarfile
@@ -116,28 +113,13 @@ def read_files(source: str) -> Files:
 
 def read_tar(source: str) -> Files:
     if not tarfile.is_tarfile(source):
-        yield read_single(source)
-        return
+        raise CannotRepack("the archive is broken, or of no kind that is read here: ask for a zip")
     with tarfile.open(source) as archive:
         for member in archive:
             if member.isreg() and member.size > MAX_UPLOAD:
                 yield member.name, None
             elif member.isreg() and (content := archive.extractfile(member)) is not None:
                 yield member.name, content.read()
-
-
-def read_single(source: str) -> tuple[str, bytes | None]:
-    """Read a single compressed file, such as `integrators.py.gz`."""
-    kinds: dict[bytes, Any] = {b"\x1f\x8b": gzip.open, b"BZh": bz2.open, b"\xfd7zXZ": lzma.open}
-    with open(source, "rb") as file:
-        head = file.read(PEEK)
-    opened = next((kind for sign, kind in kinds.items() if head.startswith(sign)), None)
-    if opened is None:
-        raise CannotRepack("the archive is broken, or of no kind that is read here: ask for a zip")
-    with opened(source) as file:
-        content = file.read(MAX_UPLOAD + 1)
-    name = Path(source).name.removeprefix(".")
-    return Path(name).stem, None if len(content) > MAX_UPLOAD else content
 
 
 def read_7z(source: str) -> Files:

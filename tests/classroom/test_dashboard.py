@@ -156,14 +156,6 @@ def test_words_of_students_stay_words(tmp_path: Path):
     assert not set("\u202e\x07") & set(seen.source)
 
 
-def test_results_without_a_book_are_shown_and_rubbish_is_named(tmp_path: Path):
-    (tmp_path / "ann.json").write_bytes(as_json(result(0)))
-    (tmp_path / "ben.json").write_text("[]")
-    ann, ben = read_class(tmp_path)
-    assert (ann.outcome.final, ann.result) == (WORTH * TODOS, result(0))
-    assert ben.result is None and "ben.json is no result" in ben.outcome.trouble
-
-
 def test_an_empty_folder_is_refused(tmp_path: Path):
     with pytest.raises(Stop, match="there are no results in"):
         read_class(tmp_path)

@@ -90,7 +90,7 @@ def take_submission(
 
 
 def copy_files(files: Mapping[str, Path], folder: Path, target: Path) -> int:
-    """Copy a submission as nbgrader needs it, notebooks on top; return their number.
+    """Copy a submission as nbgrader needs it, with notebooks on top; return their number.
 
     A notebook that is not beside the programs is searched in all submitted files.
     """
