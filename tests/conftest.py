@@ -25,7 +25,7 @@ from grader.judge.task import Options, shipped_reference
 from grader.player import replay
 from grader.questions.program import open_program
 from grader.release import practice
-from grader.release.pages import write_measured_pages, write_pages
+from grader.release.pages import write_pages
 from grader.report.files import write_json
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
@@ -138,7 +138,7 @@ def handout_pages(once: Once) -> Path:
 
     def fill(folder: Path) -> None:
         write_pages(KIT / "handouts", folder, FULL)
-        write_measured_pages(KIT / "handouts", folder, FULL)
+        write_pages(KIT / "handouts", folder, FULL, measured=True)
 
     return once("pages", fill)
 

@@ -106,9 +106,6 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         by_hand = any(each.points is not None for each in decisions)
         return FinalPoints(final, tuple(filter(None, reasons)), self.find_due(found), by_hand)
 
-    def sum_bonus(self, found: Work) -> int:
-        return sum(each.bonus or 0 for each in self.find_decisions(found))
-
     def apply_lateness(self, late: Late, found: Work, points: int, reasons: list[str]) -> int:
         """Return the points that lateness leaves, and add the reason to `reasons`."""
         days = self.count_days_late(found)

@@ -18,7 +18,7 @@ from grader.classroom.executor import LOST, Answer, Executor, ExecutorFailed
 from grader.classroom.similarity import Prints, make_prints
 from grader.errors import Stop, say_error
 from grader.intake.found import CannotTake, Intake, Package, Work
-from grader.intake.names import list_names, make_portable
+from grader.intake.names import make_portable
 from grader.intake.packing import pack
 from grader.intake.roster import ClassList
 from grader.judge.course import FULL, Course
@@ -118,7 +118,8 @@ class Run:
     def decide(self, found: Work, outcome: Outcome) -> Outcome:
         """Return an outcome with bonus, lateness, decisions, and its mark of an earlier run."""
         decisions = self.adjustments
-        outcome = msgspec.structs.replace(outcome, bonus_by_hand=decisions.sum_bonus(found))
+        bonus = sum(each.bonus or 0 for each in decisions.find_decisions(found))
+        outcome = msgspec.structs.replace(outcome, bonus_by_hand=bonus)
         added = 0 if outcome.trouble else self.course.count_bonus(outcome.bonus, outcome.points)
         final = decisions.decide(found, None if outcome.trouble else outcome.points + added)
         counted = [f"bonus: +{added}"] if added and not final.by_hand else []
@@ -169,7 +170,7 @@ class Run:
         worth = {each.name: each.points for each in self.outcomes}
         for names in [list(each.values()) for each in self.same.values()]:
             if len(names) > 1 and worth[names[0]]:
-                yield f"the same files were handed in by {list_names(names)}"
+                yield f"the same files were handed in by {', '.join(names)}"
 
 
 def grade_class(run: Run, executor: Executor, console: Console, absent: Iterable[str] = ()) -> Run:
@@ -196,12 +197,12 @@ def grade_class(run: Run, executor: Executor, console: Console, absent: Iterable
     run.notes += run.find_copies()
     changed = [f"{each.label} ({each.before} → {each.mark_in_words})" for each in run.changed]
     if changed:
-        run.notes.append(f"other marks than in the run before: {list_names(changed)}")
+        run.notes.append(f"other marks than in the run before: {', '.join(changed)}")
     names = [each.name for each in run.outcomes]
     for student in run.adjustments.find_unused(names):
         run.notes.append(f"adjusted, but nothing was handed in: {student}")
     if others := sorted({path.stem for path in book.folder.glob("[!.]*.json")} - set(names)):
-        words = f"also holds results of others than this class: {list_names(others)}"
+        words = f"also holds results of others than this class: {', '.join(others)}"
         run.notes.append(f"{book.folder} {words}")
     return run
 

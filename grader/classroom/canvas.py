@@ -32,7 +32,6 @@ from grader.classroom.folder import FILE, ClassFolder, remember_class
 from grader.classroom.marks import Scores, make_marks, make_parts, mark_engine
 from grader.classroom.owners import find_owners
 from grader.errors import Stop
-from grader.intake.names import list_names
 from grader.intake.roster import list_name
 from grader.intake.systems import read_roster
 from grader.report.files import write_whole
@@ -299,7 +298,7 @@ def send_changes(plan: Plan, record: Record, path: Path) -> list[str]:
         delivery = each.delivery
         record.students[delivery.user] = [*each.ours, delivery.mark]
         write_whole(msgspec.json.encode(record), path)
-        done = f"sent already: {list_names(sent) or 'none'}; {delivery.name}: may have arrived"
+        done = f"sent already: {', '.join(sent) or 'none'}; {delivery.name}: may have arrived"
         with explain(f"{done}. The same command goes on from there"):
             why_not = send_change(each)
         if why_not:

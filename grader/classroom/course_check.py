@@ -15,7 +15,7 @@ from grader.classroom.marks import Marking, load_marking, read_total
 from grader.errors import Stop
 from grader.intake.found import CannotTake, Intake
 from grader.intake.listing import open_class
-from grader.intake.names import fold, list_names
+from grader.intake.names import fold
 from grader.intake.packing import pack
 from grader.intake.roster import ClassList, Roster, list_full_names
 from grader.intake.systems import find_system, read_roster
@@ -120,12 +120,12 @@ def check_submissions(
         except CannotTake as error:
             yield f"{found.name}: {error}"
     if unlisted := people.list_unlisted(intake.names):
-        yield f"not in the class list: {list_names(unlisted)}: no mark will be theirs"
+        yield f"not in the class list: {', '.join(unlisted)}: no mark will be theirs"
     late = adjustments.late
     timeless = [each.name for each in intake.found if each.handed_in is None]
     if late is not None and late.due is not None and timeless:
         yield (
-            f"no time is known of {list_names(timeless)}: they are late only if the export marks "
+            f"no time is known of {', '.join(timeless)}: they are late only if the export marks "
             "them so, and by one day"
         )
 

@@ -25,7 +25,7 @@ from grader.judge.wording import withhold_reasons
 from grader.player.page import clean_line, fill_template, load_templates
 from grader.report.files import write_whole
 from grader.report.html import TEMPLATES as REPORTS
-from grader.report.html import Standing, write_report, write_standing
+from grader.report.html import Standing, write_report
 
 TEMPLATES = Path(__file__).with_name("templates")
 BINS = 10  # of the distribution
@@ -185,7 +185,7 @@ def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) 
         if isinstance(answer, Exception):
             standing = make_standing(entry.outcome, course)
             standing.lines.append(("Page", str(answer)))
-            write_standing(standing, folder / f"{entry.outcome.name}.html")
+            write_report(None, folder / f"{entry.outcome.name}.html", standing)
     path = folder.with_name(f"{folder.name}.class.html")
     rendering = partial(render_class, folder, entries, course.title)
     write_whole(call_within(WRITING_CLASS, str, rendering).encode("utf-8"), path)
@@ -194,13 +194,8 @@ def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) 
 
 def write_entry(folder: Path, entry: Entry, course: Course) -> None:
     """Write the report of one student."""
-    report = folder / f"{entry.outcome.name}.html"
-    standing = make_standing(entry.outcome, course)
-    shown = entry.show_result(course)
-    if shown is None:
-        write_standing(standing, report)
-    else:
-        write_report(shown, report, standing=standing)
+    report, standing = folder / f"{entry.outcome.name}.html", make_standing(entry.outcome, course)
+    write_report(entry.show_result(course), report, standing)
 
 
 def make_standing(outcome: Outcome, course: Course = FULL) -> Standing:

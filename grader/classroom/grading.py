@@ -17,7 +17,6 @@ from grader.classroom.executor import Executor, Pool
 from grader.classroom.fingerprint import make_key
 from grader.classroom.similarity import find_pairs, read_prints, write_pairs
 from grader.intake.listing import open_class
-from grader.intake.names import list_names
 from grader.intake.roster import ClassList
 from grader.intake.systems import find_file, read_class_list
 from grader.judge.course import Course
@@ -59,9 +58,9 @@ def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
         if len(run.outcomes) <= LONGEST_PAGE:
             write_similar(run, wanted.earlier)
         if absent:
-            run.notes.append(f"nothing was handed in by {list_names(absent)}")
+            run.notes.append(f"nothing was handed in by {', '.join(absent)}")
         if unlisted := people.list_unlisted(names):
-            run.notes.append(f"not in the class list: {list_names(unlisted)}")
+            run.notes.append(f"not in the class list: {', '.join(unlisted)}")
     show_class(run, console)
     console.print(write_page(run), soft_wrap=True)
     return run

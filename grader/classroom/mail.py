@@ -18,7 +18,7 @@ from grader.classroom.feedback import Feedback, find_address_column
 from grader.classroom.owners import find_owners
 from grader.errors import Stop
 from grader.intake.names import make_portable
-from grader.intake.roster import Roster, Row, list_full_names
+from grader.intake.roster import Roster, list_full_names
 from grader.text import clean, format_csv
 
 DRAFTS = "mail"  # the folder of drafts
@@ -88,13 +88,9 @@ def list_letters(
         if not addressed:
             notes.append(f"{each.label}: no mail, the class list has no address for that name")
         for row in addressed:
-            name = read_name(row)
+            name = clean(next(list_full_names(row), ""))
             body = write_body(name, each.trouble, title)
             yield Letter(each.name, name, " ".join(row[column].split()), body)
-
-
-def read_name(row: Row) -> str:
-    return clean(next(list_full_names(row), "") or row.get("Full name", ""))
 
 
 def write_mail(roster: Roster, key: str, outcomes: list[Outcome], title: str) -> Feedback:

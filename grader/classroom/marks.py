@@ -18,7 +18,6 @@ from grader.classroom.book import NOTHING, Outcome
 from grader.classroom.owners import Owners, find_owners
 from grader.errors import Stop
 from grader.intake.lms import Lms, MarkColumn, MarkRow
-from grader.intake.names import list_names
 from grader.intake.roster import Roster, Row
 from grader.intake.systems import find_system
 from grader.judge.course import FULL, Course
@@ -188,14 +187,14 @@ def make_marks(roster: Roster, key: str, scores: Scores) -> Marks:
         made.notes.append(f"{student}: handed in, but is not in the class list under {key!r}")
     if made.unowned:
         made.notes.append(
-            f"{list_names(made.unowned)}: no mark, since work without an owner may be theirs: name "
+            f"{', '.join(made.unowned)}: no mark, since work without an owner may be theirs: name "
             "its owner in a column Called, or use --others-known if no student here owns it"
         )
     lms = find_system(roster)
     if scores.of_sheets:
         lms = lms.for_other_assignments()
     if above := [row[key] for row, mark, _ in made.rows if is_above(mark, marking.total)]:
-        made.notes.append(lms.warn_above(list_names(above), marking.total))
+        made.notes.append(lms.warn_above(", ".join(above), marking.total))
     worth = read_total(roster, marking.title, lms)
     if worth is not None and worth != marking.total:
         words = f"{roster.path} counts to {worth:g} there, these marks to {marking.total:g}"
@@ -222,7 +221,7 @@ def mark_row(
         if waiting and not scores.so_far:
             words = f"no mark yet, {', '.join(waiting)} must be graded by hand"
             made.notes.append(f"{student}: {words}")
-        if mates := owners.find_mates(row):
+        if mates := owners.mates.get(id(row)):
             made.notes.append(f"{student}: the mark of {' and '.join(mates)}, of the same group")
         mark = "" if waiting and not scores.so_far else compute_mark(parts, marking)
         return mark, summarize(parts, marking)

@@ -33,10 +33,6 @@ class Owners:
     def find_results(self, row: Row) -> list[str]:
         return self.rows.get(id(row), [])
 
-    def find_mates(self, row: Row) -> list[str]:
-        """Return the group members whose result counts for this student too."""
-        return self.mates.get(id(row), [])
-
 
 def find_owners(
     roster: Roster, key: str, names: Iterable[str], absent: Iterable[str] = ()

@@ -41,11 +41,6 @@ def make_portable(words: str) -> str:
     return f"_{text}" if not text or text.partition(".")[0].lower() in DEVICES else text
 
 
-def list_names(names: list[str]) -> str:
-    """Return all names as one text: a warning must not leave out any."""
-    return ", ".join(names)
-
-
 def shorten_list(names: list[str]) -> str:
     more = f" and {len(names) - MENTIONED} more" if len(names) > MENTIONED else ""
     return ", ".join(names[:MENTIONED]) + more

@@ -72,10 +72,6 @@ class Making:
         write_whole(f"{seed}\n".encode(), file)
         return f"practice {seed}" if self.practice else seed
 
-    def keep_seed(self) -> str:
-        """Draw the seed now, so that all processes that make sheets have the same."""
-        return self.seed
-
     def result_of(self, student: str) -> Result | None:
         """Return an earlier result of grading, if there is one."""
         if self.results is None:
@@ -129,7 +125,7 @@ def make_class(
     making: Making, path: Path, people: ClassList, console: Console
 ) -> list[SheetResult]:
     """Make a sheet for each submission of a class, and for each member of a group."""
-    making.keep_seed()
+    assert making.seed  # drawn now, so that all processes that make sheets have the same
     with open_class(path, people) as intake, closing(WatchedProcess()) as process:
         made = [SheetResult(name, None, f"{name}: {why}") for name, why in intake.troubles.items()]
         with Counter("making sheets", len(intake.found), console) as counter:

@@ -36,7 +36,7 @@ from grader.player.replay import record_expected
 from grader.release.handed_out import FOR_CI, make_students_tree, write_tree
 from grader.release.leaks import find_leaks, find_secrets
 from grader.release.notebooks import ENGINE, make_notebooks
-from grader.release.pages import write_measured_pages, write_pages
+from grader.release.pages import write_pages
 from grader.release.project import make_project
 from grader.release.recordings import Record, Recordings, record_anew
 from grader.release.students_copy import Tree, write_code, write_copy
@@ -110,7 +110,7 @@ def build(
     for each, files in sort_files(course).items():
         write_tree(files, folders[each])
     write_pages(KIT / "handouts", tree / "handouts", course)
-    write_measured_pages(KIT / "handouts", folders["engines"] / "handouts", course)
+    write_pages(KIT / "handouts", folders["engines"] / "handouts", course, measured=True)
     extra = [folders[each] for each in EXTRA]
     lock = strip_build_packages((KIT / "requirements.txt").read_text(encoding="utf-8"))
     content = hash_folders([copy, tree, *extra], lock)

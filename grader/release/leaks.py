@@ -170,7 +170,7 @@ def read_given(solution: Path, asked: set[str]) -> list[tuple[str, str]]:
             text, {each.id: () for each in regions_in(text) if each.id in asked}
         )
         found.append((path.relative_to(solution).as_posix(), around))
-    for path in list_notebooks(solution / "notebooks"):
+    for path in sorted(solution.glob("notebooks/*.ipynb")):
         found += [(path.name, MARKED.sub("", text)) for _, text in read_cells(path)]
     stubs = json.loads((CHECKS / "stubs.json").read_bytes())
     return [*found, *stubs.items()]
@@ -193,10 +193,6 @@ def find_functions(text: str) -> Iterator[ast.FunctionDef]:
         yield from (each for each in ast.walk(node) if isinstance(each, ast.FunctionDef))
 
 
-def list_notebooks(folder: Path) -> list[Path]:
-    return sorted(folder.glob("*.ipynb"))
-
-
 def read_cells(path: Path) -> list[tuple[Any, str]]:
     """Return a notebook's cells of code, each with its source."""
     cells = json.loads(path.read_bytes())["cells"]
@@ -205,7 +201,7 @@ def read_cells(path: Path) -> list[tuple[Any, str]]:
 
 def find_notebook_secrets(folder: Path, course: Course) -> Iterator[list[Secret]]:
     """Yield the lines that nbgrader takes out of the students' notebooks."""
-    for path in list_notebooks(folder):
+    for path in sorted(folder.glob("*.ipynb")):
         for cell, source in read_cells(path):
             if not is_in_course(cell, course):
                 continue

@@ -32,15 +32,18 @@ HERE = Path(__file__).with_name("templates")
 STYLE = (HERE / "handout.css").read_text(encoding="utf-8")
 
 
-def write_pages(handouts: Path, folder: Path, course: Course = FULL) -> None:
-    """Write a page for each of a course's handouts that students get with the lab."""
+def write_pages(
+    handouts: Path, folder: Path, course: Course = FULL, measured: bool = False
+) -> None:
+    """Write a course's handouts that students get with the lab, or those about engines.
+
+    The pages about engines link to those of the lab, which do not link to them.
+    """
     texts = sort_pages(make_handouts(handouts, course))
-    write_files(handouts, folder, {n: text for n, text in texts.items() if n not in MEASURED})
-
-
-def write_measured_pages(handouts: Path, folder: Path, course: Course = FULL) -> None:
-    """Write the pages about engines, with links to the pages of the lab."""
-    write_files(handouts, folder, sort_pages(make_handouts(handouts, course)), MEASURED)
+    if measured:
+        write_files(handouts, folder, texts, MEASURED)
+    else:
+        write_files(handouts, folder, {n: texts[n] for n in texts if n not in MEASURED})
 
 
 def write_files(

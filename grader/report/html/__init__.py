@@ -43,18 +43,18 @@ class Standing:
     comments: list[Remark] = field(default_factory=list)
 
 
-def write_report(result: Result, path: Path, standing: Standing | None = None) -> None:
-    """Write the page, with the replays from its folder."""
-    page = render(result, find_replays(result, path.parent), standing)
-    write_whole(page.encode("utf-8"), path)
-
-
-def write_standing(standing: Standing, path: Path) -> None:
-    """Write the page of a student without a result."""
-    template = TEMPLATES / "standing.html"
-    page = fill_template(
-        template, "report.css", standing=standing, clean=clean_line, harmless=defuse
-    )
+def write_report(result: Result | None, path: Path, standing: Standing | None = None) -> None:
+    """Write the page, with the replays from its folder; without a result, only the standing."""
+    if result is None:
+        page = fill_template(
+            TEMPLATES / "standing.html",
+            "report.css",
+            standing=standing,
+            clean=clean_line,
+            harmless=defuse,
+        )
+    else:
+        page = render(result, find_replays(result, path.parent), standing)
     write_whole(page.encode("utf-8"), path)
 
 

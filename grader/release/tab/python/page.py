@@ -50,13 +50,10 @@ def lay_out(files):
         path = LAB / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8", newline="\n")
-    for name in [name for name, module in sys.modules.items() if is_of_the_lab(module)]:
-        del sys.modules[name]
+    for name, module in [*sys.modules.items()]:
+        if str(getattr(module, "__file__", None) or "").startswith(f"{LAB}/"):
+            del sys.modules[name]
     sys.path_importer_cache.clear()
-
-
-def is_of_the_lab(module):
-    return str(getattr(module, "__file__", None) or "").startswith(f"{LAB}/")
 
 
 # ---------------------------------------------------------------- run
