@@ -95,6 +95,12 @@ class Body:
         not_negative("Body.mass", mass)
         require(mass > 0 or not bullet, "Body.mass", mass, "above 0 for a bullet")
         require(mass == 0 or not kinematic, "Body.mass", mass, "0 for a kinematic body")
+        # what steps need comes first: it lies together in memory when compiled
+        self.x = self.y = self.vx = self.vy = 0.0  # px, px/s
+        self.w = self.angle = 0.0  # rad/s, and rad, clockwise on the screen
+        self.m = self.inv_mass = self.inv_inertia = 0.0  # see weigh
+        self.id = 0  # from 1 up for a ball in a world, from -1 down for a static body
+        self.idle = mass == 0  # static or asleep
         self.segment: Segment | None = None
         if isinstance(shape, (Box, Segment)):
             name = type(shape).__name__
@@ -113,19 +119,13 @@ class Body:
             refuse("Body.pos", pos, "a pair of numbers, except for a Segment")
         self.x, self.y = pair("Body.pos", pos)  # px
         self.last_x, self.last_y = self.x, self.y  # px, for Contacts: at the start of the step
-        self.vx = self.vy = 0.0  # px/s
-        self.angle = 0.0  # rad, clockwise on the screen
-        self.w = 0.0  # rad/s
-        self.m = self.inv_mass = self.inv_inertia = 0.0  # see weigh
         self.e, self.mu = RESTITUTION, FRICTION
         self.restitution_given = self.friction_given = False
         self.world: Listeners | None = None
         self.island: Island | None = None  # the bodies it sleeps with
         self.joint_count = 0  # of the world's joints that are tied to it
-        self.id = 0  # from 1 up for a ball in a world, from -1 down for a static body
         self.is_bullet = bullet
         self.is_kinematic = kinematic
-        self.idle = mass == 0  # static or asleep
         self.sleeps = False
         self.still = 0.0  # s, how long it has been slow enough to sleep
         self.calm = 0.0  # px²/s², its speed when that began, squared

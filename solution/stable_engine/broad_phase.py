@@ -157,7 +157,8 @@ class BroadPhase:
         x, y = g[0] * ahead * ahead / 2, g[1] * ahead * ahead / 2
         falls, none = (max(-x, 0.0), max(x, 0.0), max(-y, 0.0), max(y, 0.0)), (0.0, 0.0, 0.0, 0.0)
         for one in self.moving:
-            one.make_room(back, ahead, none if one.body.idle or one.body in held else falls)
+            rests = falls == none or one.body.idle or one.body in held
+            one.make_room(back, ahead, none if rests else falls)
         self.pairs = self.sweep(margin)
         self.is_stale = False
 

@@ -290,7 +290,10 @@ class Impacts:
         Normal impulses come first, then friction with them as its limits: so no energy is created.
         In further turns, normal impulses stop what friction has set in motion.
         """
-        hits = [Hit(c, *law(c, c.closing_speed())) for c in group]
+        hits = []
+        for c in group:
+            wanted, share = law(c, c.closing_speed())
+            hits.append(Hit(c, wanted, share))
         for hit in hits if frames else []:
             hit.feel(frames)
         passes = passes_for(len(hits), frames)
