@@ -165,22 +165,22 @@ def want_fixed_steps(lab: Lab, sizes: list[float]) -> None:
 def make_still_world(lab: Lab) -> Thing:
     """Return a world or space during a run, with a body far below the window."""
     if lab.module == "pymunk_scene":
-        space = lab.thing(lab.call("pymunk:Space"), "a Space")
+        space = lab.make("pymunk:Space")
         for pos, spin in (
             ((450.28125, 300.40625), 0.005),
             ((100.0, 9000.0), 0.0),
             ((460.0, 90.0), -3.0),
         ):
-            body = lab.thing(lab.call("pymunk:Body", 1.0, 100.0), "a Body")
+            body = lab.make("pymunk:Body", 1.0, 100.0)
             lab.put(body, position=pos, velocity=(0.25, -2.0), angular_velocity=spin, angle=0.53125)
-            lab.tell(space, "add", body)
+            lab.let(space, "add", body)
         lab.put(space, gravity=(3.265625, -700.25))
         return space
     walls = [lab.box((-900.0, 50.0 * number), (20, 20)) for number in range(16)]
     hook, bob = lab.circle((700, 90), 6, 0.0), lab.circle((840, 95), 24, vel=(3.0, 1.0))
     more = lab.circle((840, 190), 12)
     ends = (hook, bob), (bob, more)
-    rods = [lab.thing(lab.call("DistanceJoint", *each), "a DistanceJoint") for each in ends]
+    rods = [lab.make("DistanceJoint", *each) for each in ends]
     world = lab.world(
         lab.circle((450, 300), 10, vel=(0.25, -2.0), omega=0.005),
         lab.circle((100, 9000), 20),

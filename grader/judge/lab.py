@@ -97,7 +97,7 @@ class Lab(Decoder):
         self.remembers: list[str] = []  # names that kept a value; see Remembered
         self.played = False  # the child has run a program
         self.posted: list[Callable[[], None]] = []  # each waits for an answer and judges it
-        self.judges = False  # one of them works, and may ask nothing
+        self.is_judging = False  # while one of them works, nothing may be asked
         self.notes: list[str] = []  # sentences for the report of a check that passes
         self.opening: Opening | None = None  # of a program that begins with a title
 
@@ -177,21 +177,30 @@ class Lab(Decoder):
         comes with the answer, and that of the things in `sees`. `marks` are fields to set in the
         returned contact afterwards. An exception is an observation of what is `noted`.
         """
-        target = name if ":" in name else f"{self.module}:{name}"
         named = {key: plain(value) for key, value in kwargs.items()}
         values = [plain(each) for each in args]
         framed, states = changes is not None, list_refs(changes or (), sees)
         request = Call(
-            target, values, named, False, framed, twice, states=states, marks=marks or {}
+            self._target(name),
+            values,
+            named,
+            False,
+            framed,
+            twice,
+            states=states,
+            marks=marks or {},
         )
         return self._ask(request, partial(self._compare, name, request, changes), noted, then)
 
     def make(self, name: str, *args: Any) -> Thing:
-        """Return a new object of a class of the TODO's module, such as a rod between two bodies."""
-        made = self._new(f"the {name}")
+        """Return a new object of a class, named as in `call`, such as a rod between two bodies."""
+        made = self._new(f"the {name.rpartition(':')[2]}")
         values = [plain(each) for each in args]
-        self._value(Call(f"{self.module}:{name}", values, ref=made.ref, quiet=True))
+        self._value(Call(self._target(name), values, ref=made.ref, quiet=True))
         return made
+
+    def _target(self, name: str) -> str:
+        return name if ":" in name else f"{self.module}:{name}"
 
     def tell(
         self,
@@ -244,12 +253,12 @@ class Lab(Decoder):
     def settle(self) -> None:
         """Judge the answers to all questions that were posted with a function for it."""
         posted, self.posted, running = self.posted, [], self.running
-        self.judges = True
+        self.is_judging = True
         try:
             for judge_it in posted:
                 judge_it()
         finally:
-            self.judges = False
+            self.is_judging = False
         self.running = running
 
     def _compare(
@@ -565,7 +574,7 @@ class Lab(Decoder):
 
     def _post(self, request: Request) -> Callable[[], Answer]:
         """Return a function that waits for the answer to a question."""
-        if self.judges:
+        if self.is_judging:
             raise RuntimeError("a question about the answer to an earlier one, which is too late")
         return self._guard(lambda: self.connection.post(request, self.running))
 

@@ -217,10 +217,8 @@ def damping_keeps_the_direction_and_leaves_statics_alone(
                 f"px/s², linear_damping = {linear:g}, angular_damping = {angular:g}, then a step "
                 f"of {say_step(step)}"
             )
-            left = lab.thing(
-                lab.call("Contact", fleet[0], fleet[2], (0.0, 1.0), 0.25, (0.0, 9e5 + 20.0))
-            )
-            lab.tell(world, "contacts.append", left)  # as if the step before had found one
+            left = lab.make("Contact", fleet[0], fleet[2], (0.0, 1.0), 0.25, (0.0, 9e5 + 20.0))
+            lab.let(world, "contacts.append", left)  # as if the step before had found one
             may = {world: "contacts", **changes}
             lab.tell(world, "step", step, changes=may, sees=[*may, still])
             keep = exact.compute_share(linear, step), exact.compute_share(angular, step)
@@ -253,7 +251,7 @@ def a_fleet(lab: Lab) -> tuple[list[Thing], list[Thing]]:
     places = (0.0, 0.0), (40.0, 0.0), (0.0, 40.0), (40.0, 40.0)  # px, the radii 10
     balls = [lab.circle((x, 9e5 + y), vel=(30.0, -20.0)) for x, y in places]
     ends = balls[:2], balls[2:]
-    return balls, [lab.thing(lab.call("DistanceJoint", *each), "a rod") for each in ends]
+    return balls, [lab.make("DistanceJoint", *each) for each in ends]
 
 
 def step_moment(each: Moment, pull: Pair, keep: Shares, dt: float) -> Moment:

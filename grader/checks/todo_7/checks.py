@@ -66,7 +66,7 @@ def the_space_keeps_its_damping_and_settings(lab: Lab) -> None:
 
 
 def want_usual_settings(lab: Lab, space: Thing) -> None:
-    usual = lab.thing(lab.call("pymunk:Space"))
+    usual = lab.make("pymunk:Space")
     for name in SETTINGS:
         right, answer = lab.get(usual, name), lab.get(space, name)
         lab.want(answer == right, f"{name} {right}, as pymunk has it", f"{name} {answer}")
@@ -84,10 +84,10 @@ def a_free_ball_falls_in_the_scene(lab: Lab) -> None:
     lab.ran("the lab scene without damping, a ball added far above it, about half a second")
     space = lab.thing(scene(lab))
     lab.put(space, damping=1.0)
-    ball = lab.thing(lab.call("pymunk:Body", 1.0, 100.0))
+    ball = lab.make("pymunk:Body", 1.0, 100.0)
     x, y, steps = lab.about(450.0), lab.about(-5000.0), lab.whole(60, 9)
     lab.put(ball, position=(x, y))
-    lab.tell(space, "add", ball)
+    lab.let(space, "add", ball)
     last = lab.simulate(space, [ball], steps, every=steps).body(0)[-1]
     fallen, speed = exact.pymunk_fall(GRAVITY[1], STEP, steps)
     lab.want(  # a deviation of a tenth is not visible
@@ -175,11 +175,11 @@ def a_ball_resists_turning_as_a_full_disc(lab: Lab) -> None:
     for radius in (RADII[0], 17, RADII[-1]):
         seed = seed_of(radius, abs(lab.whole(1, 90)))
         lab.ran(f"add_ball with random.Random({seed}) in an empty space")
-        space = lab.thing(lab.call("pymunk:Space"))
+        space = lab.make("pymunk:Space")
         want_full_disc(lab, drop(lab, space, Rng(seed), (450.0, 300.0)))
     seed = lab.whole(12, 12)
     lab.ran(f"add_ball eight times with one random.Random({seed})")
-    rng = lab.thing(lab.call("random:Random", seed))
+    rng = lab.make("random:Random", seed)
     balls = [drop(lab, space, rng, (100.0 * number, 300.0)) for number in range(8)]
     radii = {ball.radius for ball in balls}  # of 13 sizes; chance seldom gives so few
     lab.want(len(radii) > 2, "balls of several sizes", f"eight of {sorted(radii)} px")
@@ -188,12 +188,12 @@ def a_ball_resists_turning_as_a_full_disc(lab: Lab) -> None:
 @given(examples=2, seed=seeds, x=places_around, y=places_around)
 def every_ball_has_the_moment_of_its_own_size(lab: Lab, seed: int, x: float, y: float) -> None:
     """Balls of all thirteen sizes have their own moments; nothing else changes"""
-    space = lab.thing(lab.call("pymunk:Space"), "the space")
+    space = lab.make("pymunk:Space")
     lab.put(space, gravity=(3.5, 700.25), damping=0.8125, iterations=7)
     for number, radius in enumerate(RADII):
         chosen = seed_of(radius, seed)
         lab.ran(f"add_ball with random.Random({chosen}) at ({x + 50.0 * number:g}, {y:g})")
-        rng = lab.thing(lab.call("random:Random", chosen))
+        rng = lab.make("random:Random", chosen)
         ball = drop(lab, space, rng, (x + 50.0 * number, y), changes={space: "bodies shapes"})
         want_full_disc(lab, ball)
         lab.want(
@@ -212,7 +212,7 @@ def floor_in(lab: Lab, space: Thing) -> None:
     segment = lab.call("pymunk:Segment", lab.thing(body), (-900.0, 580.0), (1800.0, 580.0), 20.0)
     floor = lab.thing(segment, "a floor")
     lab.put(floor, friction=0.6, elasticity=0.3)
-    lab.tell(space, "add", floor)
+    lab.let(space, "add", floor)
 
 
 def a_sliding_pymunk_ball_comes_to_roll(lab: Lab) -> None:
@@ -223,7 +223,7 @@ def a_sliding_pymunk_ball_comes_to_roll(lab: Lab) -> None:
     """
     speed = lab.about(300.0)
     lab.ran(f"a ball of add_ball set on a floor, sliding at {speed:g} px/s, no damping, one second")
-    space = lab.thing(lab.call("pymunk:Space"))
+    space = lab.make("pymunk:Space")
     lab.put(space, gravity=GRAVITY)
     floor_in(lab, space)
     ball = drop(lab, space, Rng(12), (200.0, 300.0))  # of one size under any seed

@@ -201,14 +201,14 @@ def nothing_sleeps_that_is_held(lab: Lab) -> None:
         lab.ran("a ball that lies on the floor and is held by a rod")
         hook, held = lab.circle((0.3, -150.0), 5.0, 0.0), ball(lab)
         ends = (held, hook) if first else (hook, held)
-        rod = lab.thing(lab.call("DistanceJoint", *ends), "a DistanceJoint")
+        rod = lab.make("DistanceJoint", *ends)
         stay_awake(lab, room(lab, floor(lab), hook, held, joints=(rod,)), held, ON_A_ROD)
         lab.ran("a ball that lies on the floor and is held by a spring")
         hook, held = lab.circle((0.3, -150.0), 5.0, 0.0), ball(lab)
         ends = (held, hook) if first else (hook, held)
-        spring = lab.thing(lab.call("SpringJoint", *ends, 0.1), "a SpringJoint")
+        spring = lab.make("SpringJoint", *ends, 0.1)
         world = room(lab, floor(lab), hook, held)
-        lab.tell(world, "springs.append", spring)
+        lab.let(world, "springs.append", spring)
         stay_awake(lab, world, held, ON_A_SPRING)
 
 
@@ -259,7 +259,7 @@ def what_comes_to_rest_in_turn_sleeps(lab: Lab) -> None:
     world = room(lab, floor(lab), row[0])
     for late in row[1:]:
         run(lab, world, lab.about(0.3, 0.1))
-        lab.tell(world, "add", late)
+        lab.let(world, "add", late)
     run(lab, world, 3.0)
     for each in row:
         want(lab, True, each, IN_TURN)
@@ -273,20 +273,20 @@ def a_hit_wakes(lab: Lab) -> None:
         put_to_sleep(lab, world, sleeper, another)
         x = lab.state(sleeper).pos.x
         roller = ball(lab, x - 60.0, vel=(200.0, 0.0), omega=20.0)
-        lab.tell(world, "add", roller)
+        lab.let(world, "add", roller)
         run(lab, world, 0.3)
         want(lab, False, sleeper, AFTER_A_HIT)
         want(lab, True, another, ANOTHER_HIT)
         # Two equal balls that do not bounce both move on at half the speed.
         speed = lab.state(sleeper).vel.x
         lab.want(speed > 50.0, "it rolls on at about 100 px/s", f"{speed:.1f} px/s")
-        lab.tell(world, "bodies.remove", roller)
+        lab.let(world, "bodies.remove", roller)
         lab.put(sleeper, vel=(0.0, 0.0), omega=0.0)
     lab.ran("a ball of 0.1 kg that falls at 300 px/s on one of 50 kg that sleeps")
     sleeper = ball(lab, mass=50.0)
     world = room(lab, floor(lab), sleeper)
     put_to_sleep(lab, world, sleeper)
-    lab.tell(world, "add", ball(lab, y=LYING - 60.0, vel=(0.0, 300.0), mass=0.1))
+    lab.let(world, "add", ball(lab, y=LYING - 60.0, vel=(0.0, 300.0), mass=0.1))
     woke = False
     for _ in range(30):
         run(lab, world, STEP)
@@ -303,7 +303,7 @@ def a_hit_wakes(lab: Lab) -> None:
     sleeper = ball(lab)
     world = room(lab, floor(lab), sleeper)
     put_to_sleep(lab, world, sleeper)
-    lab.tell(world, "add", ball(lab, 0.3 + 2 * RADIUS - 0.2, omega=40.0))
+    lab.let(world, "add", ball(lab, 0.3 + 2 * RADIUS - 0.2, omega=40.0))
     run(lab, world, STEP)
     want(lab, False, sleeper, AFTER_A_SPIN)
     lab.ran("a ball that rolls past one that sleeps, and touches it nowhere")
@@ -317,7 +317,7 @@ def what_has_lost_its_support_falls(lab: Lab) -> None:
     sleeper, ground = ball(lab, angle=1.0), floor(lab)
     world = room(lab, ground, sleeper)
     put_to_sleep(lab, world, sleeper)
-    lab.tell(world, "bodies.remove", ground)
+    lab.let(world, "bodies.remove", ground)
     want_a_fall(lab, world, sleeper, FLOOR_GONE)
     angle = lab.state(sleeper).angle
     lab.want(abs(angle - 1.0) < 1e-6, "a ball still turned by 1 rad", f"by {angle:.6g} rad")
@@ -327,7 +327,7 @@ def what_has_lost_its_support_falls(lab: Lab) -> None:
         sleeper = ball(lab, y=-7.9)
         world = room(lab, *boxes, sleeper)
         put_to_sleep(lab, world, sleeper)
-        lab.tell(world, "bodies.remove", boxes[gone])
+        lab.let(world, "bodies.remove", boxes[gone])
         run(lab, world, STEP)
         want(lab, False, sleeper, ONE_OF_TWO_GONE)
     lab.ran("a ball that sleeps on another one, which wakes and is carried away")
@@ -357,12 +357,10 @@ def going_to_sleep_changes_nothing_else(lab: Lab) -> None:
     hook, bob = lab.circle((900.0, -300.0), 5.0, 0.0), ball(lab, 900.0, -100.0)
     more = ball(lab, 940.0, -100.0)
     ends = (hook, bob), (bob, more)
-    rods = [lab.thing(lab.call("DistanceJoint", *each), "a rod") for each in ends]
+    rods = [lab.make("DistanceJoint", *each) for each in ends]
     world = room(lab, *bodies, floor(lab), flying, hook, bob, more, gravity=0.0, joints=(*rods,))
     for each in ends:
-        lab.tell(
-            world, "springs.append", lab.thing(lab.call("SpringJoint", *each, 0.1), "a spring")
-        )
+        lab.let(world, "springs.append", lab.make("SpringJoint", *each, 0.1))
     run(lab, world, STEP)  # so that it knows its contacts
     # Fields that only forces read, set when no force follows; no number is round.
     lab.put(world, linear_damping=0.515625, angular_damping=0.296875, grid=False)

@@ -161,7 +161,7 @@ def ends_in_one_place_are_pushed_apart(lab: Lab) -> None:
     stiffness, rest = lab.about(90.0), lab.about(30.0)
     lab.ran(f"apply for 1/120 s: both ends in one place, {stiffness:g} kg/s², length {rest:g} px")
     a, b = lab.circle((5.0, 7.0), 10.0, 2.0), lab.circle((5.0, 7.0), 10.0, 3.0)
-    joint = lab.thing(lab.call("SpringJoint", a, b, stiffness, 0.0, rest), "a SpringJoint")
+    joint = lab.make("SpringJoint", a, b, stiffness, 0.0, rest)
     lab.tell(joint, "apply", STEP, sees=(a, b))
     speeds = [math.hypot(*each) for each in velocities((lab.state(a), lab.state(b)))]
     right = [stiffness * rest * STEP / mass for mass in (2.0, 3.0)]
@@ -190,9 +190,9 @@ def a_mass_on_a_spring_swings_and_fades_as_it_must(lab: Lab) -> None:
     lab.ran(f"{mass:g} kg on a spring of {stiffness:g} kg/s² and {damping:g} kg/s, for {seconds} s")
     begin = 100.0 + lab.about(30.0)
     hook, bob = lab.circle(STILL, 5.0, 0.0), lab.circle((begin, 0.0), 10.0, mass)
-    made = lab.call("SpringJoint", hook, bob, stiffness, damping, 100.0)
+    spring = lab.make("SpringJoint", hook, bob, stiffness, damping, 100.0)
     world = lab.world(hook, bob, bonus=True)
-    lab.tell(world, "springs.append", lab.thing(made, "a SpringJoint"))
+    lab.let(world, "springs.append", spring)
     swing = lab.simulate(world, [bob], round(seconds / STEP)).body(0)
     crossings = [time + when for time, when in zero_crossings([each.x - 100.0 for each in swing])]
     period = 2 * math.pi / math.sqrt(rate**2 - fading**2)  # s

@@ -532,11 +532,11 @@ def want_a_free_box(lab: Lab, level: int) -> None:
 
 def hit_by_a_ball(lab: Lab, space: Thing, pos: Pair, speed: float) -> None:
     """Put a ball of the lesson into a space, moving right at `speed` px/s."""
-    ball = lab.thing(lab.call("pymunk:Body", 2.25, 253.125), "a Body")
+    ball = lab.make("pymunk:Body", 2.25, 253.125)
     lab.put(ball, position=pos, velocity=(speed, 0))
-    disc = lab.thing(lab.call("pymunk:Circle", ball, 15.0), "a Circle")
+    disc = lab.make("pymunk:Circle", ball, 15.0)
     lab.put(disc, friction=0.6, elasticity=0.4)
-    lab.tell(space, "add", ball, disc)
+    lab.let(space, "add", ball, disc)
 
 
 def clicks_b_and_r_work_in_pymunk(lab: Lab) -> None:
