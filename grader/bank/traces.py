@@ -25,11 +25,11 @@ OPEN_TO_ALL = ("/dev/shm", "/tmp", "/var/tmp")
 class Traces:
     """Filled in once the grade is over."""
 
-    left: list[str] = field(default_factory=list)
+    leftovers: list[str] = field(default_factory=list)
 
     @property
     def complaint(self) -> str:
-        return f"left behind: {', '.join(self.left)}" if self.left else ""
+        return f"left behind: {', '.join(self.leftovers)}" if self.leftovers else ""
 
 
 @contextmanager
@@ -46,12 +46,12 @@ def watch_traces(own: Path, name: str) -> Iterator[Traces]:
     with redirect_home(own):
         yield traces
     left = {*own.rglob("*")} | {path for path, _ in find_named(name, shared) - files}
-    traces.left += [f"the file {path}" for path in sorted(left)[:3]]
+    traces.leftovers += [f"the file {path}" for path in sorted(left)[:3]]
     for process in list_descendants() - processes:
         with suppress(psutil.NoSuchProcess):
-            traces.left.append(f"the process {process.name()}")
+            traces.leftovers.append(f"the process {process.name()}")
     if (more := count_descriptors() - descriptors) > 0:
-        traces.left.append(f"{more} open files or sockets")
+        traces.leftovers.append(f"{more} open files or sockets")
 
 
 @contextmanager

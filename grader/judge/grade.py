@@ -151,7 +151,7 @@ class Grading(Task):
         search.look_into({key: each.result for key, each in failed.items()})
         loop.replace_answers(search.answers)
         costly = []
-        for key, cause in search.found.items():
+        for key, cause in search.causes.items():
             outcome = failed[key]
             if not cause.mended or not keeps_points(outcome.job.todo, self.names):
                 continue
@@ -164,7 +164,7 @@ class Grading(Task):
                 costly.append(cause)
         if costly:
             charge_whole(loop, costly[0])
-        return search.found
+        return search.causes
 
     def pass_spoilt_scenes(self, todo: Todo) -> list[CheckResult]:
         """Return the results of a TODO; a scene spoilt by another TODO counts like the rest.

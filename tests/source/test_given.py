@@ -9,7 +9,7 @@ from counting import count_calls
 
 from grader.bank.verify import shared_worker
 from grader.cli.restore import find_changes
-from grader.judge.explain.blame import MOST_ASKED, CauseSearch
+from grader.judge.explain.blame import MOST_RUNS, CauseSearch
 from grader.judge.failures import NotYet
 from grader.judge.grade import grade
 from grader.judge.result import CheckResult
@@ -233,9 +233,9 @@ def test_the_number_of_runs_that_look_for_a_cause_is_limited():
     }
     blame = CauseSearch(five, lambda undone: undone, again)
     blame.look_into(failed)
-    assert blame.asked == MOST_ASKED and blame.found.keys() == failed.keys()
+    assert blame.runs == MOST_RUNS and blame.causes.keys() == failed.keys()
     assert blame.answers.keys() == failed.keys()
-    assert all(each.mended and each.changes == tuple(five) for each in blame.found.values())
+    assert all(each.mended and each.changes == tuple(five) for each in blame.causes.values())
 
 
 # ---------------------------------------------------------------- restoring it

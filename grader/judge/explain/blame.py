@@ -19,7 +19,7 @@ from grader.source.regions import read_source
 
 MOST_ALONE = 8  # changes to undo one by one, to find the one that matters
 EXPERIMENTS = {"ITERATIONS"}
-MOST_ASKED = 60  # runs of checks with one change undone
+MOST_RUNS = 60  # runs of checks with one change undone
 
 OpenChild = Callable[[int], Child]
 
@@ -93,13 +93,11 @@ class CauseSearch:
     """Runs the failed checks of a submission again, with changes of given code undone."""
 
     changes: Sequence[GivenChange]
-    open_with: Callable[
-        [Sequence[GivenChange]], OpenChild
-    ]  # children of the tree with these undone
+    open_with: Callable[[Sequence[GivenChange]], OpenChild]  # children with these undone
     again: Callable[[Key, OpenChild], Lab]
-    spent: Callable[[], bool] = lambda: False  # the submission has used up its time
-    asked: int = 0  # runs with one change undone
-    found: dict[Key, GivenCause] = field(default_factory=dict)
+    is_over: Callable[[], bool] = lambda: False  # the submission has used up its time
+    runs: int = 0  # with one change undone
+    causes: dict[Key, GivenCause] = field(default_factory=dict)
     answers: dict[Key, list[Observation]] = field(default_factory=dict)  # with all changes undone
 
     def look_into(self, failed: Mapping[Key, CheckResult]) -> None:
@@ -107,7 +105,7 @@ class CauseSearch:
         differ: dict[Key, bool] = {}
         open_child = self.open_with(self.changes)
         for key, check in failed.items():
-            if self.spent():
+            if self.is_over():
                 break
             lab = self.again(key, open_child)
             if not isinstance(lab.failure, Broke):  # else their own code needs what was undone
@@ -116,7 +114,7 @@ class CauseSearch:
                 differ[key] = lab.failure is None
         alone = self._find_one(failed, differ) if differ else {}
         for key, mended in differ.items():
-            self.found[key] = GivenCause(tuple(alone.get(key, self.changes)), mended)
+            self.causes[key] = GivenCause(tuple(alone.get(key, self.changes)), mended)
 
     def _find_one(
         self, failed: Mapping[Key, CheckResult], differ: Mapping[Key, bool]
@@ -133,9 +131,9 @@ class CauseSearch:
             left = [key for key in differ if key not in found and first[key] == key]
             open_child = self.open_with([change])
             for key in left:
-                if self.asked >= MOST_ASKED or self.spent():
+                if self.runs >= MOST_RUNS or self.is_over():
                     break
-                self.asked += 1
+                self.runs += 1
                 lab = self.again(key, open_child)
                 if lab.failure is None or (
                     not differ[key] and makes_a_difference(lab, failed[key])

@@ -82,7 +82,7 @@ class Failure:
     check: CheckResult
     evidence: Evidence
     answers: Sequence[Observation] = ()
-    kept: Sequence[str] = ()  # names that held a value from call to call
+    kept_names: Sequence[str] = ()  # names that held a value from call to call
     trespass: str = ""  # forbidden changes, in words
     given_cause: GivenCause | None = None
     earlier: Sequence[str] = ()  # TODOs in which the program fails first
@@ -260,7 +260,7 @@ def describe_answers(failure: Failure) -> str:
     It also names values kept from call to call, which alone are no mistake.
     """
     words = failure.check.meaning or failure.evidence.diagnosis.describe(failure.answers)
-    names = [name.rpartition(".")[2] for name in failure.kept[:MOST_NAMES]]
+    names = [name.rpartition(".")[2] for name in failure.kept_names[:MOST_NAMES]]
     return f"{words} {KEPT.format(names=', '.join(names))}".strip() if names else words
 
 
