@@ -125,7 +125,6 @@ def make_class(
     making: Making, path: Path, people: ClassList, console: Console
 ) -> list[SheetResult]:
     """Make a sheet for each submission of a class, and for each member of a group."""
-    assert making.seed  # drawn now, so that all processes that make sheets have the same
     with open_class(path, people) as intake, closing(WatchedProcess()) as process:
         made = [SheetResult(name, None, f"{name}: {why}") for name, why in intake.troubles.items()]
         with Counter("making sheets", len(intake.found), console) as counter:

@@ -16,6 +16,7 @@ import classes
 import packed
 import pytest
 from command_line import call_class
+from packed import put
 from page_readers import PATIENCE, Reader, barriers, chromium
 from points_pool import Inline
 
@@ -142,12 +143,6 @@ def test_of_long_files_only_a_part_is_kept_and_shown():
 
 
 # ---------------------------------------------------------------- finding the submission
-
-
-def put(folder: Path, files: dict[str, str]) -> None:
-    for name, text in files.items():
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(text)
 
 
 TWO = {"a/integrators.py": "1", "b/integrators.py": "2"}

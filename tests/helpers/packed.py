@@ -5,6 +5,7 @@ import tarfile
 import zipfile
 import zlib
 from collections.abc import Iterable
+from pathlib import Path
 from unittest.mock import patch
 
 import py7zr
@@ -16,14 +17,23 @@ def as_bytes(content: str | bytes) -> bytes:
     return content.encode() if isinstance(content, str) else content
 
 
-def as_zip(files: Files) -> bytes:
-    return as_zip_of(files.items())
+def put(folder: Path, files: Files) -> Path:
+    """Write files into a folder, and return it."""
+    for name, content in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(as_bytes(content))
+    return folder
 
 
-def as_zip_of(members: Iterable[tuple[str, str | bytes]]) -> bytes:
+def as_zip(files: Files, how: int = zipfile.ZIP_DEFLATED) -> bytes:
+    return as_zip_of(files.items(), how)
+
+
+def as_zip_of(members: Iterable[tuple[str, str | bytes]], how: int = zipfile.ZIP_DEFLATED) -> bytes:
     """Make a zip with these members; two may have the same name."""
     out = io.BytesIO()
-    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+    with zipfile.ZipFile(out, "w", how) as archive:
         for name, content in members:
             archive.writestr(name, content)
     return out.getvalue()

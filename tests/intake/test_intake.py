@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 from counting import count_calls
+from packed import Files, as_zip, put
 
 from grader.errors import Stop
 from grader.intake import archives
@@ -31,23 +32,7 @@ from grader.protocol import MAX_UPLOAD
 PROGRAM = {"mini_engine/__init__.py": "", "integrators.py": "x = 1\n"}
 
 
-def zipped(files: dict[str, str | bytes], how: int = zipfile.ZIP_DEFLATED) -> bytes:
-    content = io.BytesIO()
-    with zipfile.ZipFile(content, "w", how) as archive:
-        for name, text in files.items():
-            archive.writestr(name, text)
-    return content.getvalue()
-
-
-def write(folder: Path, files: dict[str, str | bytes]) -> Path:
-    for name, content in files.items():
-        path = folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content.encode() if isinstance(content, str) else content)
-    return folder
-
-
-def under(folder: str, files: dict[str, str | bytes] = PROGRAM) -> dict[str, str | bytes]:
+def under(folder: str, files: Files = PROGRAM) -> Files:
     return {f"{folder}/{name}": content for name, content in files.items()}
 
 
@@ -77,13 +62,13 @@ def refuse(classroom: Path, content: bytes) -> str:
 
 
 def test_canvas_names_late_marks_and_loose_files(classroom):
-    write(
+    put(
         classroom,
         {
-            "doejane_LATE_1234_5678_hand-in.zip": zipped(PROGRAM),
+            "doejane_LATE_1234_5678_hand-in.zip": as_zip(PROGRAM),
             "roebo_77_10_integrators-2.py": "x = 2\n",
             "roebo_77_11_pymunk_scene.py": "",
-            "anon_k3Xyz_99_work.zip": zipped(under("work")),
+            "anon_k3Xyz_99_work.zip": as_zip(under("work")),
             "texter_5_text.html": "<p>it does not run</p>",
         },
     )
@@ -97,12 +82,12 @@ def test_canvas_names_late_marks_and_loose_files(classroom):
 
 
 def test_moodle_with_folders_of_both_kinds_and_without(classroom):
-    write(
+    put(
         classroom,
         {
             **under("Ann Lee_101_assignsubmission_file_"),
             **under("Ben Öz_102_assignsubmission_file/deep"),
-            "Cem O_Neil_103_assignsubmission_file_work.zip": zipped(PROGRAM),
+            "Cem O_Neil_103_assignsubmission_file_work.zip": as_zip(PROGRAM),
             "Ann Lee_101_assignsubmission_onlinetext_/onlinetext.html": "hello",
             "Dora_104_assignsubmission_onlinetext/onlinetext.html": "see my page",
         },
@@ -149,7 +134,7 @@ def test_gradescope_names_times_and_people_who_work_together(classroom):
         **under("submission_1"),
         **under("submission_2"),
     }
-    write(classroom / "assignment_9_export", files)
+    put(classroom / "assignment_9_export", files)
     with open_class(classroom) as taken:
         found = {each.name: each for each in taken.found}
         assert list(found) == ["Cem", "ann@school.edu", "ben@school.edu"]
@@ -165,7 +150,7 @@ def test_gradescope_names_times_and_people_who_work_together(classroom):
 
 def test_a_list_that_is_not_gradescopes_is_refused(classroom):
     for text in ("- 1\n", "submission_1: {}\n", "a: [\n", "submission_1: {':submitters': 7}\n"):
-        write(classroom, {"submission_metadata.yml": text})
+        put(classroom, {"submission_metadata.yml": text})
         with pytest.raises(Stop, match="not as Gradescope"), open_class(classroom):
             pass
 
@@ -174,7 +159,10 @@ STUDENTS = [f"{name}_1_assignsubmission_file_" for name in ("Ann", "Ben")]
 ONE_EACH = {f"{student}/integrators.py": "x = 1" for student in STUDENTS}
 TWO = under("ann") | under("ben")
 DOWNLOADS = {
-    "Canvas": {"ann_1_2_a.zip": zipped(PROGRAM), "ben_LATE_3_4_b.zip": zipped(PROGRAM)},
+    "Canvas": {
+        "ann_1_2_a.zip": as_zip(PROGRAM),
+        "ben_LATE_3_4_b.zip": as_zip(PROGRAM),
+    },
     "a folder around": {f"all/{name}": text for name, text in TWO.items()},
     "what a Mac leaves": TWO | {"__MACOSX/._x": ""},
     "strange names": TWO | {"ben/aux.py": "", "../../up.py": "", "/root.py": ""},
@@ -186,7 +174,7 @@ DOWNLOADS = {
 
 @pytest.mark.parametrize("kind", DOWNLOADS)
 def test_a_download_of_a_class_is_read_whatever_is_in_it(classroom, kind):
-    (classroom / "all.zip").write_bytes(zipped(DOWNLOADS[kind]))
+    (classroom / "all.zip").write_bytes(as_zip(DOWNLOADS[kind]))
     with open_class(classroom / "all.zip") as intake:
         first, second = intake.found
         assert first.name.lower().startswith("ann") and second.name.lower().startswith("ben")
@@ -203,10 +191,10 @@ def test_a_download_of_a_class_is_read_whatever_is_in_it(classroom, kind):
 
 
 def test_folders_checkouts_and_system_files(classroom):
-    write(classroom, under("ann") | under("ben/x/y") | {"cem.zip": zipped(under("cem's work"))})
+    put(classroom, under("ann") | under("ben/x/y") | {"cem.zip": as_zip(under("cem's work"))})
     left = ("ann/.git/config", "ben/x/._mini_engine", ".DS_Store", "Thumbs.db")
-    write(classroom, dict.fromkeys(left, ""))
-    write(classroom, {"roster.csv": "", "adjustments.toml": ""})
+    put(classroom, dict.fromkeys(left, ""))
+    put(classroom, {"roster.csv": "", "adjustments.toml": ""})
     (classroom / "empty").mkdir()
     with open_class(classroom) as taken:
         assert [each.name for each in taken.found] == ["ann", "ben", "cem", "empty"]
@@ -217,7 +205,7 @@ def test_folders_checkouts_and_system_files(classroom):
 
 
 def test_nothing_is_dropped_in_silence(classroom):
-    write(classroom, under("ann") | {"ben.rar": "Rar!", "cem.py": "x", "read me.txt": ""})
+    put(classroom, under("ann") | {"ben.rar": "Rar!", "cem.py": "x", "read me.txt": ""})
     (classroom / "link").symlink_to(classroom / "ann")
     with open_class(classroom) as taken:
         assert taken.troubles.keys() == {"cem", "link"}
@@ -230,13 +218,13 @@ def test_nothing_is_dropped_in_silence(classroom):
 
 def test_one_submission_is_laid_out_as_one_of_a_class_is(tmp_path):
     path, said = tmp_path / "ann.zip", []
-    path.write_bytes(zipped(under("work") | {"work/old/integrators.py": "x = 0\n"}))
+    path.write_bytes(as_zip(under("work") | {"work/old/integrators.py": "x = 0\n"}))
     with open_submission(path, said.append) as folder:
         assert folder.name == "ann"
         assert {name for name in PROGRAM if (folder / name).is_file()} == set(PROGRAM)
     assert not folder.exists() and "old/integrators.py was skipped" in said[0]
     for files, words in (({"../up.py": ""}, "reaches outside"), ({"a.txt": ""}, "nothing of the")):
-        path.write_bytes(zipped(files))
+        path.write_bytes(as_zip(files))
         for each in (path, tmp_path):
             with pytest.raises(CannotGrade, match=words), open_submission(each):
                 pass
@@ -244,13 +232,13 @@ def test_one_submission_is_laid_out_as_one_of_a_class_is(tmp_path):
 
 def test_one_submission_is_not_taken_for_a_class(classroom):
     with pytest.raises(Stop, match="leave out --class"):
-        open_class(write(classroom, PROGRAM)).__enter__()
+        open_class(put(classroom, PROGRAM)).__enter__()
 
 
 def test_who_handed_in_twice_must_choose_unless_it_is_the_same(classroom):
-    write(classroom, under("ann") | {"ann.zip": zipped(PROGRAM)})
-    write(classroom, under("Ben") | {"ben.zip": zipped({"integrators.py": "other"})})
-    write(classroom, under("cem") | {"cem.rar": "Rar!"})
+    put(classroom, under("ann") | {"ann.zip": as_zip(PROGRAM)})
+    put(classroom, under("Ben") | {"ben.zip": as_zip({"integrators.py": "other"})})
+    put(classroom, under("cem") | {"cem.rar": "Rar!"})
     with open_class(classroom) as taken:
         assert [each.name for each in taken.found] == ["ann"]
         assert "Ben and ben.zip" in taken.troubles["Ben"]
@@ -259,14 +247,14 @@ def test_who_handed_in_twice_must_choose_unless_it_is_the_same(classroom):
 
 
 def test_the_same_files_are_one_package_whoever_and_however(classroom, tmp_path):
-    folder = Work("ann", (write(classroom / "ann", PROGRAM),))
-    (classroom / "b.zip").write_bytes(zipped(under("x/y", dict(reversed(PROGRAM.items())))))
+    folder = Work("ann", (put(classroom / "ann", PROGRAM),))
+    (classroom / "b.zip").write_bytes(as_zip(under("x/y", dict(reversed(PROGRAM.items())))))
     package = read_package(folder)
     assert package.digest == read_package(Work("ben", (classroom / "b.zip",))).digest
     unpacked = package.unpack(tmp_path)
     assert unpacked.name == "ann"
     assert {name: (unpacked / name).read_text() for name in PROGRAM} == PROGRAM
-    write(classroom / "ann", {"integrators.py": "x = 2\n"})
+    put(classroom / "ann", {"integrators.py": "x = 2\n"})
     assert read_package(folder).digest != package.digest
 
 
@@ -293,15 +281,18 @@ def people(tmp_path: Path, text: str) -> ClassList:
 
 def test_a_class_list_names_students_as_the_gradebook_does(classroom, tmp_path):
     known = people(tmp_path, CANVAS_LIST)
-    write(classroom, {f"{who}_1_a.zip": zipped(PROGRAM) for who in ("doejane_1234", "roebo_77")})
-    write(classroom, under("stranger"))
+    put(
+        classroom,
+        {f"{who}_1_a.zip": as_zip(PROGRAM) for who in ("doejane_1234", "roebo_77")},
+    )
+    put(classroom, under("stranger"))
     with open_class(classroom, known) as taken:
         names = [each.name for each in taken.found]
         assert names == ["bo", "jane", "stranger"]
         assert known.list_absent(names) == ["al"]
         assert known.list_unlisted(names) == ["stranger"]
     known = people(tmp_path, MOODLE_LIST)
-    write(classroom / "moodle", under("Ann Lee_5_assignsubmission_file") | under("bo"))
+    put(classroom / "moodle", under("Ann Lee_5_assignsubmission_file") | under("bo"))
     with open_class(classroom / "moodle", known) as taken:
         names = [each.name for each in taken.found]
         assert names == ["ann@school.edu", "bo"]
@@ -337,34 +328,34 @@ UNPORTABLE = ["aux.py", "what?.txt", "lab: last/more.py", 'the "floor".png', f"{
 
 def test_names_that_not_every_system_takes_are_changed_or_refused(classroom):
     for name in OUTSIDE:
-        assert "outside" in refuse(classroom, zipped(PROGRAM | {name: "x"})), name
-    assert "case alone" in refuse(classroom, zipped(PROGRAM | {"Integrators.py": "x"}))
+        assert "outside" in refuse(classroom, as_zip(PROGRAM | {name: "x"})), name
+    assert "case alone" in refuse(classroom, as_zip(PROGRAM | {"Integrators.py": "x"}))
     for name in UNPORTABLE:
-        package = read_package(handed_in(classroom, zipped(PROGRAM | {name: "x"})))
+        package = read_package(handed_in(classroom, as_zip(PROGRAM | {name: "x"})))
         (other,) = {file for file, _ in package.files} - set(PROGRAM)
         assert other == "/".join(map(make_portable, name.split("/"))) and not package.notes
 
 
 def test_broken_encrypted_and_unusual_zips_are_refused(classroom):
-    good = zipped(PROGRAM)
+    good = as_zip(PROGRAM)
     assert "broken" in refuse(classroom, b"")
     assert "broken" in refuse(classroom, b"Rar!" + bytes(100))
     assert "broken" in refuse(classroom, good[:-30])
-    stored = zipped(PROGRAM, zipfile.ZIP_STORED)
+    stored = as_zip(PROGRAM, zipfile.ZIP_STORED)
     assert "broken" in refuse(classroom, stored.replace(b"x = 1", b"x = 2"))
     central = good.rindex(b"PK\x01\x02")
     locked = bytearray(good)
     locked[central + 8] |= 1
     assert "encrypted" in refuse(classroom, bytes(locked))
-    assert "unusual" in refuse(classroom, zipped(PROGRAM, zipfile.ZIP_BZIP2))
-    assert "unusual" in refuse(classroom, zipped(PROGRAM, zipfile.ZIP_LZMA))
+    assert "unusual" in refuse(classroom, as_zip(PROGRAM, zipfile.ZIP_BZIP2))
+    assert "unusual" in refuse(classroom, as_zip(PROGRAM, zipfile.ZIP_LZMA))
 
 
 @pytest.mark.parametrize("hidden", [b"", b"PK\x05\x06", b"PK\x06\x07"])
 def test_a_zip_that_lists_too_many_files_is_not_even_listed(classroom, monkeypatch, hidden):
     """Nor if a second end record, in the comment of the first, claims that the list is short."""
     monkeypatch.setattr(archives, "MAX_DIRECTORY", 1000)
-    content = bytearray(zipped({f"{n}.py": "" for n in range(40)}))
+    content = bytearray(as_zip({f"{n}.py": "" for n in range(40)}))
     if hidden:
         content[-2:] = (40).to_bytes(2, "little")
         hidden += bytes(36)
@@ -373,7 +364,7 @@ def test_a_zip_that_lists_too_many_files_is_not_even_listed(classroom, monkeypat
 
 def test_a_short_list_is_read_where_another_end_is_hidden_in_it(classroom):
     name = "PK\x05\x06" + "\xff" * 16
-    assert len(names_in(handed_in(classroom, zipped(PROGRAM | {name: "x"})))) == 3
+    assert len(names_in(handed_in(classroom, as_zip(PROGRAM | {name: "x"})))) == 3
 
 
 def test_many_archives_have_the_bounds_of_one(classroom, monkeypatch):
@@ -384,29 +375,29 @@ def test_many_archives_have_the_bounds_of_one(classroom, monkeypatch):
     real = archives.open_archive
     monkeypatch.setattr(archives, "open_archive", lambda *args: opened.append(1) or real(*args))
     with pytest.raises(CannotTake, match="more than 3 archives in one submission"):
-        many = zipped({f"{n}.zip": zipped({"a.txt": ""}) for n in range(40)})
+        many = as_zip({f"{n}.zip": as_zip({"a.txt": ""}) for n in range(40)})
         read_package(handed_in(classroom, many))
     assert len(opened) == 3
     monkeypatch.setattr(archives, "MAX_ARCHIVES", 40)
-    many = zipped({f"{n}.zip": zipped({f"{m}.txt": "" for m in range(20)}) for n in range(30)})
+    many = as_zip({f"{n}.zip": as_zip({f"{m}.txt": "" for m in range(20)}) for n in range(30)})
     with pytest.raises(CannotTake, match="too many files"):
         read_package(handed_in(classroom, many))
 
 
 def test_bombs_give_the_program_and_no_more_than_the_bounds(classroom, monkeypatch):
     bomb = {f"{n:02}.bin": bytes(MAX_UPLOAD // 4) for n in range(8)}
-    inner = zipped({f"{n}.bin": bytes(MAX_UPLOAD // 2) for n in range(4)})
+    inner = as_zip({f"{n}.bin": bytes(MAX_UPLOAD // 2) for n in range(4)})
     for files in (bomb, {f"{n}.zip": inner for n in range(50)}):
-        package = read_package(handed_in(classroom, zipped(files | PROGRAM)))
+        package = read_package(handed_in(classroom, as_zip(files | PROGRAM)))
         assert {"integrators.py", "mini_engine/__init__.py"} <= {name for name, _ in package.files}
         assert sum(len(content) for _, content in package.files) <= MAX_UPLOAD
         assert package.notes
     monkeypatch.setattr(archives, "MAX_ZIP", 10)
-    assert "MB" in refuse(classroom, zipped(PROGRAM))
+    assert "MB" in refuse(classroom, as_zip(PROGRAM))
 
 
 def test_a_size_that_lies_gives_no_more_than_it_says(classroom):
-    content = bytearray(zipped(PROGRAM | {"z.bin": bytes(100_000)}))
+    content = bytearray(as_zip(PROGRAM | {"z.bin": bytes(100_000)}))
     at = content.rindex(b"PK\x01\x02") + 24
     assert int.from_bytes(content[at : at + 4], "little") == 100_000
     content[at : at + 4] = (10).to_bytes(4, "little")
@@ -414,7 +405,7 @@ def test_a_size_that_lies_gives_no_more_than_it_says(classroom):
 
 
 def test_links_environments_and_system_files_in_a_zip_are_left_out(classroom):
-    content = io.BytesIO(zipped(PROGRAM))
+    content = io.BytesIO(as_zip(PROGRAM))
     with zipfile.ZipFile(content, "a") as archive:
         link = zipfile.ZipInfo("passwords.txt")
         link.external_attr = (stat.S_IFLNK | 0o777) << 16
@@ -430,12 +421,12 @@ def test_links_environments_and_system_files_in_a_zip_are_left_out(classroom):
 
 
 def test_a_file_that_is_also_a_folder_is_refused(classroom):
-    words = refuse(classroom, zipped(PROGRAM | {"a.py": "", "a.py/b.py": ""}))
+    words = refuse(classroom, as_zip(PROGRAM | {"a.py": "", "a.py/b.py": ""}))
     assert "broken" in words and "/" not in words  # no path of this machine
 
 
 def test_a_zip_with_any_bytes_changed_is_taken_or_refused_with_a_sentence(classroom):
-    rng, content = random.Random(1), zipped(PROGRAM | {"a/ö.txt": "hello" * 50})
+    rng, content = random.Random(1), as_zip(PROGRAM | {"a/ö.txt": "hello" * 50})
     outcomes = set()
     for _ in range(60):
         changed = bytearray(content)
@@ -453,16 +444,16 @@ def test_a_zip_with_any_bytes_changed_is_taken_or_refused_with_a_sentence(classr
 
 
 def test_what_has_no_end_is_for_a_person(classroom, monkeypatch):
-    folder = write(classroom / "ann", PROGRAM)
+    folder = put(classroom / "ann", PROGRAM)
     monkeypatch.setattr(submission, "MAX_SEEN", 30)
-    write(folder, {f"many/{number}": "" for number in range(30)})
+    put(folder, {f"many/{number}": "" for number in range(30)})
     with pytest.raises(CannotTake, match="more than 20000 files and folders"):
         read_package(Work("ann", (folder,)))
 
 
 def test_folders_in_each_other_without_end_are_for_a_person(classroom):
     """They are deeper than Python's own functions can go."""
-    folder = write(classroom / "ann", PROGRAM)
+    folder = put(classroom / "ann", PROGRAM)
     here = os.getcwd()
     try:
         os.chdir(folder)
@@ -474,7 +465,7 @@ def test_folders_in_each_other_without_end_are_for_a_person(classroom):
     with pytest.raises(CannotTake, match="40 folders in each other"):
         read_package(Work("ann", (folder,)))
     deep = {"d/" * 1500 + "integrators.py": "x = 1\n"}
-    assert "40 folders in each other" in refuse(classroom.parent / "class", zipped(deep))
+    assert "40 folders in each other" in refuse(classroom.parent / "class", as_zip(deep))
     subprocess.run(["rm", "-r", folder], check=True)  # pytest cannot
 
 
@@ -486,7 +477,7 @@ def test_nobody_waits_at_a_pipe(classroom, name):
         read_package(Work("ann", (classroom / name,)))
     with pytest.raises(Stop, match="no file to read"), open_submission(classroom / name):
         pass
-    folder = write(classroom / "ben", PROGRAM)
+    folder = put(classroom / "ben", PROGRAM)
     os.mkfifo(folder / "data.py")
     assert "data.py" not in names_in(Work("ben", (folder,)))
 
@@ -494,7 +485,7 @@ def test_nobody_waits_at_a_pipe(classroom, name):
 @pytest.mark.parametrize("name", ["{}/integrators.py", "{}/mini_engine/__init__.py"])
 def test_a_program_many_times_takes_no_more_calls_than_its_files(classroom, name):
     def take(count: int) -> None:
-        folder = write(classroom / f"{count}", {name.format(n): "" for n in range(count)})
+        folder = put(classroom / f"{count}", {name.format(n): "" for n in range(count)})
         with suppress(CannotTake):
             read_package(Work("ann", (folder,)))
 
@@ -504,14 +495,14 @@ def test_a_program_many_times_takes_no_more_calls_than_its_files(classroom, name
 
 def test_notes_of_one_submission_are_few(classroom):
     copies = {f"integrators ({number}).py": PROGRAM["integrators.py"] for number in range(200)}
-    notes = read_package(Work("ann", (write(classroom / "ann", {**PROGRAM, **copies}),))).notes
+    notes = read_package(Work("ann", (put(classroom / "ann", {**PROGRAM, **copies}),))).notes
     assert len(notes) == 21 and notes[-1] == "and 181 notes more"
 
 
 def test_what_the_teacher_tried_in_canvas_is_nobodys(classroom):
     for name in ("studenttest_400001_9_lab.zip", "studenttest_LATE_400001_text.html"):
-        (classroom / name).write_bytes(zipped(PROGRAM))
-    (classroom / "doejane_12_34_lab.zip").write_bytes(zipped(PROGRAM))
+        (classroom / name).write_bytes(as_zip(PROGRAM))
+    (classroom / "doejane_12_34_lab.zip").write_bytes(as_zip(PROGRAM))
     with open_class(classroom) as intake:
         assert intake.names == ["doejane_12"] and len(intake.notes) == 2
         assert intake.notes[0].endswith("was skipped: a test submission of the teacher")

@@ -15,6 +15,7 @@ import classes
 import gradebooks
 import packed
 import pytest
+from packed import put
 
 from grader.classroom.book import list_broken
 from grader.classroom.course_check import Files, find_problems
@@ -40,12 +41,6 @@ MARKING = Marking("Physics engine", {"engine": 1}, 20)
 def list_intake(folder: Path, people: ClassList | None = None) -> Intake:
     with open_class(folder, people) as intake:
         return intake
-
-
-def put(folder: Path, files: packed.Files) -> Path:
-    for name, content in files.items():
-        classes.put(folder / name, content)
-    return folder
 
 
 def make_work(folder: Path, files: packed.Files) -> Work:

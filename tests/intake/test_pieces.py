@@ -35,11 +35,7 @@ def write(folder: Path, files: packed.Files | bytes) -> Work:
     """Write a submission: a folder of files, or a zip."""
     if isinstance(files, bytes):
         return make_work(folder.parent, "work.zip", files)
-    for name, content in files.items():
-        path = folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(packed.as_bytes(content))
-    return Work("ann", (folder,))
+    return Work("ann", (packed.put(folder, files),))
 
 
 def make_work(tmp_path: Path, name: str, content: bytes) -> Work:
