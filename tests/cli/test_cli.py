@@ -51,14 +51,15 @@ def test_the_command_line_starts_without_what_only_some_commands_need():
     assert not loaded & {*heavy, "grader.report.html", "grader.report.ci", "grader.cli.watch"}
 
 
-def test_a_check_that_passes_loads_nothing_for_failures_and_other_commands():
+def test_a_check_that_passes_loads_nothing_for_failures_and_other_commands(hand_in):
     code = (
-        "import sys; sys.argv = ['grader', 'check', '--todo', '8a', 'solution']\n"
+        "import sys; sys.argv = ['grader', 'check', '--todo', '8a', *sys.argv[1:]]\n"
         "import grader.cli.main as cli\n"
         "try: cli.main()\n"
         "finally: print(*sys.modules, file=sys.stderr)"
     )
-    done = subprocess.run([sys.executable, "-c", code], cwd=KIT, capture_output=True, text=True)
+    command = [sys.executable, "-c", code, str(hand_in("solution"))]
+    done = subprocess.run(command, cwd=KIT, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
     loaded = set(done.stderr.split())
     assert "grader.judge.loop" in loaded

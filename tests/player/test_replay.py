@@ -791,7 +791,8 @@ UNSEEN = {
     "the_program_says_how_many_steps_ran",
     "the_space_keeps_its_damping_and_settings",
     "a_sleeper_wakes_when_it_is_hit_or_loses_its_support",  # reads `asleep` after the last step
-    "2-cleans-the-axis",  # off in the eighth digit
+    "2-cleans-the-axis",  # off in the eighth digit, as is the next one
+    "B2-damping-remembered",
     "whole-pymunk-reset-keeps-the-old-stack",  # prints another last line
     "7d-fewer-passes-when-slow",  # sets the passes of a space
     "B3-remembers-the-first-grid",  # right in the first scene
