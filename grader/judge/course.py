@@ -116,7 +116,7 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
     """
 
     title: Annotated[str, Meta(pattern=r"\S")] = "Physics engine"
-    todos: tuple[str, ...] | None = None
+    todos: Annotated[tuple[str, ...], Meta(min_length=1)] | None = None
     points: dict[str, Worth] = {}
     out_of: Annotated[float, Meta(gt=0, le=100_000)] | None = None
     bonus: Literal["apart", "left out", "fill up"] | Count = "apart"
@@ -268,6 +268,7 @@ def refuse(complaint: str) -> Never:
 
 MUST = {  # the rule for each value, by its position in the file; * is any key of a table
     "title": "is no title: write some words in quotes",
+    "todos": 'must name TODOs in quotes, as in ["1", "2"]',
     "points": "must be a table: write [points] on a line and 4 = 12 below it",
     "points.*": "must be a whole number from 1 to 1000",
     "out_of": "must be a number above 0, as in out_of = 100",
@@ -334,28 +335,17 @@ def faults_before(document: dict[str, Any]) -> Iterator[str]:
             yield f"{name}: {key} stands below [{name}]: write it above that line"
     if isinstance(late, dict) and not late.keys() & {"per_day", "cap", "closed_after"}:
         yield f"late = {late!r} {MUST['late']}"
-    yield from wrong_todos(document.get("todos"))
-
-
-def wrong_todos(todos: Any) -> Iterator[str]:
-    if todos is None:
-        return
-    known = [todo.id for todo in load_rubric().todos]
-    if not isinstance(todos, list) or not todos:
-        yield f'todos = {todos!r} must name TODOs, as in ["1", "2"]'
-        return
-    for each in todos:
-        if each not in known:
-            quoted = " in quotes" if str(each) in known else ""
-            yield f"todos: there is no TODO {each!r}; write{quoted} some of {', '.join(known)}"
-        elif todos.count(each) > 1:
-            yield f"todos: {each} is listed {todos.count(each)} times; list it once"
 
 
 def faults_between(course: Course) -> Iterator[str]:
     """Yield faults of values that do not fit each other."""
     todos = [todo.id for todo in load_rubric().todos]
     if course.todos is not None:
+        for each in course.todos:
+            if each not in todos:
+                yield f"todos: there is no TODO {each!r}; write some of {', '.join(todos)}"
+            elif course.todos.count(each) > 1:
+                yield f"todos: {each} is listed {course.todos.count(each)} times; list it once"
         asked = [todo for todo in load_rubric().todos if todo.id in course.todos]
         if not any(todo.function and not todo.bonus for todo in asked):
             yield "todos: there are no points without a bonus: add one of TODO 1 to 8c"

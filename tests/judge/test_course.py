@@ -129,7 +129,7 @@ def test_bonus_tasks_are_left_out_or_added():
 WRONG = {
     "todos = []": "todos = [] must name TODOs",
     'todos = ["99"]': "there is no TODO '99'",
-    "todos = [4]": "there is no TODO 4; write in quotes",
+    "todos = [4]": "todos = [4] must name TODOs in quotes",
     'todos = ["1", "1"]': "1 is listed 2 times",
     'todos = ["B1", "whole"]': "add one of TODO 1 to 8c",
     'todos = ["8a", "whole"]': 'leave "whole" out',
