@@ -106,18 +106,18 @@ def nearest(ways: Iterable[Touch], measure: Callable[[Touch], float]) -> Touch:
     return first
 
 
-def farthest_face(disc: Disc, rect: Rect) -> Touch:
+def find_farthest_face(disc: Disc, rect: Rect) -> Touch:
     return nearest(exact.ways_out(disc, rect), lambda touch: -touch.depth)
 
 
-def face_by_share(disc: Disc, rect: Rect) -> Touch:
+def find_face_by_share(disc: Disc, rect: Rect) -> Touch:
     return nearest(
         exact.ways_out(disc, rect),
         lambda touch: (touch.depth - disc.r) / (rect.hx if touch.nx else rect.hy),
     )
 
 
-def face_by_offset(disc: Disc, rect: Rect) -> Touch:
+def find_face_by_offset(disc: Disc, rect: Rect) -> Touch:
     x, y = abs(disc.x - rect.x), abs(disc.y - rect.y)
     if math.isclose(x, y, abs_tol=1e-9):
         raise Undecided
@@ -125,7 +125,7 @@ def face_by_offset(disc: Disc, rect: Rect) -> Touch:
     return nearest(ways, gap)
 
 
-def farther_way(disc: Disc, rect: Rect) -> Touch:
+def find_farther_way(disc: Disc, rect: Rect) -> Touch:
     left, right, top, bottom = exact.ways_out(disc, rect)
     level, upright = min(left, right, key=gap), min(top, bottom, key=gap)
     if math.isclose(level.depth, upright.depth) or left.depth == right.depth:
@@ -187,12 +187,12 @@ def find_outside(disc: Disc, rect: Rect) -> Touch:
     return find_at_any_distance(disc, rect)
 
 
-def touching_counts(disc: Disc, rect: Rect) -> Answer:
+def count_touching(disc: Disc, rect: Rect) -> Answer:
     touch = find_at_any_distance(disc, rect)
     return touch if touch.depth >= 0 else None
 
 
-def overlap_is_turned_round(disc: Disc, rect: Rect) -> Answer:
+def turn_test_round(disc: Disc, rect: Rect) -> Answer:
     answer = find_outside(disc, rect)
     if math.isclose(answer.depth, 0.0, abs_tol=1e-9):
         raise Undecided  # either way
@@ -238,15 +238,15 @@ MODELS: Models = (
         "inside-point-is-the-centre",
         change_inside(lambda t, disc, rect: t._replace(px=disc.x, py=disc.y)),
     ),
-    ("inside-leaves-by-the-farthest-face", if_inside(farthest_face)),
+    ("inside-leaves-by-the-farthest-face", if_inside(find_farthest_face)),
     (
         "inside-always-leaves-by-the-top",
         if_inside(lambda disc, rect: exact.ways_out(disc, rect)[2]),
     ),
     ("edge-counts-as-outside", if_on_edge(raise_error("ZeroDivisionError"))),
     ("edge-counts-as-outside", if_on_edge(raise_error("ValueError"))),
-    ("face-by-the-distance-from-the-middle", if_inside(face_by_offset)),
-    ("face-by-share-of-the-half", if_inside(face_by_share)),
+    ("face-by-the-distance-from-the-middle", if_inside(find_face_by_offset)),
+    ("face-by-share-of-the-half", if_inside(find_face_by_share)),
     (
         "depth-is-the-distance",
         change_outside(lambda t, disc, rect: t._replace(depth=disc.r - t.depth)),
@@ -266,7 +266,7 @@ MODELS: Models = (
     ("inside-normalises-zero", if_inside(raise_error("ValueError"))),  # of normalize()
     ("inside-normalises-zero", if_inside(raise_error("ZeroDivisionError"))),
     ("apart-is-not-noticed", find_at_any_distance),
-    ("touching-counts-as-overlap", touching_counts),
+    ("touching-counts-as-overlap", count_touching),
     ("half-is-taken-for-the-full-size", find_in_box(lambda x, y, hx, hy: (x, y, hx / 2, hy / 2))),
     ("half-is-taken-for-the-full-width", find_in_box(lambda x, y, hx, hy: (x, y, hx / 2, hy))),
     ("half-is-taken-for-the-full-height", find_in_box(lambda x, y, hx, hy: (x, y, hx, hy / 2))),
@@ -290,7 +290,7 @@ mistake(
     find_in_box(lambda x, y, hx, hy: (x + hx, y + hy, 0.0, 0.0)),
 )
 SQUARES: Models = (
-    ("test-is-turned-round", overlap_is_turned_round),
+    ("test-is-turned-round", turn_test_round),
     ("distance-is-squared", divide_by_square),
     ("distance-is-squared", use_square),
     ("distance-is-squared", compare_square),
@@ -302,5 +302,5 @@ mistake(
     "inside-leaves-by-the-farthest-face",
     "A centre inside leaves to the side where up or down is nearer, and the other way round: "
     "compare the two gaps once more.",
-    if_inside(farther_way),
+    if_inside(find_farther_way),
 )

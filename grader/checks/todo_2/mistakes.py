@@ -17,13 +17,13 @@ def describe_turning(a: Lever, b: Lever, axis: Pair) -> dict[str, str]:
     words = {"moves": turns["".join(moving)]} if moving else {}
     levels = {0.0: "the axis is upright", 1.0: "the axis is level"}
     words["_axis"] = levels.get(abs(axis[0]), "the axis is aslant")
-    sides = {name: turning_way(each, axis) for name, each in (("A", a), ("B", b)) if each.mass}
+    sides = {name: describe_push(each, axis) for name, each in (("A", a), ("B", b)) if each.mass}
     if sides:
         words["_way"] = " and ".join(f"{name} {way}" for name, way in sides.items())
     return words
 
 
-def turning_way(lever: Lever, axis: Pair) -> str:
+def describe_push(lever: Lever, axis: Pair) -> str:
     turns = cross((lever.rx, lever.ry), axis)
     if not turns:
         return "is pushed along its arm"

@@ -117,15 +117,15 @@ def add_along(vel: Pair, axis: Pair, by: float) -> Pair:
     return vel[0] + by * axis[0], vel[1] + by * axis[1]
 
 
-def right_a(rod: Rod) -> Pair:
+def push_a(rod: Rod) -> Pair:
     return exact.push_ends(rod, right_impulse(rod))[0]
 
 
-def right_b(rod: Rod) -> Pair:
+def push_b(rod: Rod) -> Pair:
     return exact.push_ends(rod, right_impulse(rod))[1]
 
 
-def a_the_same_way(rod: Rod) -> Pair:
+def push_a_the_same_way(rod: Rod) -> Pair:
     return add_along(rod.vel_a, rod.axis, right_impulse(rod) * inverse(rod.mass_a))
 
 
@@ -138,16 +138,16 @@ def push_both(rod: Rod, impulse: float, axis: Pair) -> Ends:
     return push_by(rod, impulse * inverse(rod.mass_a), impulse * inverse(rod.mass_b), axis)
 
 
-def without_masses(rod: Rod) -> Ends:
+def forget_masses(rod: Rod) -> Ends:
     return push_by(rod, right_impulse(rod), right_impulse(rod), rod.axis)
 
 
-def with_masses_crossed(rod: Rod) -> Ends:
+def cross_masses(rod: Rod) -> Ends:
     by = right_impulse(rod)
     return push_by(rod, by * inverse(rod.mass_b), by * inverse(rod.mass_a), rod.axis)
 
 
-def along_the_offset(rod: Rod) -> Ends:
+def push_along_offset(rod: Rod) -> Ends:
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.offset
     return push_both(rod, (rod.bias - ((bx - ax) * x + (by - ay) * y)) / rod.k, rod.offset)
 
@@ -171,7 +171,7 @@ def change_in_place(rod: Rod) -> Ends:
     return a, (x - rod.vel_a[0], y - rod.vel_a[1])
 
 
-def nothing_if_exact(rod: Rod) -> Ends:
+def skip_if_exact(rod: Rod) -> Ends:
     is_exact = abs(length_error(rod)) <= 1e-9 * rod.length
     return (rod.vel_a, rod.vel_b) if is_exact else exact.solve_rod(rod)
 
@@ -189,27 +189,27 @@ MODELS: Models = (
     ("not-divided-by-k", push(lambda rod: rod.bias - rod.speed)),
     ("bias-has-the-wrong-sign", with_bias(lambda rod: -rod.bias)),
     ("impulse-is-not-applied", lambda rod: (rod.vel_a, rod.vel_b)),
-    ("moves-only-a", lambda rod: (right_a(rod), rod.vel_b)),
-    ("moves-only-b", lambda rod: (rod.vel_a, right_b(rod))),
+    ("moves-only-a", lambda rod: (push_a(rod), rod.vel_b)),
+    ("moves-only-b", lambda rod: (rod.vel_a, push_b(rod))),
     ("b-does-it-all", lambda rod: push_by(rod, 0.0, rod.bias - rod.speed, rod.axis)),
     ("speeds-by-their-lengths", with_speed(difference_of_lengths)),
     ("length-error-for-the-bias", with_bias(length_error)),
     ("length-error-for-the-bias", with_bias(lambda rod: -length_error(rod))),
-    ("impulse-made-anew", lambda rod: (right_a(rod), right_b(rod._replace(vel_a=right_a(rod))))),
-    ("impulse-made-anew", lambda rod: (right_a(rod._replace(vel_b=right_b(rod))), right_b(rod))),
-    ("nothing-where-bias-is-0", nothing_if_exact),
+    ("impulse-made-anew", lambda rod: (push_a(rod), push_b(rod._replace(vel_a=push_a(rod))))),
+    ("impulse-made-anew", lambda rod: (push_a(rod._replace(vel_b=push_b(rod))), push_b(rod))),
+    ("nothing-where-bias-is-0", skip_if_exact),
     ("velocity-changed-in-place", change_in_place),
-    ("pushes-both-the-same-way", lambda rod: (a_the_same_way(rod), right_b(rod))),
+    ("pushes-both-the-same-way", lambda rod: (push_a_the_same_way(rod), push_b(rod))),
     (
         "static-end-first",
-        lambda rod: (right_a(rod) if rod.mass_b else a_the_same_way(rod), right_b(rod)),
+        lambda rod: (push_a(rod) if rod.mass_b else push_a_the_same_way(rod), push_b(rod)),
     ),
-    ("forgets-the-masses", without_masses),
-    ("forgets-the-mass-of-a", lambda rod: (without_masses(rod)[0], right_b(rod))),
-    ("forgets-the-mass-of-b", lambda rod: (right_a(rod), without_masses(rod)[1])),
+    ("forgets-the-masses", forget_masses),
+    ("forgets-the-mass-of-a", lambda rod: (forget_masses(rod)[0], push_b(rod))),
+    ("forgets-the-mass-of-b", lambda rod: (push_a(rod), forget_masses(rod)[1])),
     ("half-of-the-impulse", push(lambda rod: right_impulse(rod) / 2)),
-    ("masses-crossed", with_masses_crossed),
-    ("axis-is-not-a-unit-vector", along_the_offset),
+    ("masses-crossed", cross_masses),
+    ("axis-is-not-a-unit-vector", push_along_offset),
     (
         "velocities-are-replaced",
         lambda rod: exact.push_ends(rod._replace(vel_a=STILL, vel_b=STILL), right_impulse(rod)),

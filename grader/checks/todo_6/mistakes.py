@@ -97,19 +97,19 @@ def one_step_of(size: Callable[[int], int]) -> Callable[[Frames], Answer]:
     return lambda frames: ([1 for _ in frames[:-1]], list_sizes([size(each) for each in frames]))
 
 
-def due_at_once(held: Held) -> int:
+def count_at_once(held: Held) -> int:
     if held % STEP == 0:
         raise Undecided
     return int(-(-held // STEP))
 
 
-def due_towards_zero(held: Held) -> int:
+def count_towards_zero(held: Held) -> int:
     if held % STEP == 0:
         raise Undecided
     return int(held / STEP)
 
 
-def due_while_seconds_are_held(held: Held) -> int:
+def count_seconds(held: Held) -> int:
     """Count steps that take 1 s each out of the accumulator."""
     count = 0
     while held > 0 and count_whole_steps(held):
@@ -121,29 +121,29 @@ def take_seconds(held: Held, count: int) -> Held:
     return held - count * SECOND
 
 
-def sizes_of_all_left(frames: Frames) -> Answer:
+def step_by_all_left(frames: Frames) -> Answer:
     ran = list(run_loop(frames, cap_frame, at_most(1), lambda held, count: 0 if count else held))
     return [count for _, count in ran], list_sizes([int(held) for held, count in ran if count])
 
 
-def sizes_of_accumulator(frames: Frames) -> Answer:
+def step_by_accumulator(frames: Frames) -> Answer:
     ran = list(run_loop(frames, cap_frame))
     sizes = [int(held) - n * STEP for held, count in ran for n in range(count)]
     return [count for _, count in ran], list_sizes(sizes)
 
 
-def sizes_of_frames(frames: Frames) -> Answer:
+def step_by_frames(frames: Frames) -> Answer:
     steps, _ = accumulate()(frames)
     pairs = zip(steps, frames, strict=False)
     return steps, list_sizes([count_thirds(frame) for count, frame in pairs if count])
 
 
-def sizes_doubled(frames: Frames) -> Answer:
+def double_sizes(frames: Frames) -> Answer:
     steps, sizes = accumulate()(frames)
     return steps, [2 * size for size in sizes]
 
 
-def sixtieths(frames: Frames) -> Answer:
+def run_sixtieths(frames: Frames) -> Answer:
     """Run steps of 1/60 s, each as long as two right ones."""
 
     def due(held: Held) -> int:
@@ -155,22 +155,22 @@ def sixtieths(frames: Frames) -> Answer:
     return steps, [2 * STEP_SECONDS] if any(steps) else []
 
 
-def a_step_more(frames: Frames) -> Answer:
+def add_a_step(frames: Frames) -> Answer:
     if max(frames) <= 34:
         raise Undecided  # steps may be slow there, so more steps make the last frames longer
     return answer_with([1 + count for count in accumulate()(frames)[0]])
 
 
-def a_step_less(frames: Frames) -> Answer:
+def skip_a_step(frames: Frames) -> Answer:
     return answer_with([max(count - 1, 0) for count in accumulate()(frames)[0]])
 
 
-def all_held(held: Held) -> int:
+def count_forever(held: Held) -> int:
     """Return the steps of an accumulator that never shrinks, so the loop never ends."""
     return RUNAWAY if count_whole_steps(held) else 0
 
 
-def count_for_accumulator(frames: Frames) -> Answer:
+def swap_pair(frames: Frames) -> Answer:
     """Return the number of steps as the accumulator: the mistake swaps the two."""
     return accumulate(cap_frame, count_whole_steps, lambda held, count: SECOND * count)(frames)
 
@@ -181,7 +181,7 @@ MODELS: Models = (
     ("assumes-sixty-frames", in_each_frame(lambda frame: 2)),
     ("drops-the-remainder", in_each_frame(lambda frame: count_whole_steps(cap_frame(frame)))),
     ("rounds-each-frame", in_each_frame(lambda frame: round(cap_frame(frame) / STEP))),
-    ("steps-before-it-is-due", accumulate(due=due_at_once)),
+    ("steps-before-it-is-due", accumulate(due=count_at_once)),
     ("no-cap", accumulate(count_thirds)),
     ("cap-is-in-seconds", accumulate(lambda frame: min(3 * frame, 8 * SECOND))),
     ("cap-is-a-quarter-second", accumulate(lambda frame: min(3 * frame, SECOND // 4))),
@@ -194,21 +194,21 @@ MODELS: Models = (
         "takes-seconds-for-milliseconds",
         accumulate(lambda frame: min(Fraction(3 * frame, 1000), Fraction(CAP))),
     ),
-    ("accumulator-never-shrinks", accumulate(due=all_held)),
-    ("steps-of-another-size", sizes_doubled),
+    ("accumulator-never-shrinks", accumulate(due=count_forever)),
+    ("steps-of-another-size", double_sizes),
     ("steps-with-the-frame-time", one_step_of(cap_frame)),
     ("steps-with-all-of-the-frame-time", one_step_of(count_thirds)),
-    ("steps-with-all-that-is-left", sizes_of_all_left),
+    ("steps-with-all-that-is-left", step_by_all_left),
     ("emptied-by-a-step", accumulate(due=at_most(1), rest=lambda held, count: held * (not count))),
     ("drops-the-remainder+no-cap", in_each_frame(lambda frame: count_whole_steps(3 * frame))),
-    ("sixtieths-for-steps", sixtieths),
-    ("steps-with-the-accumulator", sizes_of_accumulator),
-    ("steps-with-the-frame-in-the-loop", sizes_of_frames),
-    ("pair-the-wrong-way-round", count_for_accumulator),
-    ("a-step-more-each-frame", a_step_more),
-    ("a-step-less-each-frame", a_step_less),
-    ("count-taken-out", accumulate(due=due_towards_zero, rest=take_seconds)),
-    ("count-taken-out", accumulate(due=due_while_seconds_are_held, rest=take_seconds)),
+    ("sixtieths-for-steps", run_sixtieths),
+    ("steps-with-the-accumulator", step_by_accumulator),
+    ("steps-with-the-frame-in-the-loop", step_by_frames),
+    ("pair-the-wrong-way-round", swap_pair),
+    ("a-step-more-each-frame", add_a_step),
+    ("a-step-less-each-frame", skip_a_step),
+    ("count-taken-out", accumulate(due=count_towards_zero, rest=take_seconds)),
+    ("count-taken-out", accumulate(due=count_seconds, rest=take_seconds)),
     ("no-step-runs", in_each_frame(lambda frame: 0)),
 )
 register("6 7d", "frames", MODELS)  # of both programs
