@@ -83,6 +83,7 @@ class Contacts(Effect):
     def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.touching_gap = TOUCHING * world.unit  # px
+        self.slow = SPECULATIVE_SPEED * world.unit  # px/s
         self.max_push_speed = MAX_PUSH_SPEED * world.unit  # px/s
         self.begin_contact_hooks = world.hooks("begin_contact")
 
@@ -110,7 +111,7 @@ class Contacts(Effect):
 
     def renew_pairs(self, dt: float) -> None:
         """Find the near pairs anew. Contacts get theirs back where bodies still touch."""
-        phase, margin = self.broad_phase, SPECULATIVE_SPEED * self.world.unit * dt
+        phase, margin = self.broad_phase, self.slow * dt
         held = {body for c in self.touching for body in (c.a, c.b)}
         phase.renew(self.world.g, held, dt, self.last_dt if self.lets_none_pass else 0.0, margin)
         if self.ignored:
@@ -125,13 +126,14 @@ class Contacts(Effect):
 
         Bodies that touch are in contact. So are slow ones that may touch within dt seconds: such
         a speculative contact lets them close the gap and no more. Fast ones may still miss each
-        other, so they get none.
+        other, so they get none. Those that touched are slow if they meet or part slowly: a ball
+        that rolls over a round one does not hop.
         """
         touching: list[Contact] = []
         balls: list[Contact] = []
         statics: list[Contact] = []
-        slow, touching_gap = SPECULATIVE_SPEED * self.world.unit, self.touching_gap
-        margin, slow2 = slow * dt, slow * slow
+        slow, touching_gap = self.slow, self.touching_gap
+        margin = slow * dt
         back = self.last_dt if self.lets_none_pass else 0.0
         for pair in self.broad_phase.pairs:
             a, b = pair.a, pair.b
@@ -147,7 +149,10 @@ class Contacts(Effect):
             nx, ny, gap = collide(a, b)
             if (
                 gap > touching_gap
-                and (gap > margin or dvx * dvx + dvy * dvy > slow2)
+                and (
+                    gap > margin
+                    or (abs(dvx * nx + dvy * ny) if pair.contact else hypot(dvx, dvy)) > slow
+                )
                 and not (back and self.have_passed(a, b, gap))
             ):
                 if pair.contact:
@@ -360,11 +365,13 @@ class Contacts(Effect):
                 self.stop_core(body, h)
 
     def gather_crowd(self) -> None:
-        """Have balls in a crowd touch and no more, and those that they meet join it."""
+        """Have balls in a crowd touch and no more. Those that they are put against join it."""
         members = {body for c in self.crowd for body in (c.a, c.b)}
         for c in self.begun:
-            if not (c.b.is_static or members.isdisjoint((c.a, c.b))):
+            met = not (c.b.is_static or members.isdisjoint((c.a, c.b)))
+            if met and c.closing_speed() <= self.slow:
                 self.crowd[c] = None
+        self.crowd = {c: None for c in self.touching if c in self.crowd}
         for c in self.crowd:
             c.gap = max(c.gap, self.touching_gap)
 
@@ -384,6 +391,7 @@ class Contacts(Effect):
             a.y -= ny * way * a.inv_mass
             b.x += nx * way * b.inv_mass
             b.y += ny * way * b.inv_mass
+            a.still = b.still = 0.0
         if deepest < REDETECT_DISTANCE * self.world.unit:
             self.crowd = {}
 
@@ -510,7 +518,6 @@ class Contacts(Effect):
         """Drop all contacts that have A and B: they are not told of as parted."""
         ends = {a, b}
         self.touching = [c for c in self.touching if not ends <= {c.a, c.b}]
-        self.crowd = {c: None for c in self.crowd if not ends <= {c.a, c.b}}
         self.unpaired = {n: c for n, c in self.unpaired.items() if not ends <= {c.a, c.b}}
         self.broad_phase.bounds = []
 
