@@ -22,6 +22,7 @@ CORE = 0.5  # radii
 FAR = 0.125  # of both radii; two balls that come closer by more in a step may have passed
 CORNER_PASSES = 4  # of keeping cores out: put back from one static body, a ball may meet another
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
+CROWDED = 0.1  # radii, by which balls that bear a load overlap in a crowd
 PARTED = 0.3  # of an overlap, by which balls in a crowd are put apart in a step
 TOUCHING = 1e-6  # bodies that are no further apart touch, but for what numbers are rounded to
 MOST_BODIES = 2**30  # and no id is larger
@@ -120,6 +121,8 @@ class Contacts(Effect):
         self.beside_static = list(dict.fromkeys([p.a for p in phase.pairs if not p.b.inv_mass]))
         for c in self.touching:
             self.unpaired[pair_number(c.a, c.b)] = c
+        for pair in phase.pairs if self.unpaired else []:
+            pair.contact = self.unpaired.pop(pair_number(pair.a, pair.b), None)
 
     def find_contacts(self, dt: float) -> None:
         """Find the contacts of all bodies where they are now, with the impulses they had before.
@@ -160,7 +163,7 @@ class Contacts(Effect):
                 continue
             c = pair.contact
             if c is None:
-                c = pair.contact = self.find_contact(a, b, nx, ny)
+                c = pair.contact = self.make_contact(a, b, nx, ny)
             if not b.r:
                 nx, ny, gap = the_way_it_came(c, nx, ny, gap)
             if nx * c.nx + ny * c.ny < SAME_DIRECTION:
@@ -182,14 +185,8 @@ class Contacts(Effect):
         if self.unpaired:
             self.end_unpaired()
 
-    def find_contact(self, a: Body, b: Body, nx: float, ny: float) -> Contact:
-        """Return the contact that two bodies had, or a new one, with this normal.
-
-        What other effects need of a new one is filled in.
-        """
-        before = self.unpaired.pop(pair_number(a, b), None)
-        if before is not None:
-            return before
+    def make_contact(self, a: Body, b: Body, nx: float, ny: float) -> Contact:
+        """Return a new contact with this normal, and with what other effects need of it."""
         c = Contact(a, b)
         c.nx, c.ny = nx, ny
         for begin_contact in self.begin_contact_hooks:
@@ -371,7 +368,7 @@ class Contacts(Effect):
             met = not (c.b.is_static or members.isdisjoint((c.a, c.b)))
             if met and c.closing_speed() <= self.slow:
                 self.crowd[c] = None
-        self.crowd = {c: None for c in self.touching if c in self.crowd}
+        self.crowd = {c: None for c in self.touching if c in self.crowd and is_crowded(c)}
         for c in self.crowd:
             c.gap = max(c.gap, self.touching_gap)
 
@@ -547,6 +544,11 @@ def in_touch(body: Body, contacts: list[Contact]) -> set[Body]:
         found.update(near)
         ahead += near
     return found
+
+
+def is_crowded(c: Contact) -> bool:
+    """Return whether two balls of a crowd still overlap much, or a little but under no load."""
+    return c.jn == 0 or c.gap < -CROWDED * min(c.a.r, c.b.r)
 
 
 def pair_number(a: Body, b: Body) -> int:
