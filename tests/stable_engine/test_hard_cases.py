@@ -8,6 +8,7 @@ import math
 import random
 from dataclasses import replace
 from itertools import product
+from math import hypot, pi, tan
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -21,6 +22,7 @@ from experiments.leaderboard import ask, holds
 from experiments.measures import deepest_overlap, energy, run, speed, top_speed, watch
 from experiments.rows import list_rows
 from experiments.rows.reasons import find_reason
+from experiments.rows.rolling import on_dome
 from experiments.scenes import (
     BULLETS,
     DT,
@@ -34,6 +36,7 @@ from experiments.scenes import (
     closed_box,
     coincident,
     drop,
+    oscillator,
     pile,
     rammer,
     shot,
@@ -95,6 +98,20 @@ def test_balls_in_one_place_part_and_get_no_speed(count):
     xs, ys = ([getattr(body, axis) for body in engine.bodies] for axis in "xy")
     assert max(xs) - min(xs) > 10 < max(ys) - min(ys)
     assert sum(xs) == pytest.approx(0, abs=1e-9) == sum(ys)
+
+
+def test_a_ball_rolls_on_a_big_one_until_nothing_presses_it_any_more():
+    """By energy and Newton's law that is where the cosine is 4/7 of the first one."""
+    world = build(on_dome(50.0))
+    contacts, ball = world.effects["Contacts"], world.bodies[1]
+    cosines, last = [-ball.y / 200], 0
+    while cosines[-1] > 0.4:
+        world.step(DT)
+        cosines.append(-ball.y / hypot(ball.x, ball.y))
+        if any(c.jn for c in contacts.touching):
+            last = len(cosines) - 1
+    exact = 4 / 7 * cosines[0]
+    assert cosines[last - 2] > exact > cosines[last + 2]
 
 
 # ---------------------------------------------------------------- steps that vary
@@ -254,6 +271,17 @@ def test_a_ball_on_a_rod_that_overlaps_its_peg_is_not_stopped_by_it(effects):
 
 
 # ---------------------------------------------------------------- rods and springs
+
+
+@pytest.mark.parametrize("hertz", [1, 5, 10])
+def test_a_spring_swings_in_time(hertz):
+    """A quarter of a swing before the end the ball passes its rest, but for half a substep."""
+    omega, cycles = 2 * pi * hertz, 10 * hertz
+    engine = Stable(oscillator(omega**2, stretch=50))
+    run(engine, (cycles - 0.25) / hertz)
+    error = omega * 10 * (omega * H) ** 4 / 480  # rad, of Numerov's method in ten seconds
+    lag = 50 * tan(omega * H / 2)
+    assert abs(engine.read(1).x - 100) == pytest.approx(lag, abs=50 * 2 * error)
 
 
 @pytest.mark.parametrize("length", sample([2, 10, 50], 2))

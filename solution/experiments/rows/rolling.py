@@ -107,7 +107,7 @@ def make_rows():
                   f"where the cosine is {'2/3' if mu == 0 else '4/7'} of the first one.",
                   partial(on_dome, mu), partial(leaves_dome, exact=exact),
                   Bound(0.01, "one hundredth: the start takes long, and all of it counts"),
-                  quick=mu > 0)
+                  quick=mu == 0)
     for fast in (200.0, 600.0):
         yield Row(f"edge: off a table at {fast:g} px/s",
                   "Where v² > g r it flies at once, and nothing changes its speed along.",
