@@ -129,8 +129,9 @@ class Contacts(Effect):
 
         Bodies that touch are in contact. So are slow ones that may touch within dt seconds: such
         a speculative contact lets them close the gap and no more. Fast ones may still miss each
-        other, so they get none. Those that touched are slow if they meet or part slowly, and their
-        normal is that of the middle of the step: a ball that rolls over a round one does not hop.
+        other, so they get none. Those that touched are slow if they meet or part slowly. A ball
+        that rolls over a round one gets the normal of the middle of the step, or it would hop. An
+        elastic one does not: turned, a normal makes a pair that passes seem to collide.
         """
         touching: list[Contact] = []
         balls: list[Contact] = []
@@ -168,7 +169,7 @@ class Contacts(Effect):
                 nx, ny, gap = the_way_it_came(c, nx, ny, gap)
             if nx * c.nx + ny * c.ny < SAME_DIRECTION:
                 c.jn = c.jt = 0.0
-            elif b.r and abs(dvx * nx + dvy * ny) <= slow < hypot(dvx, dvy):
+            elif b.r and not c.e and abs(dvx * nx + dvy * ny) <= slow < hypot(dvx, dvy):
                 nx, ny = turned(nx, ny, (dvy * nx - dvx * ny) * dt / (2 * (a.r + b.r)))
             c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
             touching.append(c)

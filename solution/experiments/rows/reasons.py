@@ -2,7 +2,6 @@
 
 SOFT = "Contacts are soft: they sink by a little that grows with the weight."
 REASONS = {
-    "dome: rolls": "A normal is turned once per step: the ball takes off a step too early.",
     "tower: 20 equal balls, top": SOFT,
     "tower: 40 equal balls, top": SOFT,
     "tower: 6 balls of 1 kg and 100 kg": SOFT,
