@@ -31,7 +31,7 @@ HEAPS = (40, 200, 400)  # balls, for the two bonus tasks that save work
 LULL = 1.25  # s, after which a pile at rest is asleep
 USERS = 10  # rods, springs, bullets
 MOVED = 0.001  # px, so far that contacts may have changed
-WARM_UP = 20  # steps before anything is counted
+WARM_UP = 40  # steps before anything is counted: rooms adapt to what moves
 DAMPING = (0.05, 0.3)  # 1/s
 OUT = Path("build/effects")
 
