@@ -1,7 +1,7 @@
 """Contacts: bodies do not pass through each other."""
 
 from collections.abc import Callable
-from math import hypot, sqrt
+from math import sqrt
 
 from .body import Body
 from .broad_phase import BroadPhase, Pair
@@ -219,7 +219,8 @@ class Contacts(Effect):
 
     def have_passed(self, a: Body, b: Body, gap: float) -> bool:
         """Return whether two free balls have touched on their way here, and are past each other."""
-        way = hypot(a.vx - b.vx, a.vy - b.vy) * self.last_dt
+        vx, vy = a.vx - b.vx, a.vy - b.vy
+        way = sqrt(vx * vx + vy * vy) * self.last_dt
         if way <= gap or way <= FAR * (a.r + b.r) or not b.r:
             return False
         if a.joint_count or b.joint_count or self.was_stopped(a) or self.was_stopped(b):
