@@ -12,9 +12,7 @@ LONGEST = 0.5  # s, that a room covers
 SHUFFLED = 8  # steps, after which the order of the sweep has changed much
 WIDER = 1.1  # times, must bodies be spread along the other axis for the sweep to change to it
 LANE = 6.0  # times half the width of a ball, as broad as a lane is
-FEW = 8  # boxes in a lane, so few that dropping any is not worth it
-
-Falls = tuple[float, float, float, float]  # px, to the left, right, top and bottom
+FEW = 4  # boxes in a lane, so few that dropping any is not worth it
 
 
 class Pair:
@@ -50,22 +48,23 @@ class Bounds:
         self.low = self.high = self.side_low = self.side_high = 0.0  # px
         self.first_lane: list[Bounds] = []
 
-    def make_room(self, back: float, ahead: float, falls: Falls) -> None:
-        """Make room for the way of a body, from so many seconds ago to so many ahead.
-
-        falls says how many px it may fall to each side.
-        """
+    def make_room(self, back: float, ahead: float) -> None:
+        """Make room for the way of a body, from so many seconds ago to so many ahead."""
         body, margin = self.body, self.margin
         x, y, vx, vy = body.x, body.y, body.vx, body.vy
-        left, right, top, bottom = falls
         if vx > 0:
-            self.left, self.right = x - vx * back - margin - left, x + vx * ahead + margin + right
+            self.left, self.right = x - vx * back - margin, x + vx * ahead + margin
         else:
-            self.left, self.right = x + vx * ahead - margin - left, x - vx * back + margin + right
+            self.left, self.right = x + vx * ahead - margin, x - vx * back + margin
         if vy > 0:
-            self.top, self.bottom = y - vy * back - margin - top, y + vy * ahead + margin + bottom
+            self.top, self.bottom = y - vy * back - margin, y + vy * ahead + margin
         else:
-            self.top, self.bottom = y + vy * ahead - margin - top, y - vy * back + margin + bottom
+            self.top, self.bottom = y + vy * ahead - margin, y - vy * back + margin
+
+    def make_room_to_fall(self, fall_x: float, fall_y: float) -> None:
+        """Make more room for a body that falls by so many px."""
+        self.left, self.right = self.left + min(fall_x, 0.0), self.right + max(fall_x, 0.0)
+        self.top, self.bottom = self.top + min(fall_y, 0.0), self.bottom + max(fall_y, 0.0)
 
     def find_start(self, dt: float) -> None:
         """Work out where a body was dt seconds ago, that flew straight out of its room."""
@@ -154,11 +153,12 @@ class BroadPhase:
             ahead = min(2 * self.ahead, LONGEST)
         self.is_sorted = self.is_sorted and self.age < SHUFFLED * dt
         self.ahead, self.age, self.looks = ahead, 0.0, 0
-        x, y = g[0] * ahead * ahead / 2, g[1] * ahead * ahead / 2
-        falls, none = (max(-x, 0.0), max(x, 0.0), max(-y, 0.0), max(y, 0.0)), (0.0, 0.0, 0.0, 0.0)
+        fall_x, fall_y = g[0] * ahead * ahead / 2, g[1] * ahead * ahead / 2
         for one in self.moving:
-            rests = falls == none or one.body.idle or one.body in held
-            one.make_room(back, ahead, none if rests else falls)
+            one.make_room(back, ahead)
+        for one in self.moving if fall_x or fall_y else []:
+            if not (one.body in held or one.body.idle):
+                one.make_room_to_fall(fall_x, fall_y)
         self.pairs = self.sweep(margin)
         self.is_stale = False
 
@@ -184,7 +184,7 @@ class BroadPhase:
         if upright:
             left, right, top, bottom = top, bottom, left, right
         count = min(int((bottom - top) / self.lane), int(sqrt(len(self.bounds)))) + 1
-        lanes: list[list[Bounds]] = [[] for _ in range(count)]
+        lanes: list[list[Bounds]] = [[] for _ in range(count + 1)]
         per_px = count / (bottom - top)
         pairs: list[Pair] = []
         spare = self.pairs
@@ -197,7 +197,7 @@ class BroadPhase:
             a, first = one.body, int((side_low - top) * per_px) if side_low > top else 0
             last = int((side_high - top) * per_px) if side_high < bottom else count
             first_lane = one.first_lane = lanes[first]
-            for index in range(first, min(last + 1, count)):
+            for index in range(first, last + 1):
                 lane = lanes[index]
                 if len(lane) > FEW:
                     lane[:] = [other for other in lane if other.high > low]
