@@ -1,7 +1,7 @@
 """Contacts: bodies do not pass through each other."""
 
 from collections.abc import Callable
-from math import sqrt
+from math import hypot, sqrt
 
 from .body import Body
 from .broad_phase import BroadPhase, Pair
