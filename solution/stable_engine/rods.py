@@ -22,7 +22,6 @@ TORN = 0.02  # share of a length; a rod that is further off is torn
 LOOSE = 0.003  # share of a length; if the last pass is off by more, it is soft
 GUARDED = 0.9  # cosine; where a rod turns further in a substep, none may gain energy
 LOST = 0.8  # cosine; where a rod turns further in a substep, Newton's method gets lost
-SOON = 8.0  # substeps in which a ball may turn and get faster
 PARTS = 4  # into which a substep is cut at first
 MOST_PARTS = 64
 FIRM = 1 + 1e-9  # times a pivot: where there are more rods than needed, a matrix has no inverse
@@ -161,7 +160,7 @@ class Frame:
         """
         if self.find_impulses(h, bias):
             return
-        if not (self.is_whole() and self.is_free(h) and self.go_in_parts(h, bias)):
+        if self.is_carried() or not (self.is_whole() and self.go_in_parts(h, bias)):
             self.give_way(h, bias, soft)
 
     def find_impulses(self, h: float, bias: float, slow: float = SLOW) -> bool:
@@ -303,29 +302,9 @@ class Frame:
         """Return whether all rods have about their lengths."""
         return all([abs(rod.distance - rod.rest) < TORN * rod.rest for rod in self.rods])
 
-    def is_free(self, h: float) -> bool:
-        """Return whether nothing is in the way of the balls, and nothing carries the frame along.
-
-        Contacts are not solved within parts of a substep.
-        """
-        if any([body.is_kinematic for body in self.ends]):
-            return False
-        contacts = self.world.effects.get("Contacts")
-        if not isinstance(contacts, Contacts):
-            return True
-        touched = {body for c in contacts.touching for body in (c.a, c.b)}
-        return touched.isdisjoint(self.balls) and not any([self.is_near(b, h) for b in self.balls])
-
-    def is_near(self, ball: Body, h: float) -> bool:
-        """Return whether a ball may soon come to a static body that the frame does not hang on."""
-        far = SOON * h * hypot(ball.vx, ball.vy) + ball.r
-        return any(
-            [
-                abs(s.x - ball.x) < s.hx + far and abs(s.y - ball.y) < s.hy + far
-                for s in self.world.statics
-                if s not in self.ends
-            ]
-        )
+    def is_carried(self) -> bool:
+        """Return whether the frame is tied to a body that moves on by itself."""
+        return any([body.is_kinematic for body in self.ends])
 
     def give_way(self, h: float, bias: float, soft: float) -> None:
         """Choose velocities for a frame that is torn, or in touch and turns far in a substep.

@@ -170,17 +170,9 @@ def test_a_scene_in_metres_is_asked_for_its_unit():
         assert len(World((0, gravity), unit=unit).check()) == asked
 
 
-@pytest.mark.parametrize(
-    ("ratio", "effects", "told"),
-    [
-        (20, ["Rods", "Contacts"], 0),
-        (100, ["Rods", "Contacts"], 1),
-        (100, ["Rods"], 0),
-        (1e5, ["Rods"], 1),
-    ],
-)
-def test_a_light_chain_with_a_heavy_ball_is_told_of_where_rods_may_stretch(ratio, effects, told):
-    world = World(effects=make(effects))
+@pytest.mark.parametrize(("ratio", "told"), [(100, 0), (1e5, 1)])
+def test_a_load_too_heavy_for_the_rods_of_a_chain_is_told_of(ratio, told):
+    world = World(effects=make(["Rods", "Contacts"]))
     last = world.add(Body(Circle(5), (0, 0)))
     for i in range(1, 5):
         link = world.add(Body(Circle(5), (0, 50 * i), mass=ratio if i == 4 else 1))

@@ -9,7 +9,8 @@ from worlds_for_tests import balls, build
 
 from experiments.engines import Stable
 from experiments.measures import energy, run, watch, worst_stretch
-from experiments.scenes import DT, Ball, G, Scene, Spring, chain
+from experiments.rows.row import fall_speed, late
+from experiments.scenes import DT, TOUCH, Ball, Block, G, Scene, Spring, chain
 
 # ---------------------------------------------------------------- rods keep energy
 
@@ -74,6 +75,19 @@ def test_a_swinging_chain_stretches_by_less_than_a_link_or_the_check_says_so(rat
     assert any("substeps" in sentence for sentence in engine.complaints) == (ratio > 100)
     if ratio <= 100:
         assert max(watch(engine, 5, lambda: worst_stretch(engine))) < 20
+
+
+@pytest.mark.parametrize("degrees", sample([10, 16, 22, 28], 2))
+def test_a_wrecking_ball_tears_no_chain(degrees):
+    """It hits a tower beside its way and swings on; light links snap tight behind 1000 kg."""
+    way = -math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    links = [Ball((50 * i * way[0], 50 * i * way[1]), 5, float(i > 0)) for i in range(11)]
+    wrecker = Ball((550 * way[0], 550 * way[1]), 40, 1000.0)
+    column = [Ball((100, 580 - 40 * i), 20) for i in range(6)]
+    bodies = [*links, wrecker, Block((0, 610), (800, 10)), *column]
+    rods = [(i, i + 1) for i in range(11)]
+    engine = Stable(Scene(bodies, (*TOUCH, "Rods"), rods))
+    assert max(watch(engine, 6, lambda: worst_stretch(engine))) < late(fall_speed(550)).limit
 
 
 def test_a_closed_frame_of_rods_turns_with_its_energy():
