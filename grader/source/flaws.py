@@ -103,13 +103,16 @@ def find_flaw(text: str) -> Flaw | None:
     return next((flaw_at(text, line, why) for line, why in find_misplaced(tree)), None)
 
 
+def quote(text: str, most: int = MAX_LINE) -> str:
+    """Return a text, cut to the length of a quote."""
+    return text if len(text) <= most else f"{text[: most - 1]}…"
+
+
 def flaw_at(text: str, line: int, message: str) -> Flaw:
     lines = text.splitlines()
     line = min(max(line, 1), max(len(lines), 1))
     there = lines[line - 1].strip() if lines else ""
-    shown = there if len(there) <= MAX_LINE else f"{there[: MAX_LINE - 1]}…"
-    said = message if len(message) <= MAX_SAID else f"{message[: MAX_SAID - 1]}…"
-    return Flaw(line, said, shown)
+    return Flaw(line, quote(message, MAX_SAID), quote(there))
 
 
 def find_misplaced(tree: ast.Module) -> Iterator[tuple[int, str]]:

@@ -14,7 +14,7 @@ from functools import cache
 from itertools import accumulate, islice
 
 from grader.source.definitions import dotted_name, statements
-from grader.source.flaws import MAX_LINE
+from grader.source.flaws import quote
 from grader.source.regions import (
     MAX_SHAPE,
     START,
@@ -153,7 +153,7 @@ def compare_file(file: str, text: str, given: str) -> Iterator[GivenChange]:
     for name in sorted(own.keys() & imported_names(statements(given)) - originals.keys()):
         hides = own[name]
         yield GivenChange(
-            name, file, hides.start + 1, cut(lines[hides.start]), "", hides.start, hides.stop
+            name, file, hides.start + 1, quote_code(lines[hides.start]), "", hides.start, hides.stop
         )
 
 
@@ -212,9 +212,9 @@ def first_difference(mine: Sequence[str], given: Sequence[str]) -> tuple[int, st
         alone = "" if theirs and meant else theirs or meant
         places = [number for number, line in own if line == alone]
         if places and len(places) == sum(line == alone for _, line in right):
-            return places[0], cut(alone), cut(alone)
-        return number, cut(theirs), cut(meant)
-    return 0, cut(mine[0].strip()), cut(given[0].strip())
+            return places[0], quote_code(alone), quote_code(alone)
+        return number, quote_code(theirs), quote_code(meant)
+    return 0, quote_code(mine[0].strip()), quote_code(given[0].strip())
 
 
 def code_lines(lines: Sequence[str]) -> Iterator[tuple[int, str]]:
@@ -230,15 +230,15 @@ def is_code(line: str) -> bool:
 
 
 def first_code(lines: Sequence[str]) -> str:
-    return cut(next((text for _, text in code_lines(lines)), ""))
+    return quote_code(next((text for _, text in code_lines(lines)), ""))
 
 
-def cut(line: str) -> str:
+def quote_code(line: str) -> str:
     """Return a line without its comment at the end, cut to the length of a quote."""
     text = line.strip()
     if '"' not in text and "'" not in text:
         text = text.partition("  #")[0].rstrip()
-    return text if len(text) <= MAX_LINE else f"{text[: MAX_LINE - 1]}…"
+    return quote(text)
 
 
 # ---------------------------------------------------------------- pieces

@@ -6,14 +6,14 @@ Only the text decides. If a line can be removed, a run without it shows whether 
 import ast
 import re
 import textwrap
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from typing import TypeGuard
 
 from grader.source.definitions import find_function, statements
-from grader.source.flaws import MAX_LINE
+from grader.source.flaws import quote
 from grader.source.regions import Region, read_regions
 
 REBOUND = (
@@ -97,8 +97,14 @@ class RegionCode:
 
     def quote(self, line: int) -> str:
         """Return a line of the file, cut to the length of a quote."""
-        text = self.text.splitlines()[line - 1].strip()
-        return text if len(text) <= MAX_LINE else f"{text[: MAX_LINE - 1]}…"
+        return quote(self.text.splitlines()[line - 1].strip())
+
+    def suspect_first(self, lines: Sequence[int], words: str) -> Suspect | None:
+        """Return the first of some lines of the region, in words about its number and text."""
+        if not lines:
+            return None
+        line = self.before + min(lines)
+        return Suspect(line, words.format(line=line, text=self.quote(line)))
 
 
 def find_suspects(code: RegionCode) -> Mapping[str, Suspect]:
@@ -148,10 +154,7 @@ def find_idle(code: RegionCode) -> Suspect | None:
     """Return the first line that only computes a value and does not store it."""
     pure = PURE | {each.name for each in code.nodes if is_pure(each)}
     idle = [n.lineno for n in code.nodes if isinstance(n, ast.Expr) and is_idle(n.value, pure)]
-    if not idle:
-        return None
-    line = code.before + min(idle)
-    return Suspect(line, IDLE.format(line=line, text=code.quote(line)))
+    return code.suspect_first(idle, IDLE)
 
 
 def is_pure(node: ast.AST) -> TypeGuard[ast.FunctionDef]:
@@ -241,10 +244,7 @@ def name_first(found: Collection[tuple[int, str]], words: str) -> Suspect | None
 def find_loop(code: RegionCode) -> Suspect | None:
     """Return the line of the first `while`."""
     loops = [node.lineno for node in code.nodes if isinstance(node, ast.While)]
-    if not loops:
-        return None
-    line = code.before + min(loops)
-    return Suspect(line, LOOP.format(line=line, text=code.quote(line)))
+    return code.suspect_first(loops, LOOP)
 
 
 def find_unread(code: RegionCode) -> Suspect | None:
@@ -315,8 +315,7 @@ def find_return_in_loop(code: RegionCode) -> Suspect | None:
         and isinstance(loop.body[-1], ast.Return)
         and not any(isinstance(node, ast.Continue) for node in ast.walk(loop))
     ]
-    line = code.before + min(lines, default=0)
-    return Suspect(line, RETURNS.format(line=line)) if lines else None
+    return code.suspect_first(lines, RETURNS)
 
 
 def find_alias(code: RegionCode) -> Suspect | None:
