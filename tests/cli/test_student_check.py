@@ -73,9 +73,13 @@ def test_a_check_leaves_replays_of_what_failed_and_nothing_else(hand_in, monkeyp
     before = {*tree.rglob("*")}
     fill_in(tree, INTEGRATORS, _8b="    return x, v")
     monkeypatch.chdir(tree / "mini_engine")
-    seen = re.findall(r"See it\s+(\S+)", check(Path(), "8b"))
-    assert seen and all(path.startswith("../build/replays/8b-") for path in seen)
-    assert all((tree / "mini_engine" / path).is_file() for path in seen)
+    monkeypatch.setenv("COLUMNS", "200")
+    out = check(Path(), "8b")
+    assert max(map(len, out.splitlines())) <= 80
+    assert re.search(r"^ {14}\S", out, re.MULTILINE)  # continuation lines are indented
+    replays = re.findall(r"See it\s+(\S+)", out)
+    assert replays and all(path.startswith("../build/replays/8b-") for path in replays)
+    assert all((tree / "mini_engine" / path).is_file() for path in replays)
     assert {path.relative_to(tree).parts[0] for path in {*tree.rglob("*")} - before} == {"build"}
     assert (tree / "build" / "replays" / ".gitignore").read_text(encoding="utf-8") == "*\n"
 
@@ -208,17 +212,10 @@ threading.Timer.start = slowly
 # ---------------------------------------------------------------- the terminal
 
 
-def test_no_line_is_longer_than_80_columns(hand_in, monkeypatch: pytest.MonkeyPatch):
+def test_lines_fit_a_narrow_terminal(hand_in):
     tree = hand_in("starter")
     fill_in(tree, INTEGRATORS, _8b="    return x, v")
-    monkeypatch.chdir(tree)
-    monkeypatch.setenv("COLUMNS", "200")
-    wide = check(Path(), "8b")
-    assert max(map(len, wide.splitlines())) <= 80
-    assert re.search(r"^ {14}\S", wide, re.MULTILINE)  # continuation lines are indented
-    command = [sys.executable, "-m", "grader", "check", "--todo", "8b"]
-    environment = {**os.environ, "PYTHONPATH": str(KIT), "COLUMNS": "76"}  # read at the start
-    narrow = subprocess.run(command, env=environment, stdout=subprocess.PIPE, text=True).stdout
+    narrow = start_grader("check", "--todo", "8b", cwd=tree, COLUMNS="76").stdout
     assert "We ran" in narrow
     in_one_piece = re.compile(r"/replays/|Run it|^(A hint|All): ")  # to be copied
     words = [line for line in narrow.splitlines() if not in_one_piece.search(line)]

@@ -790,6 +790,7 @@ def test_the_script_can_be_copied(browser: Any, pages: Path):
 UNSEEN = {
     "the_program_says_how_many_steps_ran",
     "the_space_keeps_its_damping_and_settings",
+    "the_picture_shows_where_the_balls_are",
     "a_sleeper_wakes_when_it_is_hit_or_loses_its_support",  # reads `asleep` after the last step
     "2-cleans-the-axis",  # off in the eighth digit, as is the next one
     "B2-damping-remembered",
