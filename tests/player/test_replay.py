@@ -30,7 +30,7 @@ from grader.checks.whole import checks as whole
 from grader.judge.failures import Failing
 from grader.judge.grade import grade
 from grader.judge.lab import Lab
-from grader.judge.result import Result
+from grader.judge.result import CheckResult, Result
 from grader.judge.rubric import load_rubric
 from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall.children import ChildEnded
@@ -786,19 +786,23 @@ def test_the_script_can_be_copied(browser: Any, pages: Path):
 # ---------------------------------------------------------------- the whole bank
 
 
-# Failures that a picture cannot show: checks of what is printed, read or counted, and members.
+# Failures that a picture cannot show: checks of what is printed, read or drawn, and members.
 UNSEEN = {
     "the_program_says_how_many_steps_ran",
     "the_space_keeps_its_damping_and_settings",
     "the_picture_shows_where_the_balls_are",
-    "a_sleeper_wakes_when_it_is_hit_or_loses_its_support",  # reads `asleep` after the last step
+    "the_pymunk_stack_falls_when_it_is_knocked_over",  # reads the last line as well
     "2-cleans-the-axis",  # off in the eighth digit, as is the next one
     "B2-damping-remembered",
-    "whole-pymunk-reset-keeps-the-old-stack",  # prints another last line
     "7d-fewer-passes-when-slow",  # sets the passes of a space
     "B3-remembers-the-first-grid",  # right in the first scene
     "B3-compares-all-pairs",  # right everywhere, and slow
 }
+
+
+def is_unseen(member: Member, check: CheckResult) -> bool:
+    """Return whether a right and a wrong run look the same; so do sleepers and balls that lie."""
+    return bool(UNSEEN & {member.name, check.id}) or member.name.startswith("B1-")
 
 
 @pytest.mark.soak
@@ -816,7 +820,7 @@ def test_wrong_answers_of_the_bank_part_and_their_scripts_run(member: Member, tm
         if check.state == "not yet":
             assert check.replay is not None, check.id
             parts = read_replay(tmp_path / check.replay)["parting"] is not None
-            assert parts or UNSEEN & {member.name, check.id}, check.id
+            assert parts or is_unseen(member, check), check.id
             script = (tmp_path / check.replay).with_suffix(".py")
             runs_on = "never" in member.name  # a loop that does not end
             if not runs_on and "main()" not in script.read_text(encoding="utf-8"):
