@@ -3,6 +3,7 @@
 The recorder is the `send` of a lab's connection: all requests and answers pass through it.
 """
 
+import sys
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -56,12 +57,14 @@ class Recorder:
     """Records the requests of a lab: a line of a run for each."""
 
     translator: Translator
+    most_scenes: int = sys.maxsize  # further ones are not recorded
     experiment: str = ""
     scenes: list[list[Run]] = field(default_factory=lambda: [[]])
     steps: list[list[Step]] = field(default_factory=lambda: [[]])  # by scene
     _new_scene: bool = True
     _new_run: bool = True
     _count: int = 0
+    _is_full: bool = False
 
     def begin_scene(self, text: str) -> None:
         """Begin another experiment, described by `text`."""
@@ -88,7 +91,7 @@ class Recorder:
         cut = self._new_run
         if cut:
             self._begin_run()
-        if self._count >= MAX_MOMENTS:
+        if self._count >= MAX_MOMENTS or self._is_full:
             return self._ask_only(child, request)
         answered = child.ask(Record(let_steps_run(request), MAX_PER_REQUEST, cut))
         if not isinstance(answered.reply, WithMoments):
@@ -100,18 +103,21 @@ class Recorder:
 
     def _begin_run(self) -> None:
         if self._new_scene and self.scenes[-1]:
+            self._is_full = len(self.scenes) == self.most_scenes
+            if self._is_full:
+                return
+            self._leave_room()
             self.scenes.append([])
             self.steps.append([])
-            self._forget_old_scenes()
         self._new_scene = self._new_run = False
         self.scenes[-1].append(Run(self.experiment))
 
-    def _forget_old_scenes(self) -> None:
-        """Leave half of all moments to a new scene; the last one is shown."""
-        for number, runs in enumerate(self.scenes[:-1]):
-            if self._count > MAX_MOMENTS // 2:
-                self._count -= sum(len(line.moments) for run in runs for line in run.lines)
-                self.scenes[number], self.steps[number] = [], []
+    def _leave_room(self) -> None:
+        """Forget the latest scene once half of all moments are used, since the last is shown."""
+        if self._count > MAX_MOMENTS // 2:
+            lines = [line for run in self.scenes[-1] for line in run.lines]
+            self._count -= sum(len(line.moments) for line in lines)
+            self.scenes[-1], self.steps[-1] = [], []
 
     def _add_line(self, request: Request, answered: Answered, recorded: WithMoments) -> None:
         run = self.scenes[-1][-1]
@@ -168,8 +174,9 @@ class RecordingLab(Lab):
         open_child: Callable[[], Child],
         pieces: list[Piece],
         secret: str | None = None,
+        most_scenes: int = sys.maxsize,
     ) -> None:
-        self.recorder = Recorder(Translator(module))
+        self.recorder = Recorder(Translator(module), most_scenes)
         super().__init__(module, open_child, pieces, self.recorder.send, secret)
 
     def ran(self, text: str) -> None:
@@ -235,11 +242,18 @@ def draw_curve(request: Integrate, answers: list[Value]) -> list[Moment]:
     ]
 
 
-def record_again(failing: Failing, open_child: OpenChild, pieces: list[Piece]) -> RecordingLab:
-    """Run a failed check again and record it."""
+def record_again(
+    failing: Failing,
+    open_child: OpenChild,
+    pieces: list[Piece],
+    most_scenes: int = sys.maxsize,
+) -> RecordingLab:
+    """Run a failed check again and record its first scenes."""
     todo, check = failing.todo, failing.check
     module = check.module or todo.module
-    lab = RecordingLab(module, lambda: open_child(check.cpu_seconds), pieces, failing.secret)
+    lab = RecordingLab(
+        module, lambda: open_child(check.cpu_seconds), pieces, failing.secret, most_scenes
+    )
     with lab.opened(), suppress(Exception):
         failing.again(lab=lab)
     return lab

@@ -85,7 +85,8 @@ class Replays:
         self.budget.charge_for_words(lab.connection)
         self.deaths += lab.ended
         recorder = lab.recorder
-        shown, both = self._choose_scenes(recorder, self._expected_scenes(failing))
+        right = self._expected_scenes(failing, len(recorder.scenes))
+        shown, both = self._choose_scenes(recorder, right)
         if not any(scene.lines for scene in both.scenes):
             return None
         steps = [step for steps in recorder.steps[shown] for step in steps]
@@ -112,10 +113,10 @@ class Replays:
                 break
         return shown, both
 
-    def _expected_scenes(self, failing: Failing) -> list[list[Run]]:
-        """Return the scenes of the right run: of the reference, or recorded before."""
+    def _expected_scenes(self, failing: Failing, count: int) -> list[list[Run]]:
+        """Return the first scenes of the right run: of the reference, or recorded before."""
         if self.open_reference is not None:
-            return record_again(failing, self.open_reference, []).recorder.scenes
+            return record_again(failing, self.open_reference, [], count).recorder.scenes
         return load_expected().get(f"{failing.todo.id}/{failing.check.id}", [])
 
 

@@ -857,7 +857,7 @@ def test_a_world_of_an_earlier_scene_is_shown_with_its_bodies():
 
 def test_the_last_scene_of_a_long_check_is_recorded():
     recorder = record_solution("B1", todo_b1.nothing_sleeps_that_moves_flies_or_hangs)
-    assert recorder.scenes[-1][-1].lines and not recorder.scenes[0]
+    assert recorder.scenes[0] and recorder.scenes[-1][-1].lines and not recorder.scenes[-2]
 
 
 def test_a_body_between_two_steps_is_asked_in_the_scene_of_the_step(tmp_path: Path):
