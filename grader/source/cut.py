@@ -75,6 +75,11 @@ def list_defined(node: ast.stmt) -> Iterator[str]:
             yield name
 
 
+def list_names(body: Iterable[ast.stmt]) -> set[str]:
+    """Return the functions, classes, variables and imports that statements define."""
+    return {name for node in body for name in list_defined(node)}
+
+
 def find_bound_name(alias: ast.alias) -> str:
     return alias.asname or alias.name.partition(".")[0]
 

@@ -14,8 +14,9 @@ from functools import cache, cached_property
 from itertools import islice
 
 from grader.judge.submission import handed_out, load_given
+from grader.source.cut import list_names
 from grader.source.definitions import list_functions, statements
-from grader.source.given import given_pieces, imported_names
+from grader.source.given import given_pieces
 from grader.source.regions import read_regions
 from grader.source.suspects import REBOUND
 from grader.text import join_words
@@ -78,7 +79,7 @@ class Error:
     @property
     def around(self) -> set[str]:
         """Return the names that the file defines outside its functions."""
-        return {*imported_names(self.body), *list_bound(self.body)}
+        return list_names(self.body)
 
     def nodes(self) -> Iterator[ast.AST]:
         """Yield the nodes that begin in the line."""
@@ -384,23 +385,11 @@ def explain_pair(match: Match, error: Error) -> str:
 # ---------------------------------------------------------------- given code
 
 
-def list_bound(body: Collection[ast.stmt]) -> Iterator[str]:
-    """Yield the functions, classes and variables that statements define."""
-    for node in body:
-        match node:
-            case ast.FunctionDef(name=name) | ast.ClassDef(name=name):
-                yield name
-            case ast.Assign(targets=targets):
-                for each in ast.walk(ast.Tuple(targets, ast.Load())):
-                    if isinstance(each, ast.Name):
-                        yield each.id
-
-
 @cache
 def stub_names(todo: str) -> frozenset[str]:
     """Return the variables that the stub of a TODO sets, for the lines below it."""
     body = statements("\n".join(map(str.strip, handed_out().stubs.get(todo, "").splitlines())))
-    return frozenset(list_bound(body))
+    return frozenset(list_names(body))
 
 
 def own_attributes(error: Error) -> set[str]:
@@ -412,7 +401,7 @@ def own_attributes(error: Error) -> set[str]:
 
 
 def attributes_of(node: ast.ClassDef) -> set[str]:
-    found = set(list_bound(node.body))
+    found = list_names(node.body)
     for each in ast.walk(node):
         match each:
             case ast.Attribute(value=ast.Name(id="self"), attr=name, ctx=ast.Store()):
