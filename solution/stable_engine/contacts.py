@@ -1,7 +1,7 @@
 """Contacts: bodies do not pass through each other."""
 
 from collections.abc import Callable
-from math import hypot, sqrt
+from math import sqrt
 
 from .body import Body
 from .broad_phase import BroadPhase, Pair
@@ -137,7 +137,7 @@ class Contacts(Effect):
         balls: list[Contact] = []
         statics: list[Contact] = []
         slow, touching_gap = self.slow, self.touching_gap
-        margin = slow * dt
+        margin, slow2 = slow * dt, slow * slow
         back = self.last_dt if self.lets_none_pass else 0.0
         for pair in self.broad_phase.pairs:
             a, b = pair.a, pair.b
@@ -155,7 +155,8 @@ class Contacts(Effect):
                 gap > touching_gap
                 and (
                     gap > margin
-                    or (abs(dvx * nx + dvy * ny) if pair.contact else hypot(dvx, dvy)) > slow
+                    or (pair.contact and abs(dvx * nx + dvy * ny) > slow)
+                    or (not pair.contact and dvx * dvx + dvy * dvy > slow2)
                 )
                 and not (back and self.have_passed(a, b, gap))
             ):
@@ -169,7 +170,7 @@ class Contacts(Effect):
                 nx, ny, gap = the_way_it_came(c, nx, ny, gap)
             if nx * c.nx + ny * c.ny < SAME_DIRECTION:
                 c.jn = c.jt = 0.0
-            elif b.r and not c.e and abs(dvx * nx + dvy * ny) <= slow < hypot(dvx, dvy):
+            elif dvx * dvx + dvy * dvy > slow2 and is_rolling(c, abs(dvx * nx + dvy * ny), slow):
                 nx, ny = turned(nx, ny, (dvy * nx - dvx * ny) * dt / (2 * (a.r + b.r)))
             c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
             touching.append(c)
@@ -548,6 +549,11 @@ def in_touch(body: Body, contacts: list[Contact]) -> set[Body]:
         found.update(near)
         ahead += near
     return found
+
+
+def is_rolling(c: Contact, speed: float, slow: float) -> bool:
+    """Return whether an inelastic ball moves over a round body, at this speed along the normal."""
+    return c.b.r > 0 and c.e == 0 and speed <= slow
 
 
 def turned(x: float, y: float, angle: float) -> tuple[float, float]:
