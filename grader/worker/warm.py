@@ -53,8 +53,14 @@ def main(descriptors: list[int], without: list[str]) -> None:
             return
     for descriptor in descriptors:
         os.close(descriptor)
-    while has_children():
-        os.wait()
+    wait_for_children()
+
+
+def wait_for_children() -> None:
+    """Wait until all children have ended, also those that ended before."""
+    with suppress(ChildProcessError):
+        while True:
+            os.wait()
 
 
 def serve_judge(control_fd: int, without: list[str]) -> None:

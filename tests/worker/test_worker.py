@@ -2,6 +2,7 @@
 
 import ctypes
 import os
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -301,3 +302,18 @@ def test_children_read_what_was_compiled_and_cannot_write_it(tmp_path: Path, ask
         assert isinstance(reply, Raised) and reply.error in ("PermissionError", "OSError")
     child.end()
     assert compiled.read_bytes() == before and len(list(compiled.parent.iterdir())) == 1
+
+
+WAITING = """
+import os
+from grader.worker.warm import wait_for_children
+pid = os.fork() or os._exit(0)
+os.waitid(os.P_PID, pid, os.WEXITED | os.WNOWAIT)
+wait_for_children()
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
+def test_the_loaded_process_may_wait_for_servers_that_have_ended():
+    done = subprocess.run([sys.executable, "-c", WAITING], cwd=KIT, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
