@@ -1,11 +1,8 @@
-"""Let the kernel check that a grade uses no more memory than the security page says.
-
-The page adds up the memory of a child, of the kernel for it and of the judge. Here a submission
-uses all of that, in a control group that kills processes at the limit.
-"""
+"""Test that submissions that use all available resources end within their limits."""
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import time
@@ -14,9 +11,10 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
-from greedy import make_greedy
 
+from grader.bank.members import fill_every_todo
 from grader.judge.task import KIT
+from grader.protocol import Limits
 
 GROUPS = Path("/sys/fs/cgroup")
 UNIFIED = (GROUPS / "cgroup.controllers").exists()  # version 2 of control groups
@@ -53,6 +51,12 @@ for take in file, pipe, lambda: bytearray(b"x") * (1 << 22), lambda: bytearray(b
 while True:
     pass
 """
+
+
+def make_greedy(folder: Path, code: str) -> None:
+    """Copy the solution, with this code in every TODO."""
+    shutil.copytree(KIT / "solution", folder, ignore=shutil.ignore_patterns("__pycache__"))
+    fill_every_todo(folder, code)
 
 
 @contextmanager
@@ -100,6 +104,10 @@ def take_one_core() -> None:
 @pytest.mark.soak  # half a minute: greedy children use up their time
 @pytest.mark.skipif(sys.platform != "linux", reason="control groups are Linux's")
 def test_a_grade_takes_no_more_memory_than_the_page_says(tmp_path: Path) -> None:
+    """The page adds up the memory of a child, of the kernel for it and of the judge.
+
+    The submission uses all of that, in a control group that kills processes at the limit.
+    """
     said = float(re.search(r"a grade takes ([\d.]+) GB at most", PAGE.read_text("utf-8"))[1])
     tree = tmp_path / "greedy"
     make_greedy(tree, HOG)
@@ -110,3 +118,53 @@ def test_a_grade_takes_no_more_memory_than_the_page_says(tmp_path: Path) -> None
     with group_with(round(said * 1000) // 2) as group:  # and the account is kept
         grade_in(group, tree, tmp_path / "less")
         assert killed_in(group) > 0
+
+
+# ---------------------------------------------------------------- processor time
+
+MOST_CPU = 120.0  # s, of one submission: see grader/judge/budget.py
+GREEDY = {  # code of every TODO
+    "fork bomb": """
+import os
+while True:
+    try:
+        os.fork()
+    except OSError:
+        pass
+""",
+    "sleeper": """
+import ctypes
+ctypes.CDLL(None).usleep(7_000_000)
+""",
+    "memory hog": """
+held = []
+while True:
+    try:
+        held.append(bytearray(1 << 24))
+    except MemoryError:
+        pass
+""",
+}
+ONE = """
+import sys
+from pathlib import Path
+from grader.judge.grade import grade
+from grader.judge.task import Options, shipped_reference
+print(grade(Path(sys.argv[1]), Options(shipped_reference(), trusted=True)).points)
+"""
+
+
+@pytest.mark.soak  # minutes: each uses up its time
+@pytest.mark.skipif(not hasattr(os, "wait4"), reason="only Unix tells what all descendants used")
+@pytest.mark.parametrize("name", GREEDY)
+def test_a_greedy_submission_ends_within_its_limits(name: str, tmp_path: Path):
+    make_greedy(tmp_path / "tree", GREEDY[name])
+    command = [sys.executable, "-c", ONE, str(tmp_path / "tree")]
+    process = subprocess.Popen(command, cwd=KIT, stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    points = int(process.stdout.read().split()[-1])
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    assert points <= 5
+    assert used.ru_utime + used.ru_stime <= MOST_CPU
+    assert used.ru_maxrss / 1024 <= Limits(cpu_seconds=5).data_mb + 64
