@@ -11,7 +11,7 @@ from grader.checks.exact import Disc, Lever, Rect, Touch, circle_box
 from grader.judge.explain.diagnosis import Diagnosis
 from grader.judge.lab import Observation
 from grader.judge.explain.misconceptions import load_known
-from grader.judge.explain.names import Names, handed_out
+from grader.judge.explain.names import Names, load_signatures
 from grader.judge.submission import Submission
 from grader.judge.task import KIT
 from grader.judge.explain.narrowing import find_relation, read_questions
@@ -132,6 +132,13 @@ def test_what_was_handed_out_is_nobodys_new_name(tmp_path: Path):
     assert "circle_box" not in names_of(tmp_path, text)
 
 
+def test_given_functions_of_a_single_file_are_nobodys_new_name(tmp_path: Path):
+    text = "def add_box(space, rng, pos):\n    pass\n"
+    (tmp_path / "pymunk_scene.py").write_text(text, encoding="utf-8")
+    words = Names(Submission("theirs", tmp_path)).changed("pymunk_scene")
+    assert not any("renamed" in each for each in words.values())
+
+
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
@@ -147,5 +154,5 @@ def test_arguments_count_where_they_would_go_wrong(tmp_path: Path, text: str, ex
 
 
 def test_functions_of_every_program_are_known():
-    assert {"circle_box", "World.solve_contact"} <= set(handed_out("mini_engine"))
-    assert "rk4" in handed_out("integrators") and "add_ball" in handed_out("pymunk_scene")
+    assert {"circle_box", "World.solve_contact"} <= set(load_signatures("mini_engine"))
+    assert "rk4" in load_signatures("integrators") and "add_ball" in load_signatures("pymunk_scene")

@@ -12,11 +12,9 @@ from functools import cache
 from itertools import islice
 from pathlib import Path
 
-import msgspec
-
 from grader.judge.explain.error_words import explain_error
 from grader.judge.result import CheckResult
-from grader.judge.rubric import CHECKS, Todo, load_rubric
+from grader.judge.rubric import Todo
 from grader.judge.submission import Submission, load_given
 from grader.source.definitions import MAX_READ, list_functions, statements
 from grader.source.regions import python_files, read_source
@@ -58,19 +56,11 @@ def list_signatures(text: str) -> Iterator[Signature]:
 
 
 @cache
-def handed_out(module: str) -> dict[str, Signature]:
-    """Return the functions of a program as it was handed out."""
-    texts = [text for name, text in load_given().items() if name.split("/")[0] == module]
-    found = {each.path: each for text in texts for each in list_signatures(text)}
-    stubs = msgspec.json.decode((CHECKS / "stubs.json").read_bytes(), type=dict[str, str])
-    for todo in load_rubric().todos:
-        path = todo.function.partition(":")[2]
-        if todo.module == module and f"def {todo.id}" in stubs:
-            owner = path.rpartition(".")[0]
-            for each in list_signatures(stubs[f"def {todo.id}"]):
-                whole = f"{owner}.{each.path}" if owner else each.path
-                found[whole] = Signature(whole, each.names, each.least, each.open)
-    return found
+def load_signatures(module: str) -> dict[str, Signature]:
+    """Return the functions of a program as it was handed out, by their paths."""
+    given = load_given().items()
+    texts = [text for name, text in given if name.partition("/")[0] in (module, f"{module}.py")]
+    return {each.path: each for text in texts for each in list_signatures(text)}
 
 
 class Names:
@@ -105,7 +95,7 @@ class Names:
         return self.changes[module]
 
     def _changed(self, module: str) -> dict[str, str]:
-        theirs, ours = handed_out(module), self.of(module)
+        theirs, ours = load_signatures(module), self.of(module)
         words = {
             path: compare_arguments(meant, ours[path])
             if path in ours
