@@ -106,5 +106,5 @@ def test_only_what_the_code_of_a_todo_runs_is_named():
     assert used >= {"memo", "helper", "table", "widen", "grow"}
     assert not used & {"other", "other_helper"}
     failed = CheckResult("id", "title", "unit", "not yet", 0, 1, meaning="So.")
-    told = explain(Failure(failed, Evidence(load_rubric().todos[0]), kept=["engine.memo"]))
+    told = explain(Failure(failed, Evidence(load_rubric().todos[0]), kept_names=["engine.memo"]))
     assert told.meaning.startswith("So. ") and "in memo:" in told.meaning
