@@ -1,15 +1,15 @@
 """Measure what grading costs: a student's wait, a full grade, a class, and a release.
 
-All figures are measured in turns, those of another checkout too, so that a slow minute of the
-machine slows all of them. It runs on Linux.
+All are measured in turns, so that a slow minute of the machine slows all of them. Linux only.
 """
 
+import ctypes
 import os
 import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory, mkdtemp
@@ -25,7 +25,8 @@ from grader.bank.members import list_members
 from grader.judge.task import KIT
 
 Process = subprocess.Popen[str]
-LOOK_SECONDS = 0.02  # between two looks at the memory in use
+Look = Callable[[Process], object]  # at a process, as long as it wants to
+ADOPT_ORPHANS = 36  # PR_SET_CHILD_SUBREAPER of Linux: their time counts too
 
 
 class Tested(NamedTuple):
@@ -41,34 +42,38 @@ class Tested(NamedTuple):
         command = [sys.executable, "-m", "grader", *words]
         return subprocess.Popen(command, env=environment, **usual | how)
 
-    def run(
-        self, *words: str, look: Callable[[int], None] | None = None, **how: Any
-    ) -> tuple[float, float]:
+    def run(self, *words: str, look: Look = lambda _: None, **how: Any) -> tuple[float, float]:
         """Run a command while looking at it; return its seconds, and those of the processor."""
         start, before = perf_counter(), sum(os.times()[2:4])
         process = self.start(*words, **how)
-        while look is not None and process.poll() is None:
-            look(process.pid)
-            sleep(LOOK_SECONDS)
+        look(process)
         assert process.wait() == 0, words
-        return perf_counter() - start, sum(os.times()[2:4]) - before
+        seconds = perf_counter() - start
+        sleep(0.1)  # until the rest has ended too
+        with suppress(ChildProcessError):
+            while os.waitpid(-1, os.WNOHANG)[0]:
+                pass
+        return seconds, sum(os.times()[2:4]) - before
 
 
 def measure_memory(tested: Tested, *words: str) -> tuple[float, float]:
     """Run a command; return its seconds, and the most memory of all its processes at once, MB."""
     found = [0.0]
 
-    def look(pid: int) -> None:
-        with suppress(psutil.Error):
-            top = psutil.Process(pid)
-            every = [top, *top.children(recursive=True)]
-            found.append(sum(each.memory_full_info().pss for each in every) / 1e6)
+    def look(process: Process) -> None:
+        top = psutil.Process(process.pid)
+        while process.poll() is None:
+            with suppress(psutil.Error):  # one of them has just ended
+                every = [top, *top.children(recursive=True)]
+                found.append(sum(each.memory_full_info().pss for each in every) / 1e6)
+            sleep(0.02)
 
     return tested.run(*words, look=look)[0], max(found)
 
 
 def bench(rounds: int, size: int, console: Console, against: Path | None = None) -> None:
     """Print the figures of some rounds, with those of another checkout beside them."""
+    ctypes.CDLL(None).prctl(ADOPT_ORPHANS, 1, 0, 0, 0)
     kits = {"this kit": KIT} | ({str(against): against.resolve()} if against else {})
     found: dict[str, dict[str, list[float]]] = {name: {} for name in kits}
     with TemporaryDirectory(prefix="bench-") as temporary, ExitStack() as stack:
@@ -76,14 +81,14 @@ def bench(rounds: int, size: int, console: Console, against: Path | None = None)
         for name, kit in kits.items():
             tested = Tested(kit, Path(temporary, str(len(turns))))
             prepare(tested, size)
-            turns.append((name, tested, stack.enter_context(watch_todo_4(tested))))
+            turns.append((name, tested, watch_todo_4(tested)))
+            stack.callback(turns[-1][-1].terminate)
         for number in range(rounds):
             for name, tested, watch in turns:
                 for figure, value in measure(tested, watch, size, first=number == 0):
                     found[name].setdefault(figure, []).append(value)
             turns.reverse()
-    title = f"{rounds} rounds, {size} in the class: minimum, median, maximum"
-    console.print(tabulate(found, title))
+    console.print(tabulate(found, f"{rounds} rounds, a class of {size}: minimum, median, maximum"))
 
 
 def prepare(tested: Tested, size: int) -> None:
@@ -92,8 +97,7 @@ def prepare(tested: Tested, size: int) -> None:
     shutil.copytree(tested.kit / "solution", tested.work / "tree", ignore=without)
     chosen = [each for each in list_members() if each.kind in ("wrong", "right")]
     for number in range(size):
-        member = chosen[number * len(chosen) // size]
-        member.build(tested.work / "class" / f"{number:04}-{member.name}")
+        chosen[number * len(chosen) // size].build(tested.work / "class" / f"{number:04}")
     tested.run("release")  # the next one finds nothing new
 
 
@@ -127,16 +131,16 @@ def grade_class(tested: Tested, jobs: int) -> tuple[float, float, float]:
     the first result."""
     out = Path(mkdtemp(dir=tested.work), "results")  # in a new folder all are graded again
     words = ["--class", str(tested.work / "class"), "--jobs", str(jobs), "--out", str(out)]
-    start, waits = perf_counter(), [0.0]
+    start, until_first = perf_counter(), list[float]()
 
-    def look(_: int) -> None:
-        if not any(out.glob("[!.]*.json")):
-            waits.append(perf_counter() - start)
+    def look(process: Process) -> None:
+        while process.poll() is None and not any(out.glob("[!.]*.json")):
+            sleep(0.01)
+        until_first.append(perf_counter() - start)
 
-    seconds, cpu = tested.run(
-        "grade", *words, look=look, preexec_fn=use_one_core if jobs == 1 else None
-    )
-    return seconds, cpu, waits[-1]
+    pinned = use_one_core if jobs == 1 else None
+    seconds, cpu = tested.run("grade", *words, look=look, preexec_fn=pinned)
+    return seconds, cpu, until_first[0]
 
 
 def measure_outputs(tested: Tested, count: int) -> Iterator[tuple[str, float]]:
@@ -159,16 +163,12 @@ def measure_outputs(tested: Tested, count: int) -> Iterator[tuple[str, float]]:
     shutil.rmtree(results.parent)
 
 
-@contextmanager
-def watch_todo_4(tested: Tested) -> Iterator[Process]:
+def watch_todo_4(tested: Tested) -> Process:
     """Start a `check --watch` that has shown its first result."""
     words = ["check", "--todo", "4", "--watch"]
-    with tested.start(*words, cwd=tested.work / "tree", stdout=subprocess.PIPE) as process:
-        try:
-            read_until(process, "Watching")
-            yield process
-        finally:
-            process.terminate()
+    process = tested.start(*words, cwd=tested.work / "tree", stdout=subprocess.PIPE)
+    read_until(process, "Watching")
+    return process
 
 
 def read_until(process: Process, start: str) -> None:

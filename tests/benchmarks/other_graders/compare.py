@@ -6,6 +6,8 @@ VENV holds the others, from the requirements.txt beside this file. Every grader 
 as its documentation says for one machine, one submission after the other, on one core.
 """
 
+import contextlib
+import ctypes
 import json
 import os
 import resource
@@ -37,6 +39,7 @@ ASKED = [
     "want_spring(rk4, 4, 0.018, -0.03)",
 ]
 POINTS = len(ASKED)
+PR_SET_CHILD_SUBREAPER = 36  # of Linux, see prctl(2)
 LIMIT = 60.0  # s for a submission; a grader that takes longer is stopped
 
 Class = dict[str, str]  # submission of each student
@@ -319,8 +322,17 @@ def run(grader: Grader, handed_in: Class) -> Run:
         return Run(time.monotonic() - start, cpu, grader.points(folder), stopped)
 
 
+def adopt_orphans() -> None:
+    """Count processes too whose parent ended first: they become children of this one."""
+    ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+
+
 def read_processor_time() -> float:
-    """Return the processor time of all that this process has started and that has ended, s."""
+    """Return the processor time of all that was started and that has ended, s."""
+    time.sleep(0.1)  # for processes that are being killed
+    with contextlib.suppress(ChildProcessError):
+        while os.waitpid(-1, os.WNOHANG)[0]:
+            pass
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
@@ -426,6 +438,7 @@ def main(
     ]
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})  # also for started processes
+    adopt_orphans()
     console = Console()
     console.print(make_cost_table(measure_costs(graders, size, rounds), size))
     with tempfile.TemporaryDirectory(prefix="instructor-") as temporary:
