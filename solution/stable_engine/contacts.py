@@ -47,8 +47,9 @@ class Contacts(Effect):
     """Contacts found once per step and solved in every substep as soft constraints.
 
     on_hit(a, b, speed) is called at the end of a step for each two bodies that began to touch in
-    it, with the speed (px/s) at which they came together. on_part(a, b) is called for each two that
-    no longer touch. Both may add and remove bodies; what is removed does not part.
+    it; speed (px/s) is that at which they came together. on_part(a, b) is called for each two that
+    no longer touch. a is a ball with mass, b may be any body. Both functions may add and remove
+    bodies, and can be set later on. Bodies that are removed do not part.
 
     Each stage solves contacts of two balls first: the last word is that of the static bodies.
     """
