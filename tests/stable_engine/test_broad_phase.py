@@ -73,7 +73,7 @@ def test_the_order_does_not_depend_on_where_bodies_were_before():
         assert renew(old) == renew(new)
 
 
-def test_who_sleeps_is_left_alone():
+def test_sleeping_bodies_form_no_pairs():
     world, _ = crowd(30, 3)
     awake = [body for body in world.awake if body.x < 0]
     for body in world.awake:

@@ -48,7 +48,7 @@ def read_effects(sentences):
         (["Contacts", "Sleep", "Damping"], {}, {}),
     ],
 )
-def test_what_is_called_for_and_what_is_not_used_is_named(effects, surface, told):
+def test_needed_and_unused_effects_are_named(effects, surface, told):
     assert read_effects(world_with(*effects, **surface).check()) == told
 
 
@@ -84,7 +84,7 @@ def test_the_first_step_warns_with_body_value_and_remedy():
     assert told[0].filename == __file__
 
 
-def test_only_the_first_step_warns_and_none_once_somebody_asked():
+def test_only_the_first_step_warns_and_none_after_a_check():
     asked, warned = world_with(), world_with()
     asked.check()
     with pytest.warns(UserWarning):
@@ -95,7 +95,7 @@ def test_only_the_first_step_warns_and_none_once_somebody_asked():
         warned.step(DT)
 
 
-def test_what_is_not_used_is_no_reason_to_warn():
+def test_an_unused_effect_causes_no_warning():
     world = world_with("Contacts", "Rods", "Bullets")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -116,7 +116,7 @@ def test_after_the_first_step_the_check_costs_no_opcode_and_runs_no_line():
 # ---------------------------------------------------------------- new warnings
 
 
-def told_by_a_step(world):
+def read_warnings_of_step(world):
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         world.step(DT)
@@ -128,10 +128,10 @@ def test_balls_that_fly_at_each_other_call_for_contacts():
     a, b = (world.add(Body(Circle(10), (x, 0), mass=1)) for x in (0, 500))
     assert world.check() == []
     a.vel = (100, 0)
-    assert told_by_a_step(world) == {"Contacts": True}
-    assert told_by_a_step(world) == {}
+    assert read_warnings_of_step(world) == {"Contacts": True}
+    assert read_warnings_of_step(world) == {}
     b.vel = (200, 5)
-    assert told_by_a_step(world) == {}
+    assert read_warnings_of_step(world) == {}
 
 
 @pytest.mark.parametrize("field", ["vel", "omega"])
@@ -142,7 +142,7 @@ def test_a_belt_and_a_spinning_ball_call_for_friction(field):
         world.bodies[0].vel = (50, 0)
     else:
         world.bodies[1].omega = 5
-    assert told_by_a_step(world) == {"Friction": True}
+    assert read_warnings_of_step(world) == {"Friction": True}
 
 
 def test_a_ball_too_fast_for_contacts_calls_for_bullets():
@@ -153,19 +153,19 @@ def test_a_ball_too_fast_for_contacts_calls_for_bullets():
     assert "by more than 20 radii" in sentence
 
 
-def test_what_is_added_or_set_after_the_first_step_is_checked_in_the_next():
+def test_later_bodies_and_values_are_checked_in_the_next_step():
     world = world_with("Contacts")
-    assert told_by_a_step(world) == {}
+    assert read_warnings_of_step(world) == {}
     ball = world.add(Body(Circle(10), (50, -200), mass=1, restitution=0.5))
-    assert told_by_a_step(world) == {"Bounce": True}
+    assert read_warnings_of_step(world) == {"Bounce": True}
     ball.friction = 0.5
-    assert told_by_a_step(world) == {"Friction": True}
+    assert read_warnings_of_step(world) == {"Friction": True}
     world.add(Body(Circle(10), (90, -200), mass=1, restitution=0.5))
-    assert told_by_a_step(world) == {}
+    assert read_warnings_of_step(world) == {}
     assert "check.py" not in files_run(lambda: world.step(DT))
 
 
-def test_a_scene_in_metres_is_asked_for_its_unit():
+def test_a_scene_in_metres_needs_its_unit():
     for gravity, unit, asked in ((9.8, 1.0, 1), (9.8, 0.01, 0), (980, 1.0, 0), (0, 1.0, 0)):
         assert len(World((0, gravity), unit=unit).check()) == asked
 

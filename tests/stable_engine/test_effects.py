@@ -132,7 +132,7 @@ def test_the_sleeping_cost_nothing(effects):
 
 @pytest.mark.parametrize("gravity", [0, 980])
 @pytest.mark.parametrize("speed", [0, 30, 600])
-def test_contacts_cost_little_where_nobody_is_near(speed, gravity):
+def test_contacts_cost_little_between_distant_bodies(speed, gravity):
     """The balls fly away from each other, and none has to be looked at with another."""
     places = [(i % 10 - 4.5, i // 10 - 4.5) for i in range(100)]
     balls = [Ball((900 * x, 900 * y), vel=(speed * x / 5, speed * y / 5)) for x, y in places]

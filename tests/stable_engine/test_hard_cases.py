@@ -166,7 +166,7 @@ def leaks(scene, steps):
 
 
 @pytest.mark.parametrize("examples", [2, pytest.param(20, marks=pytest.mark.soak)])
-def test_nobody_escapes_from_a_closed_box(examples):
+def test_no_ball_escapes_from_a_closed_box(examples):
     @settings(max_examples=examples, **QUIETLY)
     @given(scene=BOXES)
     def check_boxes(scene):
@@ -201,7 +201,7 @@ def wild_box(seed):
 
 @pytest.mark.soak
 @pytest.mark.parametrize("steps", [None, at_random], ids=["equal", "at random"])
-def test_nobody_escapes_from_a_box_with_all_effects(steps):
+def test_no_ball_escapes_from_a_box_with_all_effects(steps):
     for seed in range(50):
         assert not leaks(wild_box(seed), lasting(2, steps()) if steps else [DT] * 240), seed
 

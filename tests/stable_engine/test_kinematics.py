@@ -21,7 +21,7 @@ def lift_world(*more, vel=(0.0, -60.0)):
     return world, lift, ball
 
 
-def test_it_moves_by_its_velocity_and_spin_whatever_it_meets():
+def test_a_kinematic_body_moves_as_set_whatever_it_meets():
     world, lift, ball = lift_world()
     wheel = world.add(Body(Circle(5), (500, 0), kinematic=True))
     wheel.omega = 3
@@ -71,14 +71,14 @@ def test_a_peg_that_moves_takes_its_rod_along():
 # ---------------------------------------------------------------- sleep
 
 
-def test_what_rides_slowly_does_not_fall_asleep():
+def test_a_ball_on_a_slow_lift_stays_awake():
     world, _, ball = lift_world("Sleep", vel=(0.0, -1.0))
     asleep = watch(world, 3, lambda: ball.asleep)
     assert not any(asleep)
     assert ball.y == pytest.approx(-R - 3, abs=0.01)
 
 
-def test_it_moves_on_while_all_sleep_and_wakes_what_it_meets():
+def test_a_kinematic_body_moves_on_and_wakes_sleepers():
     world = World(effects=make(["Contacts", "Friction", "Kinematics", "Sleep"]))
     world.add(Body(Box((500, 50)), (0, 50)))
     ball = world.add(Body(Circle(R), (0, -R), mass=1))
@@ -97,14 +97,14 @@ def test_it_moves_on_while_all_sleep_and_wakes_what_it_meets():
 # ---------------------------------------------------------------- what it is
 
 
-def test_it_needs_its_effect_and_has_no_mass():
+def test_a_kinematic_body_needs_its_effect_and_has_no_mass():
     with pytest.raises(ValueError, match=r"needs Kinematics\(\)"):
         World(effects=[Contacts()]).add(Body(Circle(1), (0, 0), kinematic=True))
     with pytest.raises(ValueError, match=r"Body\.mass is 2"):
         Body(Circle(1), (0, 0), mass=2, kinematic=True)
 
 
-def test_one_that_is_taken_out_stays_where_it_is():
+def test_a_removed_kinematic_body_stays_where_it_is():
     world, lift, ball = lift_world()
     assert lift.kinematic
     assert lift.is_static

@@ -160,7 +160,7 @@ def test_a_funnel_of_segments_keeps_a_heap():
 # ---------------------------------------------------------------- what it is
 
 
-def test_a_segment_stands_where_it_was_drawn_unless_it_is_moved():
+def test_a_segment_stays_where_it_was_drawn_unless_it_is_moved():
     wall = Segment((10, 20), (50, 80), 5)
     assert (wall.start, wall.end, wall.radius) == ((10, 20), (50, 80), 5)
     assert repr(wall) == "Segment((10, 20), (50, 80), 5)"

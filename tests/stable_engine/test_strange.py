@@ -40,7 +40,7 @@ def rises(world, bodies, places, seconds, dt=DT):
 
 @pytest.mark.parametrize("masses", [(1, 1, 100), (1, 1, 1, 1, 1, 100), (1, 1000)])
 @pytest.mark.parametrize("taken", ["all of it", "its mass"])
-def test_a_load_that_vanishes_throws_nobody_up(masses, taken):
+def test_a_load_that_vanishes_throws_no_ball_up(masses, taken):
     world = build(stack(*masses), *SLEEPY)
     tall = world.bodies[3:]
     run(world, 1.5)
@@ -57,7 +57,7 @@ def top_speed_of(bodies):
     return max(map(speed, bodies))
 
 
-def test_who_loses_its_floor_falls_as_one():
+def test_a_tower_without_its_floor_falls_as_one():
     world = build(stack(1, 10, 100), "Contacts")
     tall = world.bodies[3:]
     run(world, 1)
@@ -69,7 +69,7 @@ def test_who_loses_its_floor_falls_as_one():
 
 @pytest.mark.parametrize("long", [1 / 24, 1 / 60])
 @pytest.mark.parametrize("count", sample([5, 10], 2))
-def test_who_falls_asleep_in_long_steps_is_not_thrown_up_in_short_ones(long, count):
+def test_a_tower_asleep_in_long_steps_wakes_calmly_in_short_ones(long, count):
     scene = stack(*[1] * count)
     scene.bodies.append(Ball((900, -1e6)))
     world = build(scene, *SLEEPY)
@@ -118,7 +118,7 @@ def resting_on(thing):
 
 
 @pytest.mark.parametrize("thing", ["floor", "peg"])
-def test_a_static_body_that_moves_wakes_who_rests_on_it(thing):
+def test_a_static_body_that_moves_wakes_bodies_on_it(thing):
     world = resting_on(thing)
     world.bodies[0].pos = (1000, 0)
     assert world.awake == world.bodies[1:]
@@ -134,7 +134,7 @@ def test_a_static_body_put_into_a_sleeper_wakes_it_and_they_part():
     assert ball.x - 10 >= wall.x + 10 - 1e-6
 
 
-def test_another_gravity_wakes_all_and_the_same_one_nobody():
+def test_another_gravity_wakes_all_bodies():
     world = resting_on("floor")
     world.gravity = (0, G)
     assert world.awake == []
@@ -146,7 +146,7 @@ def test_another_gravity_wakes_all_and_the_same_one_nobody():
 
 
 @pytest.mark.parametrize(("name", "value"), [("length", 80), ("stiffness", 50), ("damping", 1)])
-def test_what_a_joint_is_like_can_be_set_and_wakes_its_ends(name, value):
+def test_setting_a_spring_wakes_its_ends(name, value):
     scene = Scene([Ball((0, 0)), Ball((50, 0))], springs=[Spring(0, 1, 100.0, 10.0, 50.0)])
     scene.gravity = (0, 0)
     world = build(scene, "Springs", "Sleep")

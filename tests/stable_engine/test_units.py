@@ -43,7 +43,7 @@ def scene(length, names):
 
 @pytest.mark.parametrize("length", [0.01, 1 / 64, 1000.0])
 @pytest.mark.parametrize("names", [(), (Sleep,)])
-def test_the_same_scene_in_other_lengths_moves_alike(length, names):
+def test_a_scene_in_another_unit_moves_the_same(length, names):
     pixels, other = (scene(one, [name() for name in names]) for one in (1.0, length))
     for _ in range(360):
         pixels.step(DT)

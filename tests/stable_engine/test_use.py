@@ -58,7 +58,7 @@ def test_a_mass_set_counts_for_inertia_rods_and_springs():
 
 
 @pytest.mark.parametrize(("field", "value"), [("mass", 5), ("friction", 0), ("restitution", 1)])
-def test_setting_what_a_body_is_like_wakes_it_and_what_touches_it(field, value):
+def test_setting_mass_or_surface_wakes_a_body_and_its_neighbours(field, value):
     world = build(Scene([floor(), Ball((0, -10)), Ball((0, -30))]), *SLEEPY)
     run(world, 2)
     assert world.awake == []
@@ -134,7 +134,7 @@ def things():
 
 
 @pytest.mark.parametrize("name", SETTABLE)
-def test_what_can_be_set_later_takes_effect(name):
+def test_an_attribute_that_can_be_set_takes_effect(name):
     kind, _, field = name.partition(".")
     value, has_effect = SETTABLE[name]
     there = things()
@@ -148,7 +148,7 @@ def test_what_can_be_set_later_takes_effect(name):
 
 
 @pytest.mark.parametrize("name", FIXED)
-def test_what_would_take_no_effect_cannot_be_set(name):
+def test_other_attributes_cannot_be_set(name):
     kind, _, field = name.partition(".")
     thing = things()[kind]
     with pytest.raises(AttributeError):
@@ -258,7 +258,7 @@ def test_a_force_that_holds_a_ball_up_keeps_it_awake_and_ends_with_it():
     assert ball.vx == 0
 
 
-def test_what_cannot_be_pushed_says_so():
+def test_pushing_a_static_or_foreign_body_is_an_error():
     world = World()
     wall, ball = world.add(Body(Box((9, 9)), (0, 9))), Body(Circle(3), (0, -9), mass=1)
     with pytest.raises(ValueError, match=r"Body\.mass"):
@@ -290,7 +290,7 @@ def test_impulses_of_contacts_rods_and_springs_are_the_forces_they_bear():
     assert spring.impulse / h == pytest.approx(-2 * G, rel=1e-3)
 
 
-def test_what_is_read_cannot_be_changed_in_part():
+def test_one_axis_of_a_vector_cannot_be_set():
     ball = Body(Circle(10), (5, 5), mass=1)
 
     def by_index():
@@ -311,7 +311,7 @@ def test_what_is_read_cannot_be_changed_in_part():
     assert (ball.pos, ball.vel) == ((5, 5), (0, 0))
 
 
-def test_what_is_read_is_set_whole_and_its_sums_are_ordinary_vectors():
+def test_vectors_are_set_whole_and_their_sums_are_ordinary():
     ball = Body(Circle(10), (5, 5), mass=1)
     ball.vel += (5, 0)
     ball.pos = ball.pos + Vector2(1, 1)
@@ -323,7 +323,7 @@ def test_what_is_read_is_set_whole_and_its_sums_are_ordinary_vectors():
     assert isinstance(ball.pos, Vector2)
 
 
-def test_what_a_thing_is_can_be_read_off_its_repr():
+def test_a_repr_shows_the_values_of_an_object():
     world = World(effects=[Contacts(), Bounce()])
     world.add(Body(Box((450, 20)), (450, 580)))
     ball = world.add(Body(Circle(10), (1.5, 2), mass=3))
@@ -439,7 +439,7 @@ def test_a_deep_copy_of_a_world_goes_on_as_the_world_does():
 # ---------------------------------------------------------------- callbacks
 
 
-def test_a_hit_is_told_once_with_its_speed():
+def test_a_hit_calls_back_once_with_its_speed():
     hits = []
     world = World(effects=[Contacts(lambda *hit: hits.append(hit)), Friction()])
     ground = world.add(Body(Box((100, 50)), (0, 50)))
@@ -460,7 +460,7 @@ def test_every_bounce_is_a_hit():
     assert hits[2] == pytest.approx(hits[0] / 4, rel=0.04)
 
 
-def test_who_is_told_of_a_hit_may_take_out_both_and_add():
+def test_a_callback_of_a_hit_may_remove_and_add_bodies():
     def swap(a, b, _):
         for body in (a, b):
             world.remove(body)
@@ -474,7 +474,7 @@ def test_who_is_told_of_a_hit_may_take_out_both_and_add():
     assert counts[-1] == 2
 
 
-def test_a_parting_is_told_once():
+def test_a_parting_calls_back_once():
     told = []
     contacts = Contacts(lambda a, b, _: told.append("hit"), lambda a, b: told.append((a, b)))
     world = World(effects=[contacts, Friction(), Sleep()])
@@ -505,6 +505,6 @@ def test_hits_and_partings_alternate_where_balls_bounce():
     assert told == (["hit", "part"] * len(told))[: len(told)]
 
 
-def test_what_cannot_be_told_is_refused():
+def test_a_callback_must_be_callable():
     with pytest.raises(ValueError, match=r"Contacts\.on_part"):
         Contacts(on_part=3)
