@@ -20,7 +20,7 @@ from grader.cli.shared import (
 from grader.errors import Stop
 from grader.judge.task import Options, shipped_reference
 from grader.judge.wall.starting import count_cores
-from grader.text import plural
+from grader.text import join_words, plural
 
 if TYPE_CHECKING:
     from grader.classroom.feedback import Feedback, GradedClass
@@ -319,7 +319,6 @@ def feedback_command(
 def make_feedback(known: "ClassFolder", recipient: str, graded: "GradedClass") -> "Feedback":
     """Make each student's page for a learning system, for mail or for nbgrader."""
     from grader.classroom import feedback
-    from grader.cli.classroom import require_same_class
     from grader.intake.learning_systems import BY_NAME
     from grader.intake.listing import open_class
     from grader.intake.systems import read_roster
@@ -331,7 +330,12 @@ def make_feedback(known: "ClassFolder", recipient: str, graded: "GradedClass") -
         return feedback.address_pages(roster, roster.choose_key(known.settings.key), graded)
     people, submissions = known.list_people(), known.find_submissions()
     with open_class(submissions, people) as intake:
-        require_same_class(graded.entries, intake.names, known.results, submissions)
+        graded_names = {entry.outcome.name for entry in graded.entries}
+        if others := sorted(set(intake.names) - graded_names):
+            raise Stop(
+                f"{known.results} has no result of {join_words(others)} in {submissions}: name the "
+                "class as it was graded, or grade it again"
+            )
         return feedback.answer_export(BY_NAME[recipient], intake, graded, people)
 
 

@@ -1,13 +1,13 @@
 """Define the commands for a course with nbgrader, for Gradescope, and for looking at a class.
 
-Each command imports its own modules: together they would add a tenth of a second to every start of
-the grader, `check` included.
+Each command imports its own modules: together they would add a tenth of a second to the start of
+others.
 """
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -29,10 +29,7 @@ from grader.cli.shared import (
 from grader.errors import Stop
 from grader.judge.course import WrongCourse, read_course
 from grader.judge.task import KIT, Options, shipped_reference
-from grader.text import clean, join_words
-
-if TYPE_CHECKING:
-    from grader.classroom.dashboard import Entry
+from grader.text import clean
 
 app = typer.Typer()
 course_app = typer.Typer(
@@ -215,15 +212,3 @@ def find_release_problems(path: Path | None) -> Iterator[str]:
                 prove_cut(course)
         except Stop as error:
             yield f"this course cannot be released: {error}"
-
-
-def require_same_class(
-    entries: "list[Entry]", names: Collection[str], results: Path, submissions: Path
-) -> None:
-    """Stop if results and submissions belong to two classes."""
-    known = {entry.outcome.name for entry in entries}
-    if others := sorted(name for name in names if name not in known):
-        raise Stop(
-            f"{results} has no result of {join_words(others)} in {submissions}: name the class as "
-            "it was graded, or grade it again"
-        )
