@@ -147,7 +147,7 @@ class Run:
                 self.record("by hand", found, Outcome(name, NOTHING))
 
     def scale_by_hand(self, outcomes: list[Outcome]) -> list[Outcome]:
-        """Give marks that a person set the same maximum as the others."""
+        """Return the outcomes; a mark that a person set gets the maximum of the other marks."""
         most = max((each.max_points for each in outcomes), default=0)
         most = most or self.course.rubric.max_points
         return [
@@ -157,7 +157,7 @@ class Run:
 
     @property
     def changed(self) -> list[Outcome]:
-        """Return the outcomes with another mark than in the run before."""
+        """Return the outcomes whose mark differs from that of the run before."""
         old = self.book.outcomes
         return [
             each
@@ -166,7 +166,7 @@ class Run:
         ]
 
     def find_copies(self) -> Iterator[str]:
-        """Yield notes on students who handed in the same files, unless these earn nothing."""
+        """Yield notes on students who handed in the same files, if those files earn points."""
         worth = {each.name: each.points for each in self.outcomes}
         for names in [list(each.values()) for each in self.same.values()]:
             if len(names) > 1 and worth[names[0]]:

@@ -167,10 +167,11 @@ class Grading(Task):
         return search.causes
 
     def pass_spoilt_scenes(self, todo: Todo) -> list[CheckResult]:
-        """Return the results of a TODO; a scene spoilt by another TODO counts like the rest.
+        """Return the results of a TODO; a scene that another TODO spoils passes if the rest does.
 
         Another TODO spoils a scene if it is wrong and no right version could replace it, as in a
-        program without its function. For the whole, the rest are the checks without such TODOs.
+        program without its function. The rest are the checks that run no such TODO, and for the
+        whole program also need none.
         """
         results = [self.loop.outcomes[todo.id, each.id].result for each in todo.checks]
         wrong = {id for (id, _) in self.loop.failed if not self.was_replaced(id)}
@@ -205,8 +206,10 @@ def keeps_points(todo: Todo, names: "Names") -> bool:
 
 
 def charge_whole(loop: "CheckLoop", cause: "GivenCause") -> None:
-    """Subtract a point of the whole for changed given code that a TODO needs, unless it lost
-    one."""
+    """Fail a check of the whole program for changed given code that a TODO needs.
+
+    Nothing changes unless all checks of the whole program have passed.
+    """
     whole = loop.list_outcomes("whole")
     passed = [each for each in whole if each.result.state == "passed"]
     if not passed or len(passed) < len(whole):
@@ -225,7 +228,7 @@ def charge_whole(loop: "CheckLoop", cause: "GivenCause") -> None:
 
 
 def count_guards(todo: Todo, checks: list[CheckResult]) -> list[CheckResult]:
-    """Give no points for checks that a stub passes as well, unless another one passes too."""
+    """Give points for guards, which a stub passes too, only if another check passes."""
     guards = {check.id for check in todo.checks if check.guard}
     if any(check.state == "passed" and check.id not in guards for check in checks):
         return checks
@@ -239,7 +242,10 @@ def count_guards(todo: Todo, checks: list[CheckResult]) -> list[CheckResult]:
 
 
 def pass_for_others(wrong: list[str], check: CheckResult) -> CheckResult:
-    """Return a check as passed if it failed for other TODOs, which are wrong; else unchanged."""
+    """Count a failed check as passed if its scene runs other TODOs that are wrong.
+
+    `wrong` names these TODOs; without any, the check is returned unchanged.
+    """
     if not wrong or not check.failed:
         return check
     meaning = (

@@ -216,6 +216,6 @@ def count_points(group: list[CheckResult]) -> str:
 
 
 def load_tasks() -> Tasks:
-    """Load the texts of the tasks; the kit itself, without a release, has none."""
+    """Load the texts of the tasks. Only a release has them: without one, return none."""
     path = CHECKS / TASKS
     return msgspec.json.decode(path.read_bytes(), type=Tasks) if path.is_file() else {}

@@ -89,7 +89,7 @@ def compile_all(setup: ChildSetup) -> None:
 
 
 def list_sources(submission: Path, programs: list[str]) -> list[Path]:
-    """Return the files of the programs, and of the modules beside them that their text names."""
+    """Return the files of the programs, and of the modules that these and other modules name."""
     sources = sorted(submission.rglob("*.py"), key=lambda path: (len(path.parts), path))
     if not programs:
         return sources

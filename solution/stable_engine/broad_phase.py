@@ -83,7 +83,7 @@ class Bounds:
             self.side_low, self.side_high = self.top - hy - margin, self.bottom + hy
 
     def wins_tie(self, other: "Bounds") -> bool:
-        """Return whether the sweep comes to this box first, of two that begin at one place."""
+        """Return whether the sweep meets this box before another at the same position."""
         if self.side_low != other.side_low:
             return self.side_low < other.side_low
         return self.place < other.place

@@ -23,12 +23,12 @@ def complaints(world: WorldState) -> list[str]:
 
 
 def missing(world: WorldState, looked_at: list[Body]) -> dict[str, str]:
-    """Return a sentence for each effect, by its name, that these bodies call for in vain.
+    """Return a sentence for each effect, by its name, that these bodies need and do not have.
 
-    Friction and restitution that were given call for their effects, above 0 and where something
-    can move. So does what turns or is a belt. A static body calls for contacts unless a joint is
-    tied to it: it is there to be touched. So do friction and restitution, and balls that fly at
-    each other. One too fast for Contacts calls for bullets.
+    A friction above 0 that was given needs Friction, and so does a body that turns or is a belt. A
+    restitution above 0 that was given needs Bounce. Contacts are needed for friction, restitution,
+    balls that fly at each other, and a static body that no joint is tied to. A ball that is too
+    fast for Contacts needs Bullets. Where no body can move, nothing is needed.
     """
     bodies = looked_at if len(world.bodies) > len(world.statics) else []
     reasons: dict[str, str] = {}
@@ -66,14 +66,15 @@ def is_belt(body: Body) -> bool:
 
 
 def is_too_fast(body: Body) -> bool:
-    """Return whether a ball is so fast that it may get through a static body, and no bullet."""
+    """Return whether a ball moves so far in a frame that it may pass through a static body."""
     return not body.is_static and hypot(body.vx, body.vy) * FRAME > FAST * body.r
 
 
 def meetings(world: WorldState, bodies: list[Body]) -> Iterator[tuple[Body, Body]]:
     """Yield pairs of free balls that overlap or fly at each other, of the first MOST in the world.
 
-    They fall alike, so that each flies straight as the other sees it. Those on joints do not.
+    Gravity accelerates both alike, so each flies straight as seen from the other. Balls on joints
+    do not, and are left out.
     """
     new = set(bodies)
     free = [body for body in world.bodies if not (body.is_static or body.joint_count)][:MOST]
@@ -121,9 +122,9 @@ def unused(world: WorldState) -> list[str]:
 
 
 def overloaded_rods(world: WorldState) -> list[str]:
-    """Return a sentence if a light ball on rods carries so much that it shakes faster than steps.
+    """Return a sentence if a light ball on rods carries more than the substeps can follow.
 
-    What it carries is at most what is on its rods and all that are tied to them.
+    Its load is the heaviest ball that rods connect to it, directly or through other balls.
     """
     rods: list[Joint] = getattr(world.effects.get("Rods"), "joints", [])
     h, g = FRAME / 2 / world.substep_count, hypot(*world.g)

@@ -14,10 +14,10 @@ OPPOSITE = -0.5  # cosine; where a normal turns further, a centre has crossed a 
 class Contact:
     """Two bodies that touch. It persists while they do, so that its impulses can warm start.
 
-    What the substeps of a step need of it is worked out once per step, by Contacts.prepare and
-    Friction.prepare. A unit of impulse along the normal takes ax and ay from A's velocity and gives
-    bx and by to B's; one along the tangent takes tax and tay, and gives tbx and tby, and takes aw
-    and bw from their spins. Centres that are reach px apart along the normal just touch.
+    Contacts.prepare and Friction.prepare compute once per step what its substeps need. A unit of
+    impulse along the normal takes (ax, ay) from A's velocity and adds (bx, by) to B's. A unit along
+    the tangent takes (tax, tay) from A's velocity, adds (tbx, tby) to B's, and takes aw and bw from
+    their spins. Centres that are reach px apart along the normal just touch.
     """
 
     __slots__ = (
@@ -106,16 +106,16 @@ class Contact:
 
 
 def collide(a: Body, b: Body) -> tuple[float, float, float]:
-    """Unit normal from circle a to body b, in two numbers, and the gap between them in px."""
+    """Return the unit normal from circle a to body b, in two numbers, and the gap in px."""
     if b.r:
         return circle_circle(a, b)
     return circle_box(a, b) if b.segment is None else circle_segment(a, b, b.segment)
 
 
 def circle_circle(a: Body, b: Body) -> tuple[float, float, float]:
-    """Return the normal and depth of two circles. With one centre, each pair gets its own normal.
+    """Return the normal and gap of two circles. If they are concentric, each pair gets another.
 
-    Were it the same for all, a heap of balls in one place would spread along one line only.
+    With the same normal for all pairs, a heap of balls in one place would spread along one line.
     """
     dx, dy = b.x - a.x, b.y - a.y
     distance = sqrt(dx * dx + dy * dy)
@@ -126,7 +126,7 @@ def circle_circle(a: Body, b: Body) -> tuple[float, float, float]:
 
 
 def circle_box(a: Body, b: Body) -> tuple[float, float, float]:
-    """Return normal and depth of a circle and a box. A centre inside leaves by the nearest face."""
+    """Return normal and gap of a circle and a box. A centre inside leaves by the nearest face."""
     x, y = a.x - b.x, a.y - b.y
     dx, dy = max(-b.hx, min(x, b.hx)) - x, max(-b.hy, min(y, b.hy)) - y
     distance = sqrt(dx * dx + dy * dy)
@@ -139,7 +139,10 @@ def circle_box(a: Body, b: Body) -> tuple[float, float, float]:
 
 
 def circle_segment(a: Body, b: Body, wall: Segment) -> tuple[float, float, float]:
-    """Return normal and depth of a circle and a segment. A centre on its axis leaves clockwise."""
+    """Return normal and gap of a circle and a segment.
+
+    With the centre on the axis, the normal is the axis turned clockwise on the screen.
+    """
     x, y = a.x - b.x, a.y - b.y
     near_x, near_y = wall.nearest(x, y)
     dx, dy = near_x - x, near_y - y
@@ -150,7 +153,7 @@ def circle_segment(a: Body, b: Body, wall: Segment) -> tuple[float, float, float
 
 
 def the_way_it_came(c: Contact, nx: float, ny: float, gap: float) -> tuple[float, float, float]:
-    """Return the normal and depth of two bodies that touched before, with normal (c.nx, c.ny).
+    """Return the normal and gap of two bodies that touched before, with normal (c.nx, c.ny).
 
     A circle whose centre has got into a box leaves through the face it came in by. Through the
     nearest one, a ball pressed into a thin box beyond the middle would come out on the other side.
@@ -171,7 +174,7 @@ def the_way_it_came(c: Contact, nx: float, ny: float, gap: float) -> tuple[float
 def the_side_it_came(
     c: Contact, wall: Segment, nx: float, ny: float, gap: float
 ) -> tuple[float, float, float]:
-    """Return the normal and depth of a ball and a segment that touched before.
+    """Return the normal and gap of a ball and a segment that touched before.
 
     A centre that has crossed the segment, and has not gone round its end, leaves by the side it
     came from.

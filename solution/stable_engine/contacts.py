@@ -208,9 +208,9 @@ class Contacts(Effect):
             self.parted.append((pair.a, pair.b))
 
     def end_unpaired(self) -> None:
-        """End the contacts of bodies that are not even near each other, but for those that sleep.
+        """End the contacts of bodies that are no longer near each other, except sleeping ones.
 
-        Sleepers keep their impulses: with a warm start a pile wakes calmly.
+        Those keep their impulses: with a warm start, a pile wakes calmly.
         """
         unpaired, self.unpaired = self.unpaired, {}
         for number, c in unpaired.items():
@@ -220,7 +220,7 @@ class Contacts(Effect):
                 self.parted.append((c.a, c.b))
 
     def have_passed(self, a: Body, b: Body, gap: float) -> bool:
-        """Return whether two free balls have touched on their way here, and are past each other."""
+        """Return whether two free balls have touched on their way here and passed each other."""
         vx, vy = a.vx - b.vx, a.vy - b.vy
         way = sqrt(vx * vx + vy * vy) * self.last_dt
         if way <= gap or way <= FAR * (a.r + b.r) or not b.r:
@@ -244,11 +244,11 @@ class Contacts(Effect):
         self.broad_phase.bounds = []
 
     def prepare(self, h: float) -> None:
-        """Choose the stiffness of contacts by the substep, and their damping by the step.
+        """Set the stiffness of contacts from the substep, their damping from the number of them.
 
-        A step lets balls overlap by their way in it, however short its substeps are. More damping
-        takes more time to push that out. Were it pushed out in a few substeps, a pile would get
-        energy from it: the less time that is, the more.
+        In a step, balls may overlap by as far as they move in it, however short its substeps are.
+        More damping makes the push out of that overlap slower. A push within a few substeps would
+        give a pile energy: the shorter the substeps, the more.
         """
         if h != self.h:
             self.keep_forces(h)

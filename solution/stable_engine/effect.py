@@ -114,7 +114,7 @@ class Effect:
         """Look at the result of the step."""
 
     def coast(self, dt: float) -> None:
-        """Called alone, for a step of dt seconds in which no ball is awake."""
+        """Advance by a step of dt seconds in which no ball is awake: no other hook is called."""
 
     def tell(self, h: float) -> None:
         """Tell the program of the step, once all is done: it may change the world as it likes."""
@@ -160,4 +160,4 @@ class Effect:
         return []
 
     def awake_changed(self) -> None:
-        """Called after bodies fell asleep or woke: bring lists of the awake up to date."""
+        """Update lists of awake bodies, after some fell asleep or woke."""

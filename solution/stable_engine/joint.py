@@ -9,10 +9,10 @@ from .validate import not_negative, refuse, require
 
 
 class Joint:
-    """A constraint along the line between the centres of a and b, so it turns neither.
+    """A constraint along the line between the centres of a and b: it turns neither of them.
 
-    Its numbers can be set later on, which wakes both. Raises ValueError when one makes no sense, or
-    when a and b are the same body or both static.
+    Setting one of its numbers later on wakes both. Raises ValueError if a number makes no sense, if
+    a and b are the same body, or if both are static.
     """
 
     __slots__ = ("distance", "dx", "dy", "end_a", "end_b", "m", "nx", "ny", "pivot", "rest", "rhs")

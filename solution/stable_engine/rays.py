@@ -23,7 +23,7 @@ def cast_ray(
 ) -> RayHit | None:
     """Return where a ray from start first meets one of the bodies before its end, or None.
 
-    Of bodies that it meets at one moment, the first of the list counts.
+    Of bodies that it meets at the same distance, the first in the list counts.
     """
     x, y = start
     dx, dy = end[0] - x, end[1] - y

@@ -14,12 +14,13 @@ LOOK_EVERY = 8  # steps; a look at all that are awake costs as much as moving th
 
 
 class Sleep(Effect):
-    """Balls that touch or share a joint are an island, which sleeps once all of it has lain still.
+    """Put islands to sleep that have lain still: balls that touch each other or share a joint.
 
-    Only whole islands may sleep: a ball alone would hang in the air when its neighbours moved on.
-    And only one that rests on something static, or hangs on it; else it must not move at all.
-    An island wakes when an awake ball touches it, and when anything is set that its rest hangs on:
-    one of its balls or joints, a static body that it touches or hangs on, or the gravity.
+    Only whole islands sleep: a ball alone would hang in the air when its neighbours moved on. An
+    island must rest on something static or hang on it. Without gravity, it may also float, if it
+    does not move at all. An island wakes when an awake ball touches it, or when a program sets what
+    keeps it at rest: one of its balls or joints, a static body that it touches or hangs on, or the
+    gravity.
     """
 
     rank = 4
@@ -72,9 +73,9 @@ class Sleep(Effect):
             self.update_awake()
 
     def is_still(self, island: list[Body]) -> bool:
-        """Return whether an island has lain still for long, and nothing sets it in motion.
+        """Return whether an island has lain still for STILL_TIME, and nothing sets it in motion.
 
-        A ball that has gained speed begins anew.
+        For a ball that has gained speed, the time starts again.
         """
         if min([body.still for body in island]) <= STILL_TIME:
             return False
@@ -88,10 +89,10 @@ class Sleep(Effect):
         return any([body in self.supported for body in island]) or not (moves or any(self.world.g))
 
     def find_islands(self) -> list[list[Body]]:
-        """Return the awake balls in groups, by union-find: connected ones get the same root.
+        """Return the awake balls in groups, by union-find: connected balls get the same root.
 
-        Find out as well which balls touch something static, or are tied to it. What moves with a
-        kinematic body does not lie still.
+        Also list in `supported` the balls that touch something static or are tied to it. A ball on
+        a moving kinematic body does not lie still.
         """
         self.supported: set[Body] = set()
         parent = {body: body for body in self.world.awake}
@@ -124,5 +125,5 @@ class Sleep(Effect):
 
 
 def sleepers(contacts: Contacts) -> list[Body]:
-    """Return the sleeping balls in a contact: one is only found where the other body is awake."""
+    """Return the sleeping balls in contacts; contacts are only found where one body is awake."""
     return [body for c in contacts.touching for body in (c.a, c.b) if body.sleeps]

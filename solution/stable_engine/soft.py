@@ -17,13 +17,13 @@ def softness(hertz: float, zeta: float, h: float) -> tuple[float, float]:
 
 
 class Pace:
-    """The length of substep that stiffness goes by where steps vary.
+    """The pace: the length of substep from which stiffness is computed when steps vary.
 
-    A constraint is as stiff as the substep allows, so a long one lets more overlap in. Were the
-    next short one at once as stiff as it can be, it would throw that overlap out. So a longer
-    substep counts at once, a shorter one bit by bit: slowly enough for gravity to keep a pile
-    together while it rises. In equal steps the pace is the substep. stiffening is the share of a
-    substep by which a step may shorten the pace.
+    A constraint is as stiff as the substep allows, so a long substep lets more overlap in. A short
+    one after it, at its full stiffness, would throw that overlap out. So the pace follows a longer
+    substep at once and a shorter one gradually: slowly enough for gravity to keep a pile together
+    while it rises. In equal steps the pace is the substep. stiffening is the share of a substep by
+    which a step may shorten the pace.
     """
 
     def __init__(self, stiffening: float) -> None:
@@ -37,9 +37,9 @@ class Pace:
         return self.h
 
     def awake_changed(self, anybody_sleeps: bool) -> None:
-        """Bodies fell asleep or woke. Sleepers keep the overlap that the pace let in until then.
+        """Go back to the longest pace at which sleepers fell asleep: they keep its overlap.
 
-        However short steps have become, their pace counts once more when they wake.
+        So it counts when they wake, however short steps have become.
         """
         self.h = max(self.h, self.slept)
         self.slept = self.h if anybody_sleeps else 0.0

@@ -39,7 +39,7 @@ class Spring(Joint):
 
     @property
     def stiffness(self) -> float:
-        """Force per px of stretch, in kg/s². Setting it wakes both ends."""
+        """Return the force per px of stretch, in kg/s². Setting it wakes both ends."""
         return self.k
 
     @stiffness.setter
@@ -56,7 +56,7 @@ class Spring(Joint):
 
     @property
     def damping(self) -> float:
-        """Force per px/s, in kg/s. Setting it wakes both ends."""
+        """Return the force per px/s, in kg/s. Setting it wakes both ends."""
         return self.c
 
     @damping.setter

@@ -22,7 +22,7 @@ def require(ok: bool, field: str, value: object, rule: str) -> None:
 
 
 def number(field: str, value: float, low: float, high: float, rule: str) -> float:
-    """value as a float. Raises ValueError when it is NaN, infinite or not from low to high."""
+    """Return value as a float. Raises ValueError when it is NaN or not from low to high."""
     try:
         ok = math.isfinite(value) and low <= value <= high
     except TypeError:
@@ -32,17 +32,17 @@ def number(field: str, value: float, low: float, high: float, rule: str) -> floa
 
 
 def finite(field: str, value: float) -> float:
-    """value as a float. Raises ValueError when it is NaN or infinite."""
+    """Return value as a float. Raises ValueError when it is NaN or infinite."""
     return number(field, value, -math.inf, math.inf, "a finite number")
 
 
 def not_negative(field: str, value: float) -> float:
-    """value as a float. Raises ValueError when it is below 0, NaN or infinite."""
+    """Return value as a float. Raises ValueError when it is below 0, NaN or infinite."""
     return number(field, value, 0, math.inf, "a finite number, 0 or more")
 
 
 def positive(field: str, value: float) -> float:
-    """value as a float. Raises ValueError when it is 0 or below, NaN or infinite."""
+    """Return value as a float. Raises ValueError when it is 0 or below, NaN or infinite."""
     rule = "a finite number above 0"
     found = number(field, value, 0, math.inf, rule)
     require(found > 0, field, value, rule)
@@ -50,7 +50,7 @@ def positive(field: str, value: float) -> float:
 
 
 def whole(field: str, value: int) -> int:
-    """value as an int. Raises ValueError when it is no whole number above 0."""
+    """Return value as an int. Raises ValueError when it is no whole number above 0."""
     rule = "a whole number above 0"
     try:
         count = operator.index(value)
@@ -61,7 +61,7 @@ def whole(field: str, value: int) -> int:
 
 
 def pair(field: str, value: Iterable[float]) -> tuple[float, float]:
-    """value as two floats. Raises ValueError when it is not a pair of finite numbers."""
+    """Return value as two floats. Raises ValueError when it is not a pair of finite numbers."""
     rule = "a pair of finite numbers"
     try:
         numbers = tuple(value)

@@ -213,9 +213,9 @@ CLOSE, HARDLY = 1 / 64, 63 / 64  # shares of a way
 
 
 def regions(size: Size, share: float) -> Iterator[Pair]:
-    """Yield a centre in every region, relative to the middle of the box.
+    """Yield centres in every region inside and around the box, relative to its middle.
 
-    `share`, from 0 to 1, says how far inside or outside they are. All shares are parts of 64, so
+    `share`, from 0 to 1, sets how far inside or outside they are. Shares are multiples of 1/64, so
     that sums are exact.
     """
     hx, hy, r = size

@@ -42,7 +42,7 @@ RK4 = Method("rk4", 4, 0.018, -0.03)
 
 
 def oracle_of(method: Method) -> Callable[[float, float, float, Accel], State]:
-    """Return the oracle of a method as it is now: a release wraps it to note its answers."""
+    """Look up the oracle of a method at each call: a release wraps it to note its answers."""
     oracle: Callable[[float, float, float, Accel], State] = getattr(exact, method.name)
     return oracle
 
@@ -139,9 +139,9 @@ def look_closely(lab: Lab, method: Method) -> None:
 
 
 def want_a_swing(lab: Lab, method: Method) -> None:
-    """Insist on 0.5 to 1.5 times the figures of the lesson's table.
+    """Insist on an error and a change of energy of 0.5 to 1.5 times those in the lesson's table.
 
-    A step of another body follows, which must not depend on stored values.
+    A single step from another start follows: its answer must not come from stored values.
     """
     look_closely(lab, method)
     x0 = lab.about(X0)
@@ -172,7 +172,7 @@ def want_a_swing(lab: Lab, method: Method) -> None:
 
 
 def asked_everywhere(check: Callable[..., None]) -> Callable[..., None]:
-    """Make it a property that draws the arguments of an integrator's step."""
+    """Make a check a property that draws the arguments of an integrator's step."""
     drawn = given(examples=2, starts=starts, force=forces, other=forces, elsewhere=near_and_far)
     return drawn(check)
 

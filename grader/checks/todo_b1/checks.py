@@ -253,7 +253,7 @@ def a_sleeper_wakes_when_it_is_hit_or_loses_its_support(lab: Lab) -> None:
 
 
 def what_comes_to_rest_in_turn_sleeps(lab: Lab) -> None:
-    """Insist that a neighbour that is awake but at rest wakes no body."""
+    """Insist that a ball at rest, though awake, wakes no neighbour."""
     lab.ran("three balls that lie side by side; the second comes 0.3 s after the first, and so on")
     row = [ball(lab, 2 * RADIUS * number - 0.1 * number) for number in range(3)]
     world = room(lab, floor(lab), row[0])

@@ -26,9 +26,9 @@ MAX_PAIRS = 2_000_000  # bodies compared in a run; the scene has a tenth of it
 
 
 def outline(part: Part) -> tuple[float, float, float, float, float]:
-    """Return half the width and height of a static part, its middle and its radius, px.
+    """Return half the width and height of a static part, its middle (x, y) and its radius, px.
 
-    A disc is a point with a radius, and a box has none.
+    A disc has width and height 0, and a box has radius 0.
     """
     width, height, radius = (0.0, 0.0, *part.shape) if len(part.shape) == 1 else (*part.shape, 0.0)
     return width, height, *part.pos, radius

@@ -33,12 +33,12 @@ class GivenCause:
 
     @property
     def is_all(self) -> bool:
-        """Return whether this is the full explanation; a missing name may have a new one."""
+        """Return whether this explains all of a failure; missing code may have another name."""
         return self.mended and all(each.theirs for each in self.changes)
 
     @property
     def is_gone(self) -> bool:
-        """Return whether code is missing without which nothing of its TODO runs."""
+        """Return whether code is missing that its TODO cannot run without."""
         return not self.mended and not any(each.theirs for each in self.changes)
 
     @property
@@ -67,8 +67,8 @@ def find_changes(
 ) -> list[GivenChange]:
     """Return how the given code of a submission differs from what was handed out.
 
-    `unusable`: how imports failed. A file in which one fails counts as a whole: code that was added
-    may be the reason.
+    `unusable` holds the imports that failed. A file in which one failed is compared as a whole:
+    added code may be the reason.
     """
     folder, given = submission.folder, load_given()
     own = {n: read_source(folder / n) for n in given if (folder / n).is_file()}
@@ -119,9 +119,9 @@ class CauseSearch:
     def _find_one(
         self, failed: Mapping[Key, CheckResult], differ: Mapping[Key, bool]
     ) -> dict[Key, Sequence[GivenChange]]:
-        """Return the one change that makes the difference to a check, if there is one.
+        """Return, by check, the single change that makes the difference, where there is one.
 
-        Of several checks with the same error only the first runs.
+        Of checks with the same error only the first runs; its change counts for all of them.
         """
         if not 1 < len(self.changes) <= MOST_ALONE:
             return {}
