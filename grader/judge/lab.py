@@ -11,14 +11,15 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from itertools import accumulate, count
-from typing import Any, Literal, NamedTuple, TypeVar
+from typing import Any, Literal, NamedTuple
 
 import msgspec
 
-from grader.judge.decode import Decoder, Pair, Thing
+from grader.judge.asking import Asker, Judge, Noted, Observation
+from grader.judge.decode import Pair, Thing
 from grader.judge.failures import TRESPASS, Broke, NotYet
 from grader.judge.wall.children import Child
-from grader.judge.wall.connection import Answer, Connection, Send, ask_child
+from grader.judge.wall.connection import Connection, Send, ask_child
 from grader.protocol import (
     Argument,
     BodyValue,
@@ -34,7 +35,6 @@ from grader.protocol import (
     Play,
     Played,
     Ref,
-    Request,
     Returned,
     Set,
     Simulate,
@@ -45,34 +45,14 @@ from grader.protocol import (
 
 STEP = 1 / 120  # s
 ROUNDED = 1e-6  # ms
-Judge = Callable[[Value], None]  # insists on the right answer
-Result = TypeVar("Result")
-Noted = tuple[str, tuple[Any, ...]]  # a question, to recognise known mistakes: about, inputs
 Opening = tuple[int, Event | None]  # frames to wait, and the event that ends the title
 Frame = Mapping[Thing, str]  # the fields that may change, by their owner
 NOTHING: Frame = {}
 OURS = 1_000_000  # the judge numbers objects from here on, the child below
-TOGETHER = 100  # questions in one message
-MAX_OBSERVATIONS = 400  # a shrinking counterexample makes many; the first ones are enough
 
 
-@dataclass(frozen=True)
-class Observation:
-    """One question put to the submission and its answer, to recognise known mistakes."""
-
-    about: str
-    inputs: tuple[Any, ...]
-    answer: Any
-
-
-class Lab(Decoder):
-    """One check's view of the submission; `open_child` starts a fresh process when first needed.
-
-    A question with a function `then` that judges its answer goes into one message with the next
-    ones. They are judged in order, before the next question without one, and when the check ends.
-    """
-
-    together = TOGETHER
+class Lab(Asker):
+    """One check's view of the submission; `open_child` starts a fresh process when first needed."""
 
     def __init__(
         self,
@@ -82,12 +62,10 @@ class Lab(Decoder):
         send: Send = ask_child,
         secret: str | None = None,  # of an instructor who has a seed
     ) -> None:
-        super().__init__()
+        super().__init__(Connection(module, open_child, pieces, send))
         self.drawn = None if secret is None else random.Random(secret)
         self.factor = self.about(1.0)  # for all numbers of one kind in a check, such as masses
         self.module = module
-        self.connection = Connection(module, open_child, pieces, send)
-        self.observations: list[Observation] = []
         # The first forbidden change. It fails a check that would pass otherwise: a wrong answer
         # comes first.
         self.overstepped: NotYet | None = None
@@ -96,8 +74,6 @@ class Lab(Decoder):
         self.numbers = count(OURS)  # for objects that the judge makes
         self.remembers: list[str] = []  # names that kept a value; see Remembered
         self.played = False  # the child has run a program
-        self.posted: list[Callable[[], None]] = []  # each waits for an answer and judges it
-        self.is_judging = False  # while one of them works, nothing may be asked
         self.notes: list[str] = []  # sentences for the report of a check that passes
         self.opening: Opening | None = None  # of a program that begins with a title
 
@@ -118,20 +94,6 @@ class Lab(Decoder):
             yield self
         finally:
             self.connection.end()
-
-    @contextmanager
-    def settled(self) -> Iterator[None]:
-        """Judge all answers at the end; after a failure, forget the questions."""
-        try:
-            yield
-            self.settle()
-        finally:
-            self.posted.clear()
-
-    def saw(self, about: str, inputs: tuple[Any, ...], answer: Any) -> None:
-        """Remember an answer, to recognise known mistakes by their numbers."""
-        if len(self.observations) < MAX_OBSERVATIONS:
-            self.observations.append(Observation(about, inputs, answer))
 
     def about(self, number: float, within: float | None = None) -> float:
         """Return the number or, under an instructor's secret seed, another one near it.
@@ -222,44 +184,6 @@ class Lab(Decoder):
         """Call a method whose answer is not needed."""
         values = [plain(each) for each in args]
         self._value(Call(f"#{thing.ref}.{method}", values, quiet=True))
-
-    def _ask(
-        self,
-        request: Request,
-        read: Callable[[Returned], Value],
-        noted: Noted | None = None,
-        then: Judge | None = None,
-    ) -> Value:
-        """Return the answer as `read` reads it, or post the question and judge the answer later."""
-        running, wait = self.running, self._post(request)
-
-        def answer() -> Value:
-            self.running = running
-            try:
-                return read(self._expect_value(self._guard(wait)))
-            except Broke as failure:
-                if failure.raised is not None and noted is not None:
-                    self.saw(*noted, failure.raised.error)
-                raise
-
-        if then is None:
-            self.settle()
-            return answer()
-        self.posted.append(lambda: then(answer()))
-        if len(self.posted) >= self.together:
-            self.settle()
-        return None
-
-    def settle(self) -> None:
-        """Judge the answers to all questions that were posted with a function for it."""
-        posted, self.posted, running = self.posted, [], self.running
-        self.is_judging = True
-        try:
-            for judge_it in posted:
-                judge_it()
-        finally:
-            self.is_judging = False
-        self.running = running
 
     def _compare(
         self, name: str, request: Call | Integrate, changes: Frame | None, returned: Returned
@@ -550,41 +474,6 @@ class Lab(Decoder):
         """Use a new process from now on, in which no program has run."""
         self.connection.restart()
         self.played = False
-
-    # ------------------------------------------------------------ the replies
-
-    def _value(self, request: Request) -> Value:
-        return self._returned(request).value
-
-    def _returned(self, request: Request) -> Returned:
-        return self._expect_value(self._reply(request))
-
-    def _expect_value(self, reply: Answer) -> Returned:
-        if not isinstance(reply, Returned):
-            self.fail("a value", "something else")
-        return reply
-
-    def _reply(self, request: Request) -> Answer:
-        reply = self._guard(lambda: self.connection.answer_at_once(request, self.running))
-        if reply is None:
-            wait = self._post(request)
-            self.settle()
-            reply = self._guard(wait)
-        return reply
-
-    def _post(self, request: Request) -> Callable[[], Answer]:
-        """Return a function that waits for the answer to a question."""
-        if self.is_judging:
-            raise RuntimeError("a question about the answer to an earlier one, which is too late")
-        return self._guard(lambda: self.connection.post(request, self.running))
-
-    def _guard(self, act: Callable[[], Result]) -> Result:
-        """Return the result of an act, and remember the failure that it raises."""
-        try:
-            return act()
-        except (Broke, NotYet) as failure:
-            self.remember(failure)
-            raise
 
 
 LEAD = 20  # frames, for a program that shows a title or loads something

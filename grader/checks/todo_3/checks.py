@@ -9,8 +9,9 @@ from grader.checks import exact
 from grader.checks.digits import want_answer
 from grader.checks.exact import BETA, Rod
 from grader.checks.strategies import any_spins, any_surface, directions, lengths, masses
+from grader.judge.asking import Judge
 from grader.judge.drawing import given
-from grader.judge.lab import STEP, Judge, Lab, Moment, Pair, Thing
+from grader.judge.lab import STEP, Lab, Moment, Pair, Thing
 from grader.protocol import BodyValue, Value
 
 ANGLES = (0.703125, -2.40625)  # rad, by which A and B are turned

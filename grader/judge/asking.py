@@ -1,0 +1,128 @@
+"""Ask a submission questions, several in one message, and judge the answers in order."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+from grader.judge.decode import Decoder
+from grader.judge.failures import Broke, NotYet
+from grader.judge.wall.connection import Answer, Connection
+from grader.protocol import Request, Returned, Value
+
+TOGETHER = 100  # questions in one message
+MAX_OBSERVATIONS = 400  # a shrinking counterexample makes many; the first ones are enough
+Judge = Callable[[Value], None]  # insists on the right answer
+Noted = tuple[str, tuple[Any, ...]]  # a question, to recognise known mistakes: about, inputs
+Result = TypeVar("Result")
+
+
+@dataclass(frozen=True)
+class Observation:
+    """One question put to the submission and its answer, to recognise known mistakes."""
+
+    about: str
+    inputs: tuple[Any, ...]
+    answer: Any
+
+
+class Asker(Decoder):
+    """Asks a child.
+
+    A question with a function `then` that judges its answer goes into one message with the next
+    ones. They are judged in order, before the next question without one, and when the check ends.
+    """
+
+    together = TOGETHER
+
+    def __init__(self, connection: Connection) -> None:
+        super().__init__()
+        self.connection = connection
+        self.observations: list[Observation] = []
+        self.posted: list[Callable[[], None]] = []  # each waits for an answer and judges it
+        self.is_judging = False  # while one of them works, nothing may be asked
+
+    @contextmanager
+    def settled(self) -> Iterator[None]:
+        """Judge all answers at the end; after a failure, forget the questions."""
+        try:
+            yield
+            self.settle()
+        finally:
+            self.posted.clear()
+
+    def saw(self, about: str, inputs: tuple[Any, ...], answer: Any) -> None:
+        """Remember an answer, to recognise known mistakes by their numbers."""
+        if len(self.observations) < MAX_OBSERVATIONS:
+            self.observations.append(Observation(about, inputs, answer))
+
+    def _ask(
+        self,
+        request: Request,
+        read: Callable[[Returned], Value],
+        noted: Noted | None = None,
+        then: Judge | None = None,
+    ) -> Value:
+        """Return the answer as `read` reads it, or post the question and judge the answer later."""
+        running, wait = self.running, self._post(request)
+
+        def answer() -> Value:
+            self.running = running
+            try:
+                return read(self._expect_value(self._guard(wait)))
+            except Broke as failure:
+                if failure.raised is not None and noted is not None:
+                    self.saw(*noted, failure.raised.error)
+                raise
+
+        if then is None:
+            self.settle()
+            return answer()
+        self.posted.append(lambda: then(answer()))
+        if len(self.posted) >= self.together:
+            self.settle()
+        return None
+
+    def settle(self) -> None:
+        """Judge the answers to all questions that were posted with a function for it."""
+        posted, self.posted, running = self.posted, [], self.running
+        self.is_judging = True
+        try:
+            for judge_it in posted:
+                judge_it()
+        finally:
+            self.is_judging = False
+        self.running = running
+
+    def _value(self, request: Request) -> Value:
+        return self._returned(request).value
+
+    def _returned(self, request: Request) -> Returned:
+        return self._expect_value(self._reply(request))
+
+    def _expect_value(self, reply: Answer) -> Returned:
+        if not isinstance(reply, Returned):
+            self.fail("a value", "something else")
+        return reply
+
+    def _reply(self, request: Request) -> Answer:
+        reply = self._guard(lambda: self.connection.answer_at_once(request, self.running))
+        if reply is None:
+            wait = self._post(request)
+            self.settle()
+            reply = self._guard(wait)
+        return reply
+
+    def _post(self, request: Request) -> Callable[[], Answer]:
+        """Return a function that waits for the answer to a question."""
+        if self.is_judging:
+            raise RuntimeError("a question about the answer to an earlier one, which is too late")
+        return self._guard(lambda: self.connection.post(request, self.running))
+
+    def _guard(self, act: Callable[[], Result]) -> Result:
+        """Return the result of an act, and remember the failure that it raises."""
+        try:
+            return act()
+        except (Broke, NotYet) as failure:
+            self.remember(failure)
+            raise
