@@ -80,7 +80,9 @@ def hand_in(tmp_path: Path) -> HandIn:
     def make(base: str | None = None, **files: str | None) -> Path:
         folder = tmp_path / "handed-in"
         if base:
-            shutil.copytree(KIT / base, folder, ignore=shutil.ignore_patterns("__pycache__"))
+            shutil.copytree(
+                KIT / base, folder, ignore=shutil.ignore_patterns("__pycache__", "build")
+            )
         else:
             folder.mkdir()
         for name, text in files.items():
