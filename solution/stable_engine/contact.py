@@ -152,6 +152,14 @@ def circle_segment(a: Body, b: Body, wall: Segment) -> tuple[float, float, float
     return -wall.uy, wall.ux, -wall.rim - a.r
 
 
+def is_at_face(c: Contact) -> bool:
+    """Return whether a ball is at a flat face of a box or segment, and not at a corner or end."""
+    a, b = c.a, c.b
+    if b.segment is None:
+        return not b.r and (c.nx == 0 or c.ny == 0)
+    return abs((a.x - b.x) * b.segment.ux + (a.y - b.y) * b.segment.uy) <= b.segment.reach
+
+
 def the_way_it_came(c: Contact, nx: float, ny: float, gap: float) -> tuple[float, float, float]:
     """Return the normal and gap of two bodies that touched before, with normal (c.nx, c.ny).
 

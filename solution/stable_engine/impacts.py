@@ -4,7 +4,7 @@ from collections.abc import Callable
 from math import cos, hypot, sin
 
 from .body import Body
-from .contact import Contact, collide
+from .contact import Contact, collide, is_at_face
 from .contacts import Contacts
 from .rods import Frame, Rods
 from .sweep import first_hit, moment_of_touch
@@ -51,7 +51,8 @@ class Impacts:
 
     def __init__(self, contacts: Contacts, rods: Rods | None, slow: float) -> None:
         self.touching = contacts.touching
-        self.begun, self.flown = set(contacts.begun), contacts.flown
+        self.begun = set(contacts.begun)
+        self.flown = dict(contacts.flown)  # s, how long a ball has flown straight; else a step
         self.contacts = contacts
         self.last_dt = contacts.last_dt  # s, of the step in which they touched
         self.touching_gap = contacts.touching_gap
@@ -67,17 +68,17 @@ class Impacts:
     def find(self) -> None:
         """Find what is due. A contact that has just begun counts as it was when it touched."""
         for c in self.touching:
-            self.look(c, self.flown.get(c.a, self.last_dt), c in self.begun)
+            self.look(c, c in self.begun)
 
-    def look(self, c: Contact, since: float, is_new: bool = False) -> None:
-        """Enter a pair that closes in fast and has flown straight since so long (s) ago."""
+    def look(self, c: Contact, is_new: bool = False) -> None:
+        """Enter a pair that closes in fast."""
         speed, ago = c.closing_speed(), 0.0
         if speed <= self.slow and not is_new:
             self.due.pop(c, None)
             return
         if c.gap < 0 or is_new:
             now = c.nx, c.ny, c.gap
-            ago = self.turn_back(c, since)
+            ago = self.turn_back(c)
             speed = c.closing_speed()
             if speed <= self.slow:
                 c.nx, c.ny, c.gap = now
@@ -85,14 +86,19 @@ class Impacts:
         if speed > self.slow:
             self.due[c] = Impact(ago, speed)
 
-    def turn_back(self, c: Contact, since: float) -> float:
+    def turn_back(self, c: Contact) -> float:
         """Turn a contact's normal to where it was when the two touched. Return how long (s) ago.
 
-        A ball that swings fast has not flown straight, nor one that an impact has just stopped
-        where it is: the normal stays. Nothing flies through a wall.
+        The normal of a flat face of a static body stays: it is the same at each moment. Others stay
+        if the two did not touch while both flew straight. A ball that swings fast has not flown
+        straight, nor one that an impact has just stopped. Nothing flies through a wall.
         """
+        since = min(self.flown.get(c.a, self.last_dt), self.flown.get(c.b, self.last_dt))
         if since <= 0 or self.swings(c.a) or self.swings(c.b):
             return 0.0
+        if is_at_face(c):
+            speed = c.closing_speed()
+            return -c.gap / speed if 0 < -c.gap < speed * since else 0.0
         is_arc = c.a in self.pivots or c.b in self.pivots
         ago, nx, ny = moment_of_touch(c.a, c.b, since * ARC if is_arc else since)
         ago = min(ago, since)
@@ -210,10 +216,11 @@ class Impacts:
 
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Look anew at all contacts of balls that were hit, and moved if that was some time ago."""
+        self.flown.update(dict.fromkeys(hit, ago))
         for c in dict.fromkeys([c for body in hit for c in self.beside[body]]):
             if ago > 0:
                 c.nx, c.ny, c.gap = collide(c.a, c.b)
-            self.look(c, ago)
+            self.look(c)
 
     def link(self) -> None:
         """Find the contacts of each ball, and the balls that can be put elsewhere."""

@@ -15,6 +15,7 @@ from experiments.measures import run, watch
 from experiments.rows.hits import gas
 from experiments.rows.row import fall_speed, law, seen
 from experiments.scenes import BOUNCE, DT, Ball, Block, G, Scene, floor
+from stable_engine import Body, Bounce, Box, Circle, Contacts, Segment, World
 
 IDEAL = {"restitution": 1.0, "friction": 0.0}
 SMOOTH = ("Contacts", "Bounce")
@@ -100,6 +101,21 @@ def test_a_ball_leaves_a_peg_as_light_leaves_a_mirror(degrees, fast):
         turned = math.degrees(math.atan2(-ball.vy, -ball.vx))
         assert turned == pytest.approx(2 * degrees, abs=0.01)
         assert math.hypot(ball.vx, ball.vy) == pytest.approx(fast, rel=1e-9)
+
+
+@pytest.mark.parametrize("shape", [Box((100, 10)), Segment((-100, 0), (100, 0), 10)])
+def test_a_flat_face_keeps_its_normal_when_a_ball_changes_its_velocity(shape):
+    """Back along its new velocity, which it did not fly with, it meets the left end of the wall."""
+    world = World((0, 0), effects=[Contacts(), Bounce()])
+    middle = None if isinstance(shape, Segment) else (0, 0)
+    world.add(Body(shape, middle, **IDEAL))
+    ball = world.add(Body(Circle(10), (-95, -25), 1.0, **IDEAL))
+    ball.vel = 0, 1200
+    world.step(1 / 120)
+    assert ball.y == pytest.approx(-15), "the ball overlaps the wall, and its impact is due"
+    ball.vel = 3000, 300
+    world.step(1 / 120)
+    assert tuple(ball.vel) == pytest.approx((3000, -300), rel=1e-9)
 
 
 @pytest.mark.parametrize("degrees", [0, 20, 45, 70])
