@@ -1,18 +1,16 @@
-"""Write hints.md from grader/checks/hints.toml, the file that the hint command reads.
+"""Write hints.md from grader/checks/rubric.toml, the file that the hint command reads.
 
 python handouts/make_hints.py
 """
 
 import html
 import re
-import tomllib
 from pathlib import Path
 
 from grader.judge.course import FULL
 from grader.release.handouts import choose_examples
 
 HERE = Path(__file__).resolve().parent
-CHECKS = HERE.parent / "grader" / "checks"
 LEVELS = {
     "A question": "question",
     "The idea": "tip",
@@ -35,23 +33,19 @@ make hint TODO=4 LEVEL=2     # or: python -m grader hint --todo 4 --level 2
 """
 
 
-def read(name):
-    return tomllib.loads((CHECKS / name).read_text(encoding="utf-8"))
-
-
 def as_html(words):
     """Return a hint as HTML, everything escaped except `code`."""
     return re.sub(r"`([^`]+)`", r"<code>\1</code>", html.escape(words, quote=False))
 
 
-def section(todo, hints):
+def section(todo):
     """Return one TODO with its hints, each folded away."""
     title = todo.title[0].lower() + todo.title[1:]
     if todo.title.startswith("RK"):
         title = todo.title
     name = todo.function.partition(":")[2]
     parts = [f"## TODO {todo.id}: {title}", "", f"In `{name}`.", ""]
-    for (level, icon), words in zip(LEVELS.items(), hints, strict=True):
+    for (level, icon), words in zip(LEVELS.items(), todo.hints, strict=True):
         parts += [f'<details class="{icon}">', f"<summary>{level}</summary>"]
         parts += [f"<p>{as_html(words)}</p>"]
         parts += ["</details>", ""]
@@ -60,9 +54,8 @@ def section(todo, hints):
 
 def page(course=FULL):
     """Return the text of hints.md for a course."""
-    hints = read("hints.toml")
     todos = [todo for todo in course.rubric.todos if todo.function]
-    text = "\n".join([HEAD, *(section(todo, hints[todo.id]) for todo in todos)])
+    text = "\n".join([HEAD, *(section(todo) for todo in todos)])
     return choose_examples(text, course)
 
 

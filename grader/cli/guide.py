@@ -127,7 +127,7 @@ class Guide(Watch):
     def give_hint(self) -> None:
         """Give the next hint to the TODO on the screen, or the last one again."""
         name = self.todo.id if self.todo else ""
-        hints = load_hints().get(name, [])
+        hints = load_hints(name)
         if not hints:
             self.say("There is no hint for this.")
             return

@@ -5,7 +5,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
-import msgspec
 import typer
 
 from grader.cli.hand_in import find_missing, list_tops, list_warnings, pack_tree, write_receipt
@@ -21,7 +20,7 @@ from grader.cli.shared import (
 from grader.errors import Stop
 from grader.judge.course import Course, read_course
 from grader.judge.result import Result
-from grader.judge.rubric import CHECKS
+from grader.judge.rubric import load_rubric
 from grader.judge.task import Options
 from grader.judge.wall.starting import count_cores
 from grader.judge.wording import command, hidden_points_note, total
@@ -184,16 +183,16 @@ def hint_command(
     todo, *others = find_parts(name or todo, read_course(course))
     if others:
         raise Stop(f"there are {', '.join([todo, *others])}: name one")
-    hints = load_hints()
-    if todo not in hints:
+    hints = load_hints(todo)
+    if not hints:
         say(f"There is no hint for {todo}: its checks name the TODO to look at.", console)
         return
-    for number, words in enumerate(hints[todo][:level], 1):
+    for number, words in enumerate(hints[:level], 1):
         say(f"{number}  {words}", console, indent=3)
-    if level < len(hints[todo]):
+    if level < len(hints):
         say(f"More: {command('hint', todo, level + 1)}", console)
 
 
-def load_hints() -> dict[str, list[str]]:
-    """Load the three hints of each TODO."""
-    return msgspec.toml.decode((CHECKS / "hints.toml").read_bytes(), type=dict[str, list[str]])
+def load_hints(id: str) -> list[str]:
+    """Return the three hints of a TODO; none of the whole program."""
+    return next((todo.hints for todo in load_rubric().todos if todo.id == id), [])

@@ -30,6 +30,7 @@ class Todo(Struct, frozen=True, forbid_unknown_fields=True):
     function: str  # that contains the TODO, as module:name; empty for the whole
     folder: str  # below checks/, with its checks and known mistakes
     checks: list[Check]
+    hints: list[str] = []  # a question, the idea, nearly the code; the whole has none
     hidden_points: int = 0  # in a student's copy: the points of the checks that it lacks
 
     @property

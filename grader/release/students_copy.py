@@ -7,7 +7,6 @@ do so too: see questions/practice.py.
 
 import json
 import shutil
-import tomllib
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import closing, contextmanager
 from functools import cache, partial, wraps
@@ -153,19 +152,16 @@ def write_fields(table: dict[str, Any]) -> list[str]:
 
 
 def cut_course_files(course: Course) -> dict[str, str]:
-    """Return the files beside the checks: stubs, given code, hints, and dates of the course."""
+    """Return the files beside the checks: stubs, given code, and dates of the course."""
     asked = {todo.id for todo in course.rubric.todos}
     stubs = json.loads((CHECKS / "stubs.json").read_bytes())
     stubs = {name: stub for name, stub in stubs.items() if name.removeprefix("def ") in asked}
     files = make_students_tree(KIT, course)
     programs = {n: files[n].decode() for n in files if n.endswith(".py") and not is_laid_in(n)}
-    hints = tomllib.loads((CHECKS / "hints.toml").read_text(encoding="utf-8"))
-    kept = [f"{id} = {json.dumps(hints[id])}\n" for id in hints if id in asked]
     due = f"due = {course.due.isoformat()}\n" if course.due else ""
     return {
         "stubs.json": json.dumps(stubs, indent=1) + "\n",
         "given.json": json.dumps(read_given_sources(programs), indent=1) + "\n",
-        "hints.toml": "".join(kept),
         TASKS: json.dumps(make_tasks(make_handouts(KIT / "handouts", course)), indent=1) + "\n",
         "course.toml": f"title = {json.dumps(course.title)}\n{due}",
     }

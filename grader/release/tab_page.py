@@ -10,7 +10,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import tomllib
 import zipfile
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
@@ -328,7 +327,6 @@ def write_sheet(
     site: Path, copy: Path, files: Mapping[str, bytes], course: Course, has_pymunk: bool
 ) -> None:
     """Write each TODO's text, file, program and hints, and the lesson, for the page."""
-    hints = tomllib.loads((copy / "grader/checks/hints.toml").read_text(encoding="utf-8"))
     handouts = make_handouts(KIT / "handouts", course)
     sections = find_texts(handouts)
     places = find_places(files)
@@ -339,7 +337,7 @@ def write_sheet(
             "file": places[todo.id],
             "program": places[todo.id].partition("/")[0].removesuffix(".py"),
             "text": render(sections.get(todo.id, "")),
-            "hints": hints.get(todo.id, []),
+            "hints": todo.hints,
         }
         for todo in course.rubric.todos
         if todo.id in places

@@ -76,13 +76,10 @@ def test_files_in_the_current_folder_shadow_nothing(hand_in):
 
 
 def test_there_are_three_hints_for_every_todo():
-    import msgspec
+    from grader.judge.rubric import load_rubric
 
-    from grader.judge.rubric import CHECKS, load_rubric
-
-    hints = msgspec.toml.decode((CHECKS / "hints.toml").read_bytes())
-    assert set(hints) == {todo.id for todo in load_rubric().todos if todo.function}
-    assert all(len(each) == 3 for each in hints.values())
+    for todo in load_rubric().todos:
+        assert len(todo.hints) == (3 if todo.function else 0), todo.id
 
 
 # ---------------------------------------------------------------- options that would be ignored

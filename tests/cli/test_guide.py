@@ -99,7 +99,7 @@ def test_each_save_shows_the_failure_or_the_next_task(open_guide):
 
 
 def test_hints_come_one_by_one_and_the_last_one_stays(open_guide):
-    guide, hints = open_guide(), load_hints()["8a"]
+    guide, hints = open_guide(), load_hints("8a")
     for number in (1, 2, 3, 3):
         text = press(guide, "h")
         assert f"Hint {number} of 3: {' '.join(hints[number - 1].split())}" in text

@@ -34,6 +34,11 @@ title = "How far a spring swings"
 module = "integrators"
 function = "integrators:amplitude"
 folder = "todo_9"
+hints = [
+  "Where is the body when it stops?",
+  "All of its energy is in the stretch.",
+  "Add the squares of `x` and of `v / OMEGA`, and take the root.",
+]
 checks = [
   { id = "a_spring_at_rest_swings_as_far_as_it_is_stretched", points = 1, kind = "unit" },
   { id = "a_spring_in_motion_swings_farther", points = 1, kind = "unit" },
@@ -65,10 +70,6 @@ def want_amplitude(lab: Lab, x: float, v: float) -> None:
     right = math.sqrt(x**2 + (v / OMEGA) ** 2)
     lab.want(math.isclose(got, right), f"{right:.3f} px", f"{got:.3f} px")
 '''
-HINTS = (
-    '\n9 = [\n  "Where is the body when it stops?",\n  "All of its energy is in the stretch.",\n'
-    '  "Add the squares of `x` and of `v / OMEGA`, and take the root.",\n]\n'
-)
 WRONG = """# Mistakes in TODO 9.
 
 [forgets-the-motion]
@@ -102,7 +103,6 @@ def add_todo_9(kit: Path) -> None:
     checks = kit / "grader" / "checks" / "todo_9" / "checks.py"
     checks.parent.mkdir()
     checks.write_text(CHECKS, encoding="utf-8", newline="\n")
-    put_before(kit / "grader" / "checks" / "hints.toml", "\nB1 = [", HINTS)
     sheet = kit / "handouts" / "lab-sheet.md"  # 3
     edit(
         sheet,

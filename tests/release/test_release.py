@@ -361,7 +361,7 @@ def zip_text(name: str, text: str | bytes) -> bytes:
 LINE = "total = max(-limit, min(limit, total))"
 FORMS = {
     "page.html": b"<pre><span>total</span> = max(-limit, min(limit, total))</pre>",
-    "hints.toml": f'4 = ["{LINE}"]'.encode(),
+    "rubric.toml": f'hints = ["{LINE}"]'.encode(),
     "cells.ipynb": json.dumps({"cells": [{"source": ["x = 1\n", LINE]}]}).encode(),
     "windows.txt": f"one\r\n{LINE}\r\n".encode(),
     "a.whl": zip_text("grader/help.py", LINE),
