@@ -231,6 +231,17 @@ def test_a_force_acts_for_one_step_and_adds_up():
     assert ball.vx == pytest.approx(100 * 121 * DT, rel=1e-12)
 
 
+def test_a_pull_that_follows_the_position_keeps_an_orbit_in_single_short_substeps():
+    """As the page of effects says: within 1 px of a circle of 200 px, for ten rounds."""
+    world = World((0, 0), substeps=1)
+    moon = world.add(Body(Circle(5), (200, 0), mass=2))
+    moon.vel = (0, 400)
+    for _ in range(round(10 * math.pi * 240)):
+        moon.apply_force(-moon.pos * (2 * 400**2 * 200 / moon.pos.length() ** 3))
+        world.step(1 / 240)
+        assert moon.pos.length() == pytest.approx(200, abs=1)
+
+
 def test_a_force_at_the_rim_and_a_torque_turn_clockwise():
     world = World(gravity=(0, 0))
     ball, other = (world.add(Body(Circle(10), (x, 5), mass=4)) for x in (5, 500))
