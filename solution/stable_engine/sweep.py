@@ -97,12 +97,12 @@ def hit_box(s: Body, radius: float, x: float, y: float, dx: float, dy: float) ->
             side = copysign(half, move)
             enter = max(enter, (-side - start) / move)
             leave = min(leave, (side - start) / move)
-    if enter == 0 or enter >= leave:
+    if enter >= leave:
         return NO_HIT
     at_x, at_y = x + dx * enter, y + dy * enter
     if abs(at_x) > s.hx and abs(at_y) > s.hy:
         return hit_point(radius, x - copysign(s.hx, at_x), y - copysign(s.hy, at_y), dx, dy)
-    return enter
+    return enter or NO_HIT
 
 
 def hit_segment(wall: Segment, radius: float, x: float, y: float, dx: float, dy: float) -> float:

@@ -251,6 +251,14 @@ def test_a_bullet_never_gets_into_a_thin_ledge(fast, restitution, effects):
             assert max(watch(world, 0.3, lambda body=bullet: body.y)) < 0
 
 
+def test_a_bullet_beside_a_corner_does_not_fly_through_the_box():
+    """It begins within its radius of the lines of both faces, but not of the corner."""
+    bullet = Ball((53, -8), 4, vel=(-2400.0, 2400.0), bullet=True)
+    world = build(Scene([Block((0, 0), (50, 5)), bullet], BULLETS, gravity=(0, 0)))
+    world.step(1 / 120)
+    assert world.bodies[1].y < 0
+
+
 @pytest.mark.parametrize("bullet", [True, False])
 @pytest.mark.parametrize("height", sample([1000, 20_000], 2))
 def test_a_fast_ball_that_is_stopped_at_the_floor_keeps_its_energy(height, bullet):
