@@ -26,7 +26,7 @@ from grader.judge.course import read_course
 from grader.judge.result import Result
 from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall.outer import MOST_MEMORY, WHOLE, go_on_within
-from grader.judge.wall.starting import count_cores
+from grader.judge.wall.starting import count_cores, start_ahead
 from grader.report.files import write_json
 from grader.report.terminal import Printer, show_isolation
 
@@ -95,6 +95,8 @@ def grade_command(
     jobs_of_one = jobs or count_cores()
     if path is not None and not class_ and not own and context.obj:
         go_on_within(replace(WHOLE, memory=MOST_MEMORY * jobs_of_one))
+    if path is not None and not class_:
+        start_ahead(jobs_of_one)  # it loads while this process does
     if path is None:
         demonstrate(options)
     elif class_:

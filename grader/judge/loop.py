@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from itertools import groupby
+from itertools import takewhile
 from queue import SimpleQueue
 
 from grader.judge.budget import Budget
@@ -52,11 +52,12 @@ class CheckLoop:
     def run(self) -> None:
         """Run every check, and judge them in the order of the rubric.
 
-        The whole starts last, since it needs the results of the TODOs.
+        The whole needs the results of the TODOs before it; bonus tasks, after it, need nothing.
         """
         self._try_imports()
-        todos = filter(self.grading.options.wants, self.rubric.todos)
-        for _, group in groupby(todos, lambda todo: bool(todo.function)):
+        todos = list(filter(self.grading.options.wants, self.rubric.todos))
+        before = len(list(takewhile(lambda todo: todo.function, todos)))
+        for group in (todos[:before], todos[before:]):
             self.runner.replaceable = self.replaceable
             self._run_group([job for todo in group for job in jobs_of(todo)])
         if self.wrong_check:
