@@ -26,7 +26,8 @@ RESTORE = (
     "There is no {program}.py here. check --restore {program}.py puts the handed-out one back."
 )
 ROUNDED = (
-    "Right to four digits and more, but not to all: is a number rounded, or float32 used for it?"
+    "Right to four digits and more, but not to all: is a number rounded, is float32 used for it, "
+    "or does the formula only come close?"
 )
 PRINTED_ERROR = re.compile(r"\b(\w+(?:Error|Exception): [^|]*)$")
 CALLED_BACK = {  # advice on an error of such a function, by a part of the error
