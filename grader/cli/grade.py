@@ -93,26 +93,26 @@ def grade_command(
     options = Options(complete, isolation, only, seed, trusted=own, course=taken)
     refuse_outputs(path, class_, output, options)
     jobs_of_one = jobs or count_cores()
-    if path is not None and not class_ and not own and context.obj:
-        go_on_within(replace(WHOLE, memory=MOST_MEMORY * jobs_of_one))
-    if path is not None and not class_:
-        start_ahead(jobs_of_one)  # it loads while this process does
     if path is None:
         demonstrate(options)
-    elif class_:
+        return
+    if class_:
         # Imported here: students have none of it, and it would add 80 ms to every start.
         from grader.classroom.grading import ClassOptions
         from grader.cli.classes import grade_folder
 
         grade_folder(path, ClassOptions(options, out, jobs))
-    elif ci is not None:
-        grade_in_ci(path, ci, output, replace(options, jobs=jobs_of_one))
-    else:
-        options = replace(options, jobs=jobs_of_one)
-        with open_path(path, taken.modules) as folder:
-            replays = None if out is None else out / folder.resolve().name
-            result = grade_and_show(folder, options, replays)
-        finish(result, output)
+        return
+    if not own and context.obj:
+        go_on_within(replace(WHOLE, memory=MOST_MEMORY * jobs_of_one))
+    start_ahead(jobs_of_one)  # the worker loads while this process does
+    options = replace(options, jobs=jobs_of_one)
+    if ci is not None:
+        grade_in_ci(path, ci, output, options)
+    with open_path(path, taken.modules) as folder:
+        replays = None if out is None else out / folder.resolve().name
+        result = grade_and_show(folder, options, replays)
+    finish(result, output)
 
 
 def refuse_what_is_ignored(context: typer.Context, path: Path | None, class_: bool) -> None:

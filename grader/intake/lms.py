@@ -56,6 +56,7 @@ class Lms:
     only_commas = False  # it accepts only UTF-8 with commas
     names_alone = True  # its export identifies students by their names alone
     takes_feedback = False  # feedback goes back in bulk, by name_pages
+    upload_name: re.Pattern[str] | None = None  # the form of its names of uploads
     side_files: frozenset[str] = frozenset()  # other files of its export
 
     # -------------------------------------------------------- its exports
@@ -66,7 +67,7 @@ class Lms:
 
     def match(self, path: Path) -> re.Match[str] | None:
         """Return the parts of a name that this system writes; None for any other name."""
-        return None
+        return self.upload_name.fullmatch(path.name) if self.upload_name else None
 
     def is_trial(self, path: Path) -> bool:
         """Return whether the teacher handed this in, as a test student."""

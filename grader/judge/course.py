@@ -24,9 +24,7 @@ COURSE_FILE = "COURSE_FILE"  # the variable by which make passes a course to eve
 HANDED_OUT = CHECKS / "course.toml"  # in a student's copy, whose rubric has only its TODOs
 EXAMPLE = "2027-05-04T23:59:00+02:00"
 END_OF_DAY = time(23, 59, 59)  # the due time of a date without a time
-ANYWHERE = timezone(
-    timedelta(hours=-12), "anywhere on Earth"
-)  # the time zone in which a day ends last
+ANYWHERE = timezone(timedelta(hours=-12), "anywhere on Earth")  # where a day ends last
 
 
 Read = TypeVar("Read", bound=Struct)

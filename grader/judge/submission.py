@@ -88,9 +88,7 @@ class Submission:
     starts: dict[str, Where] = field(default_factory=dict)  # file of each program's main
     program: Program = field(default_factory=lambda: Program({}))  # all of its Python files
     supplied: list[str] = field(default_factory=list)  # given files that it lacks
-    remarks: dict[str, str] = field(
-        default_factory=dict
-    )  # by TODO: reason why no code counts for it
+    remarks: dict[str, str] = field(default_factory=dict)  # by TODO: why no code counts for it
 
     def holds(self, file: str) -> bool:
         """Return whether it has a file of this name, which may come from a child."""

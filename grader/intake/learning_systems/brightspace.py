@@ -33,10 +33,8 @@ class Brightspace(Lms):
     rank = 1
     only_commas = True
     takes_feedback = True
+    upload_name = NAME
     side_files = frozenset({"index.html"})  # a list of all submissions
-
-    def match(self, path: Path) -> re.Match[str] | None:
-        return NAME.fullmatch(path.name)
 
     def read_upload(self, path: Path, people: ClassList) -> Upload | None:
         """Return the owner and time of an upload; the time is the school's."""

@@ -45,9 +45,7 @@ class Moodle(Lms):
     only_commas = True
     names_alone = False
     takes_feedback = True
-
-    def match(self, path: Path) -> re.Match[str] | None:
-        return NAME.fullmatch(path.name)
+    upload_name = NAME
 
     def read_upload(self, path: Path, people: ClassList) -> Upload | None:
         match = self.match(path)

@@ -202,9 +202,8 @@ class Reasons:
         """Add the line in which one change makes the unexplained checks pass, if it is found."""
         options = self.grading.options
         rule = TRESPASS.removeprefix("{name}")
-        oversteps = any(
-            rule in check.meaning for check in checks
-        )  # then no other line is the reason
+        # If it oversteps, no other line is the reason.
+        oversteps = any(rule in check.meaning for check in checks)
         if not options.trusted or not options.mends or oversteps:
             return failures
         unexplained = [id for id, each in failures.items() if is_unexplained(each)]
