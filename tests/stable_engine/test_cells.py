@@ -9,6 +9,7 @@ import warnings
 from itertools import pairwise
 
 import pytest
+from samples import sample
 
 import stable_engine
 from experiments.steps import at_random, hiccups, lasting
@@ -111,8 +112,8 @@ def do_all_stay(seed, steps, make=Cells):
             assert not cells.lost(), f"seed {seed}, {cells.names}"
 
 
-LOST = (1, 7, 10, 24, 31, 41, 64, 89, 134, 452, 588, 755, 766, 869, 969)  # each lost a ball once
-LOST_AT_SEAMS = (72, 588, 877)  # so did each of these
+LOST = sample((1, 7, 24, 10, 31, 134, 41, 89, 452, 64, 766, 588, 969, 869, 755), 3)
+LOST_AT_SEAMS = sample((72, 588, 877), 3)
 
 
 @pytest.mark.parametrize("seed", LOST)

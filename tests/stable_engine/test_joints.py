@@ -5,7 +5,7 @@ from itertools import product
 
 import pytest
 from samples import sample
-from worlds_for_tests import balls, build
+from worlds_for_tests import balls
 
 from experiments.engines import Stable
 from experiments.measures import energy, run, watch, worst_stretch
@@ -48,36 +48,13 @@ def test_a_light_ball_between_two_rods_takes_no_energy():
 def test_a_chain_keeps_its_energy_with_a_heavy_ball_at_its_end():
     engine = Stable(chain(10, (20.0, 0.0), bob=100.0))
     start = energy(engine, DT)
-    seen = watch(engine, 5, lambda: abs(energy(engine, DT) - start))
-    assert max(seen) < 0.01 * 100 * G * 200
-    assert worst_stretch(engine) < 0.5
+    seen = watch(engine, 5, lambda: (abs(energy(engine, DT) - start), worst_stretch(engine)))
+    assert max(error for error, _ in seen) < 0.01 * 100 * G * 200
+    assert max(stretch for _, stretch in seen) < 20
+    assert seen[-1][1] < 0.5
 
 
-@pytest.mark.parametrize("fast", [300.0, 3000.0])
-def test_a_rod_tells_the_whole_force_that_turns_a_ball(fast):
-    """It pulls by m v² / r."""
-    world = build(
-        Scene(
-            [Ball((0, 0), 5, mass=0), Ball((100, 0), 5, 2.0, (0, fast))],
-            ("Rods",),
-            [(0, 1)],
-            gravity=(0, 0),
-        )
-    )
-    run(world, 0.1)
-    (rod,) = world.effects["Rods"].joints
-    assert rod.impulse * world.substeps / DT == pytest.approx(-2 * fast**2 / 100, rel=0.01)
-
-
-@pytest.mark.parametrize("ratio", sample([100.0, 1.0, 1000.0, 10_000.0, 100_000.0], 2))
-def test_a_swinging_chain_stretches_by_less_than_a_link_or_the_check_says_so(ratio):
-    engine = Stable(chain(10, (20.0, 0.0), bob=ratio))
-    assert any("substeps" in sentence for sentence in engine.complaints) == (ratio > 100)
-    if ratio <= 100:
-        assert max(watch(engine, 5, lambda: worst_stretch(engine))) < 20
-
-
-@pytest.mark.parametrize("degrees", sample([10, 16, 22, 28], 2))
+@pytest.mark.parametrize("degrees", sample([10, 16, 22, 28], 4))
 def test_a_wrecking_ball_tears_no_chain(degrees):
     """It hits a tower beside its way and swings on; light links snap tight behind 1000 kg."""
     way = -math.cos(math.radians(degrees)), math.sin(math.radians(degrees))

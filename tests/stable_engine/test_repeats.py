@@ -8,8 +8,6 @@ from experiments.measures import run
 from experiments.scenes import (
     BOUNCE,
     EFFECTS,
-    Scene,
-    Spring,
     chain,
     closed_box,
     pile,
@@ -46,17 +44,3 @@ def test_the_order_of_adding_bodies_changes_no_bit(scene, seed):
     for i, body in zip(order, shuffled_world.bodies, strict=True):
         twin = straight.bodies[i]
         assert (body.x, body.y, body.w) == (twin.x, twin.y, twin.w)
-
-
-def test_momentum_is_kept_without_gravity_and_walls():
-    effects = (*BOUNCE, "Rods", "Springs")
-    springs = [Spring(4, 5, 100.0, length=100)]
-    scene = Scene(closed_box(7).bodies[4:], effects, [(0, 1), (2, 3)], springs, gravity=(0, 0))
-    world = build(scene)
-
-    def momentum(axis):
-        return sum(getattr(body, axis) / body.inv_mass for body in world.bodies)
-
-    before = momentum("vx"), momentum("vy")
-    run(world, 1)
-    assert (momentum("vx"), momentum("vy")) == pytest.approx(before, rel=1e-9)

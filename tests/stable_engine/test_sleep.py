@@ -5,7 +5,19 @@ from worlds_for_tests import balls, build
 
 from experiments.engines import Stable
 from experiments.measures import deepest_overlap, run, speed, watch
-from experiments.scenes import BOUNCE, DT, Ball, Scene, chain, floor, oscillator, pile, tower
+from experiments.rows.rest import neat, pyramid
+from experiments.scenes import (
+    BOUNCE,
+    DT,
+    TOUCH,
+    Ball,
+    Scene,
+    chain,
+    floor,
+    oscillator,
+    pile,
+    tower,
+)
 from stable_engine import Body, Circle, Rod
 
 SLEEPY = (*BOUNCE, "Sleep")
@@ -19,6 +31,18 @@ def asleep(world, most=10):
         world.step(DT)
     assert all(ball.asleep for ball in balls(world))
     return world
+
+
+PILES = [(neat(5, 40), TOUCH), (pyramid(8), TOUCH), (pile(40, 200), BOUNCE)]
+LARGE = [(neat(15, 40), TOUCH), (pyramid(40), TOUCH), (pile(200, 600), BOUNCE)]
+SOAK = [pytest.param(*each, marks=pytest.mark.soak) for each in LARGE]
+
+
+@pytest.mark.parametrize(("scene", "effects"), PILES + SOAK)
+def test_a_pile_falls_asleep(scene, effects):
+    for body in scene.bodies:
+        body.restitution = 0.3
+    asleep(build(scene, *effects, "Sleep"))
 
 
 def test_a_tower_wakes_as_calm_as_it_fell_asleep():

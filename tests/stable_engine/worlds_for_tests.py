@@ -15,12 +15,6 @@ def build(scene, *effects, substeps=4):
     return Stable(replace(scene, effects=effects or scene.effects), substeps).world
 
 
-def dumbbell(length=50.0, speed=1000.0):
-    """Make two balls of radius 5 on a rod that turns at this speed, without gravity."""
-    ends = [Ball((0, 0), 5, vel=(0, -speed)), Ball((length, 0), 5, vel=(0, speed))]
-    return Scene(ends, ("Rods",), [(0, 1)], gravity=(0, 0))
-
-
 def make(names):
     return [getattr(stable_engine, name)() for name in names]
 
