@@ -62,7 +62,8 @@ def test_an_error_is_what_its_engine_gives(name: str, question: Question, settin
     assert error == pytest.approx(LINES[name], rel=1e-6, abs=EXACT), AGAIN
 
 
-@pytest.mark.parametrize("balls", [40, pytest.param(200, marks=pytest.mark.soak)])
+@pytest.mark.soak
+@pytest.mark.parametrize("balls", [40, 200])
 def test_an_overlap_is_what_its_engine_leaves(balls: int) -> None:
     scene = settle_pile(balls)
     question = Question(f"pile of {balls}", lambda: scene, measure_overlap, "overlap", "px", 2.0)

@@ -3,7 +3,6 @@
 import math
 
 import pytest
-from programs import INTEGRATORS, SOLUTION, run_in
 
 from integrators import (
     DT,
@@ -17,18 +16,6 @@ from integrators import (
     spring,
     velocity_verlet,
 )
-
-TABLE = """\
-method               x after 10 s   error (px)  energy change
-explicit_euler           39151.23    39051.231   39200205.62%
-semi_implicit_euler         98.12        1.878         -2.38%
-velocity_verlet             99.33        0.665         -0.01%
-rk4                         99.98        0.018         -0.03%
-"""
-
-
-def test_the_program_prints_the_lessons_table():
-    assert run_in(SOLUTION, *INTEGRATORS) == TABLE
 
 
 def test_the_spring_is_the_lessons():

@@ -34,11 +34,6 @@ def surface(shape):
 # ---------------------------------------------------------------- numbers
 
 
-def test_space_has_the_lessons_gravity_and_damping(scene):
-    for space in (scene[0], empty_space()):
-        assert (tuple(space.gravity), space.damping) == ((0, 980), 0.95)
-
-
 def test_the_static_shapes_are_the_lessons(scene):
     space = scene[0]
     static = space.static_body.shapes
@@ -50,19 +45,6 @@ def test_the_static_shapes_are_the_lessons(scene):
     assert {surface(shape) for shape in static} == {(0.6, 0.3)}
     assert {shape.color for shape in static} == {GREY}
     assert len(static) == 10
-
-
-def test_the_bob_hangs_on_a_rod_of_140_px(scene):
-    space = scene[0]
-    bob, *_ = space.bodies
-    (rod,) = space.constraints
-    assert isinstance(rod, pymunk.PinJoint)
-    assert (rod.a, rod.b) == (space.static_body, bob)
-    assert (tuple(rod.anchor_a), tuple(rod.anchor_b), rod.distance) == ((700, 90), (0, 0), 140)
-    (shape,) = bob.shapes
-    assert (tuple(bob.position), bob.mass, shape.radius) == ((840, 90), 6, 24)
-    assert bob.moment == pytest.approx(0.5 * 6 * 24**2)
-    assert surface(shape) == (0.6, 0.2)
 
 
 def test_both_scenes_have_the_same_balls(scene):
