@@ -7,6 +7,7 @@ import json
 import operator
 import re
 import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -40,9 +41,27 @@ def value(lines: dict[str, Any], term: Any) -> Any:
     return lines.get(term, term)
 
 
-def find_fault(lines: dict[str, Any], evidence: list[Any]) -> str:
+def expand(lines: dict[str, Any], evidence: list[Any]) -> Iterator[list[Any]]:
+    """Yield evidence of three terms for each line that its first term means."""
+    name, rule, limit, *exceptions = evidence
+    pattern = re.compile("(.+?)".join(map(re.escape, name.split("*"))))
+    matches = [found for line in lines if (found := pattern.fullmatch(line))]
+    texts = [found.groups() for found in matches if not {*found.groups()[:1]} & {*exceptions}]
+    for each in texts or [()]:
+        yield [fill(name, each), rule, fill(limit, each)]
+
+
+def fill(term: Any, texts: tuple[str, ...]) -> Any:
+    """Replace each * of a term by a text, in order."""
+    if isinstance(term, list):
+        return [fill(part, texts) for part in term]
+    for text in texts if isinstance(term, str) else ():
+        term = term.replace("*", text, 1)
+    return term
+
+
+def find_fault(lines: dict[str, Any], name: str, rule: str, limit: Any) -> str:
     """Return the fault in a claim's evidence, or an empty text."""
-    name, rule, limit = evidence
     if name not in lines:
         return f"{name}: there is no such line"
     found, wanted = lines[name], value(lines, limit)
@@ -54,11 +73,10 @@ def find_fault(lines: dict[str, Any], evidence: list[Any]) -> str:
 @pytest.mark.parametrize(("page", "says"), EACH)
 def test_a_claim_is_in_its_handout_and_its_lines_support_it(page: str, says: str) -> None:
     assert in_one_line(says) in in_one_line((HANDOUTS / page).read_text(encoding="utf-8"))
-    evidence = CLAIMS[page][says]
+    lines = RESULTS.get(page, LINES)
+    evidence = [each for row in CLAIMS[page][says] for each in expand(lines, row)]
     assert evidence
-    assert not [
-        problem for line in evidence if (problem := find_fault(RESULTS.get(page, LINES), line))
-    ]
+    assert not [*filter(None, (find_fault(lines, *each) for each in evidence))]
 
 
 def test_every_page_with_measurements_has_claims() -> None:
