@@ -7,6 +7,7 @@ to supply what a submission lacks.
 """
 
 import json
+import re
 from pathlib import Path
 
 from grader.errors import Stop
@@ -30,10 +31,10 @@ class OutOfStep(Stop):
     """The trees cannot be brought together; the message names the file and the TODO."""
 
 
-def sync(solution: Path, starter: Path, write: bool) -> list[str]:
+def sync(solution: Path, starter: Path, write: bool, course: Path | None = None) -> list[str]:
     """Copy the solution into the starter; return one line per change.
 
-    Without `write`, only report the differences.
+    Without `write`, only report the differences. New TODOs are named in the course file.
     """
     wanted = {
         name: merge_regions(solution / name, starter / name)
@@ -62,7 +63,7 @@ def sync(solution: Path, starter: Path, write: bool) -> list[str]:
         if renew(CHECKS / f"{name}.json", text.encode(), write):
             differs = f"{name}.json, by which the checks know the starter, is not up to date"
             lines.append(f"renewed {name}.json for the checks" if write else differs)
-            lines += list_new_todos(before, sources) if write and name == "stubs" else []
+            lines += list_new_todos(before, sources, course) if write and name == "stubs" else []
     return lines
 
 
@@ -79,12 +80,22 @@ def mark_check_folders(write: bool) -> list[str]:
     return lines
 
 
-def list_new_todos(before: bytes, stubs: dict[str, str]) -> list[str]:
-    """Return a line for each TODO that is new to the checks, or gone."""
+def list_new_todos(before: bytes, stubs: dict[str, str], course: Path | None) -> list[str]:
+    """Name new TODOs in the course; return a line for each that is new to the checks, or gone."""
     known = {id for id in json.loads(before) if not id.startswith("def ")}
     now = {id for id in stubs if not id.startswith("def ")}
     lines = [f"TODO {id} is new" for id in sorted(now - known)]
+    if course and name_in_course(course, sorted(now - known)):
+        lines.append(f"{course.name} names what is new")
     return lines + [f"TODO {id} is gone" for id in sorted(known - now)]
+
+
+def name_in_course(course: Path, todos: list[str]) -> bool:
+    """Add TODOs to a course's list if it has one of several lines; return whether it changed."""
+    names = "".join(f'  "{id}",\n' for id in todos)
+    text = course.read_text(encoding="utf-8")
+    named = re.sub(r"(?ms)^(todos = \[\n.*?)^\]", rf"\g<1>{names}]", text, count=1)
+    return renew(course, named.encode(), write=True)
 
 
 def renew(path: Path, content: bytes, write: bool) -> bool:

@@ -38,7 +38,7 @@ def sync_command(
     require_checkout("sync")
     from grader.bank.sync import sync
 
-    lines = sync(KIT / "solution", KIT / "starter", write=not check)
+    lines = sync(KIT / "solution", KIT / "starter", not check, KIT / "course.toml")
     for line in lines or ["nothing to do: starter and solution are in step"]:
         console.print(line)
     named = {todo.id for todo in read_course().rubric.todos}

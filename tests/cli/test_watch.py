@@ -25,7 +25,10 @@ from grader.source.regions import regions_in, replace_regions
 
 WORLD, SOLVER = "mini_engine/world.py", "mini_engine/solver.py"
 INTEGRATORS = "integrators.py"
-FEW = Options(reference=None, only=frozenset({"5", "8a"}))  # 10 points
+FEW = Options(reference=None, only=frozenset({"5", "8a"}))
+WORTH = {todo.id: todo.max_points for todo in load_rubric().todos}
+FIVE, EIGHT_A = WORTH["5"], WORTH["8a"]
+BOTH = FIVE + EIGHT_A
 WHOLE = Options(reference=None)
 
 
@@ -111,7 +114,9 @@ def test_a_saved_todo_comes_first_and_other_programs_not_at_all(open_session, gr
     out = session.save(WORLD, solved(WORLD, "5"))
     assert graded_todos == [{"5"}, of_program("mini_engine") - {"5"}]
     assert "saved: mini_engine/world.py" in out
-    assert "PASSED      5" in out and "TODO 5: 0 → 8 of 8, in all 0 → 8 of 100" in out
+    assert (
+        "PASSED      5" in out and f"TODO 5: 0 → {FIVE} of {FIVE}, in all 0 → {FIVE} of 100" in out
+    )
     assert "Next: TODO 8a" in out
     assert session.is_up_to_date()
     graded_todos.clear()
@@ -123,19 +128,31 @@ def test_a_saved_todo_comes_first_and_other_programs_not_at_all(open_session, gr
 def test_a_watch_of_one_todo_checks_no_other(open_session, graded_todos):
     session = open_session(options=Options(reference=None, only=frozenset({"8a"})))
     graded_todos.clear()
-    assert "nothing new: 0 of 2 points" in session.save(INTEGRATORS, solved(INTEGRATORS, "8b"))
+    assert f"nothing new: 0 of {EIGHT_A} points" in session.save(
+        INTEGRATORS, solved(INTEGRATORS, "8b")
+    )
     out = session.save(INTEGRATORS, solved(INTEGRATORS, "8a"))
-    assert "TODO 8a: 0 → 2 of 2, in all 0 → 2 of 2" in out
+    assert f"TODO 8a: 0 → {EIGHT_A} of {EIGHT_A}, in all 0 → {EIGHT_A} of {EIGHT_A}" in out
     assert set().union(*graded_todos) == {"8a"}
 
 
 SHARE = "keep_vel = math.exp(-self.linear_damping * dt)"
 CHANGES = [
-    ("starter", WORLD, put("keep_vel = 0.99", "keep_vel = 0.98"), "TODO 5: 0 of 8 as before"),
-    ("solution", WORLD, put(SHARE, f"raise RuntimeError\n        {SHARE}"), "in all 10 → 2 of 10"),
+    ("starter", WORLD, put("keep_vel = 0.99", "keep_vel = 0.98"), f"TODO 5: 0 of {FIVE} as before"),
+    (
+        "solution",
+        WORLD,
+        put(SHARE, f"raise RuntimeError\n        {SHARE}"),
+        f"in all {BOTH} → {EIGHT_A} of {BOTH}",
+    ),
     # Changed given code costs only the whole.
-    ("solution", WORLD, put("self.apply_damping(dt)\n", "pass\n"), "TODO 5: 8 of 8 as before"),
-    ("starter", SOLVER, lambda text: f"# mine\n{text}", "nothing new: 0 of 10 points"),
+    (
+        "solution",
+        WORLD,
+        put("self.apply_damping(dt)\n", "pass\n"),
+        f"TODO 5: {FIVE} of {FIVE} as before",
+    ),
+    ("starter", SOLVER, lambda text: f"# mine\n{text}", f"nothing new: 0 of {BOTH} points"),
 ]
 
 
@@ -156,9 +173,9 @@ def test_a_file_that_is_no_python_yet_costs_nothing(open_session, graded_todos):
     out = session.save(SOLVER, put("def friction_limit(c):", "def friction_limit(c:"))
     assert "mini_engine/solver.py:71 is not valid Python yet: '(' was never closed" in out
     session.save(WORLD, lambda text: text + "\n")  # while another file is broken
-    assert session.watch.result.points == 8 and not graded_todos
+    assert session.watch.result.points == FIVE and not graded_todos
     out = session.save(SOLVER, put("def friction_limit(c:", "def friction_limit(c):"))
-    assert "nothing new: 8 of 10 points" in out
+    assert f"nothing new: {FIVE} of {BOTH} points" in out
     assert session.is_up_to_date()
 
 
@@ -168,7 +185,7 @@ def test_a_tree_that_was_broken_from_the_start_can_be_mended(hand_in, worker: Wa
     session = Session(hand_in("solution", integrators_py="def (:\n"), worker, few)
     assert session.watch.result.points == 0
     text = (KIT / "solution" / INTEGRATORS).read_text(encoding="utf-8")
-    assert "TODO 8a: 0 → 2 of 2" in session.save(INTEGRATORS, lambda _: text)
+    assert f"TODO 8a: 0 → {EIGHT_A} of {EIGHT_A}" in session.save(INTEGRATORS, lambda _: text)
     assert session.is_up_to_date()
 
 
@@ -188,7 +205,7 @@ def test_a_save_during_a_check_starts_it_anew(open_session, monkeypatch: pytest.
     monkeypatch.setattr(Watch, "stop_if_saved", save_again)
     out = session.save(WORLD, put("keep_vel = 0.99", "keep_vel = 0.98"))
     assert out.count("saved:") == 2 and "as before" not in out
-    assert "TODO 5: 0 → 8 of 8" in out
+    assert f"TODO 5: 0 → {FIVE} of {FIVE}" in out
     assert session.is_up_to_date()
 
 
@@ -204,7 +221,7 @@ def test_a_file_that_was_away_for_a_moment_is_no_reason_to_forget_the_rest(
 
     monkeypatch.setattr(Watch, "stop_if_saved", stop_once)
     out = session.save(WORLD, solved(WORLD, "5"))
-    assert out.count("saved:") == 1 and "TODO 5: 0 → 8 of 8" in out
+    assert out.count("saved:") == 1 and f"TODO 5: 0 → {FIVE} of {FIVE}" in out
     assert session.is_up_to_date()
 
 
@@ -215,24 +232,24 @@ def test_files_that_come_go_and_move(open_session):
     (session.folder / INTEGRATORS).rename(moved)
     out = session.look()
     assert "saved: integrators.py, methods.py" in out
-    assert "TODO 8a: 2 → 0 of 2, in all 10 → 8 of 10" in out
+    assert f"TODO 8a: {EIGHT_A} → 0 of {EIGHT_A}, in all {BOTH} → {FIVE} of {BOTH}" in out
     assert session.is_up_to_date()
     moved.rename(session.folder / INTEGRATORS)
-    assert "in all 8 → " in session.look()
-    assert session.watch.result.points == 10 and session.is_up_to_date()
+    assert f"in all {FIVE} → " in session.look()
+    assert session.watch.result.points == BOTH and session.is_up_to_date()
 
 
 @pytest.mark.soak
 def test_a_given_file_that_goes_is_supplied_as_it_was_handed_out(open_session):
     session = open_session("solution")
     (session.folder / SOLVER).unlink()  # of no requested TODO
-    assert session.look() == "saved: mini_engine/solver.py\nnothing new: 10 of 10 points\n"
+    assert session.look() == f"saved: mini_engine/solver.py\nnothing new: {BOTH} of {BOTH} points\n"
     assert session.is_up_to_date()
     (session.folder / WORLD).rename(session.folder / "mini_engine" / "worlds.py")
-    assert "TODO 5: 8 → 0 of 8" in session.look() and session.is_up_to_date()
+    assert f"TODO 5: {FIVE} → 0 of {FIVE}" in session.look() and session.is_up_to_date()
     (session.folder / "mini_engine" / "worlds.py").rename(session.folder / WORLD)
-    assert "TODO 5: 0 → 8 of 8" in session.look()
-    assert session.watch.result.points == 10 and session.is_up_to_date()
+    assert f"TODO 5: 0 → {FIVE} of {FIVE}" in session.look()
+    assert session.watch.result.points == BOTH and session.is_up_to_date()
 
 
 def test_files_of_editors_are_no_saves(open_session):
@@ -253,7 +270,7 @@ def test_a_tree_that_cannot_be_copied_now_is_taken_at_the_next_save(
     with monkeypatch.context() as patch:
         patch.setattr(grader.cli.watch, "grade", raise_missing)
         assert "cannot read the tree now" in session.save(WORLD, solved(WORLD, "5"))
-    assert "TODO 5: 0 → 8 of 8" in session.save(SOLVER, lambda text: text + "\n")
+    assert f"TODO 5: 0 → {FIVE} of {FIVE}" in session.save(SOLVER, lambda text: text + "\n")
     assert session.is_up_to_date()
 
 
@@ -309,7 +326,7 @@ def test_a_watch_runs_until_control_c(hand_in, replaces: bool):
             os.replace(tree / "mini_engine" / "world.tmp", tree / WORLD)
         else:
             (tree / WORLD).write_text(text, encoding="utf-8")
-        assert any(line.startswith("TODO 5: 0 → 8 of 8") for line in lines)
+        assert any(line.startswith(f"TODO 5: 0 → {FIVE} of {FIVE}") for line in lines)
         time.sleep(0.2)
         process.send_signal(signal.SIGINT)
         _, err = process.communicate(timeout=600)

@@ -111,7 +111,6 @@ def add_todo_9(kit: Path) -> None:
     )
     put_before(sheet, "\n<!--% if every %-->\nTen more points", SHEET_ROW)
     put_before(sheet, "## Done when", SECTION)
-    edit(kit / "course.toml", '"8a", "8b", "8c",', '"8a", "8b", "8c", "9",')
     wrong = kit / "tests" / "bank" / "wrong" / "9.toml"  # 4
     wrong.write_text(WRONG, encoding="utf-8", newline="\n")
 
@@ -140,7 +139,9 @@ def make_the_rest(kit: Path) -> None:
     """Run the commands of step 5, as make does."""
     said = run_grader(kit, "sync")
     assert "renewed stubs.json for the checks" in said and "TODO 9 is new" in said
-    assert "made grader/checks/todo_9/__init__.py" in said
+    assert (
+        "made grader/checks/todo_9/__init__.py" in said and "course.toml names what is new" in said
+    )
     run(kit, "handouts/make_hints.py")
     run(kit, "handouts/make_films.py")
     # Without nbgrader, the solution's notebooks are renewed, and the starter's are not.
@@ -210,6 +211,6 @@ def test_the_kits_own_tests_pass_with_it(kit: Path, file: str):
 
 
 def test_a_course_that_forgets_it_is_told(kit: Path):
-    edit(kit / "course.toml", ' "9",', "")
+    edit(kit / "course.toml", '  "9",\n', "")
     assert "course.toml does not name TODO 9" in run_grader(kit, "sync")
     edit(kit / "course.toml", '"8a", "8b", "8c",', '"8a", "8b", "8c", "9",')

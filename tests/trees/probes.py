@@ -1,4 +1,4 @@
-"""Run a tree's programs: `python -m probes play '"mini_engine"' '[17]'` in its folder prints JSON."""
+"""Run a tree's programs: `python -m probes play '"mini_engine"' '[17]'` in it prints JSON."""
 
 import contextlib
 import importlib
