@@ -29,6 +29,9 @@ FEW = Options(reference=None, only=frozenset({"5", "8a"}))
 WORTH = {todo.id: todo.max_points for todo in load_rubric().todos}
 FIVE, EIGHT_A = WORTH["5"], WORTH["8a"]
 BOTH = FIVE + EIGHT_A
+PASSES_5, PASSES_8A = (f"TODO {todo}: 0 → {WORTH[todo]} of {WORTH[todo]}" for todo in ("5", "8a"))
+LOSES_5 = f"TODO 5: {FIVE} → 0 of {FIVE}"
+ONLY_8A, ONLY_5 = (f"in all {BOTH} → {WORTH[todo]} of {BOTH}" for todo in ("8a", "5"))
 WHOLE = Options(reference=None)
 
 
@@ -114,9 +117,7 @@ def test_a_saved_todo_comes_first_and_other_programs_not_at_all(open_session, gr
     out = session.save(WORLD, solved(WORLD, "5"))
     assert graded_todos == [{"5"}, of_program("mini_engine") - {"5"}]
     assert "saved: mini_engine/world.py" in out
-    assert (
-        "PASSED      5" in out and f"TODO 5: 0 → {FIVE} of {FIVE}, in all 0 → {FIVE} of 100" in out
-    )
+    assert "PASSED      5" in out and f"{PASSES_5}, in all 0 → {FIVE} of 100" in out
     assert "Next: TODO 8a" in out
     assert session.is_up_to_date()
     graded_todos.clear()
@@ -132,18 +133,18 @@ def test_a_watch_of_one_todo_checks_no_other(open_session, graded_todos):
         INTEGRATORS, solved(INTEGRATORS, "8b")
     )
     out = session.save(INTEGRATORS, solved(INTEGRATORS, "8a"))
-    assert f"TODO 8a: 0 → {EIGHT_A} of {EIGHT_A}, in all 0 → {EIGHT_A} of {EIGHT_A}" in out
+    assert f"{PASSES_8A}, in all 0 → {EIGHT_A} of {EIGHT_A}" in out
     assert set().union(*graded_todos) == {"8a"}
 
 
 SHARE = "keep_vel = math.exp(-self.linear_damping * dt)"
 CHANGES = [
-    ("starter", WORLD, put("keep_vel = 0.99", "keep_vel = 0.98"), f"TODO 5: 0 of {FIVE} as before"),
+    ("starter", WORLD, put("keep_vel = 0.99", "keep_vel = 0.98"), f"0 of {FIVE} as before"),
     (
         "solution",
         WORLD,
         put(SHARE, f"raise RuntimeError\n        {SHARE}"),
-        f"in all {BOTH} → {EIGHT_A} of {BOTH}",
+        ONLY_8A,
     ),
     # Changed given code costs only the whole.
     (
@@ -185,7 +186,7 @@ def test_a_tree_that_was_broken_from_the_start_can_be_mended(hand_in, worker: Wa
     session = Session(hand_in("solution", integrators_py="def (:\n"), worker, few)
     assert session.watch.result.points == 0
     text = (KIT / "solution" / INTEGRATORS).read_text(encoding="utf-8")
-    assert f"TODO 8a: 0 → {EIGHT_A} of {EIGHT_A}" in session.save(INTEGRATORS, lambda _: text)
+    assert PASSES_8A in session.save(INTEGRATORS, lambda _: text)
     assert session.is_up_to_date()
 
 
@@ -205,7 +206,7 @@ def test_a_save_during_a_check_starts_it_anew(open_session, monkeypatch: pytest.
     monkeypatch.setattr(Watch, "stop_if_saved", save_again)
     out = session.save(WORLD, put("keep_vel = 0.99", "keep_vel = 0.98"))
     assert out.count("saved:") == 2 and "as before" not in out
-    assert f"TODO 5: 0 → {FIVE} of {FIVE}" in out
+    assert PASSES_5 in out
     assert session.is_up_to_date()
 
 
@@ -221,7 +222,7 @@ def test_a_file_that_was_away_for_a_moment_is_no_reason_to_forget_the_rest(
 
     monkeypatch.setattr(Watch, "stop_if_saved", stop_once)
     out = session.save(WORLD, solved(WORLD, "5"))
-    assert out.count("saved:") == 1 and f"TODO 5: 0 → {FIVE} of {FIVE}" in out
+    assert out.count("saved:") == 1 and PASSES_5 in out
     assert session.is_up_to_date()
 
 
@@ -232,7 +233,7 @@ def test_files_that_come_go_and_move(open_session):
     (session.folder / INTEGRATORS).rename(moved)
     out = session.look()
     assert "saved: integrators.py, methods.py" in out
-    assert f"TODO 8a: {EIGHT_A} → 0 of {EIGHT_A}, in all {BOTH} → {FIVE} of {BOTH}" in out
+    assert f"TODO 8a: {EIGHT_A} → 0 of {EIGHT_A}, {ONLY_5}" in out
     assert session.is_up_to_date()
     moved.rename(session.folder / INTEGRATORS)
     assert f"in all {FIVE} → " in session.look()
@@ -246,9 +247,9 @@ def test_a_given_file_that_goes_is_supplied_as_it_was_handed_out(open_session):
     assert session.look() == f"saved: mini_engine/solver.py\nnothing new: {BOTH} of {BOTH} points\n"
     assert session.is_up_to_date()
     (session.folder / WORLD).rename(session.folder / "mini_engine" / "worlds.py")
-    assert f"TODO 5: {FIVE} → 0 of {FIVE}" in session.look() and session.is_up_to_date()
+    assert LOSES_5 in session.look() and session.is_up_to_date()
     (session.folder / "mini_engine" / "worlds.py").rename(session.folder / WORLD)
-    assert f"TODO 5: 0 → {FIVE} of {FIVE}" in session.look()
+    assert PASSES_5 in session.look()
     assert session.watch.result.points == BOTH and session.is_up_to_date()
 
 
@@ -270,7 +271,7 @@ def test_a_tree_that_cannot_be_copied_now_is_taken_at_the_next_save(
     with monkeypatch.context() as patch:
         patch.setattr(grader.cli.watch, "grade", raise_missing)
         assert "cannot read the tree now" in session.save(WORLD, solved(WORLD, "5"))
-    assert f"TODO 5: 0 → {FIVE} of {FIVE}" in session.save(SOLVER, lambda text: text + "\n")
+    assert PASSES_5 in session.save(SOLVER, lambda text: text + "\n")
     assert session.is_up_to_date()
 
 
@@ -326,7 +327,7 @@ def test_a_watch_runs_until_control_c(hand_in, replaces: bool):
             os.replace(tree / "mini_engine" / "world.tmp", tree / WORLD)
         else:
             (tree / WORLD).write_text(text, encoding="utf-8")
-        assert any(line.startswith(f"TODO 5: 0 → {FIVE} of {FIVE}") for line in lines)
+        assert any(line.startswith(PASSES_5) for line in lines)
         time.sleep(0.2)
         process.send_signal(signal.SIGINT)
         _, err = process.communicate(timeout=600)
@@ -342,5 +343,5 @@ def test_a_terminal_shows_one_screen_and_what_changed(open_session):
     out = session.save(WORLD, solved(WORLD, "5"))
     last = out.rpartition("\x1b[2J")[2].splitlines()
     assert "saved: mini_engine/world.py" in last[0] and len(last) <= 16
-    assert "TODO 5: 0 → 8 of 8, in all 0 → 8 of 10" in last[1]
+    assert f"{PASSES_5}, in all 0 → {FIVE} of {BOTH}" in last[1]
     assert any(line.startswith("PASSED      5") for line in last)
