@@ -8,7 +8,9 @@ with many settings. Engines run in processes of their own; the same engines give
 """
 
 import argparse
+import ast
 import hashlib
+import io
 import json
 import math
 import os
@@ -16,6 +18,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import tokenize
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -31,6 +34,7 @@ KIT = Path(__file__).resolve().parents[1]
 FILMS = KIT / "handouts" / "touch" / "films"
 PREDICTIONS = tomllib.loads((KIT / "handouts" / "predictions.toml").read_text(encoding="utf-8"))
 STUB, RIGHT = "stub", "right"
+DOCUMENTED = ast.Module, ast.ClassDef, ast.FunctionDef
 
 # ---------------------------------------------------------------- trees and runs
 
@@ -190,9 +194,23 @@ def engines_hash():
     files += [Path(__file__).with_name(f"film_{name}.py") for name in ("scenes", "tower")]
     digest.update(f"pymunk {pymunk.version}, {pymunk.chipmunk_version}\n".encode())
     for path in files:
-        text = path.read_text(encoding="utf-8")
-        digest.update(f"{path.relative_to(KIT).as_posix()}\n{text}\n".encode())
+        digest.update(f"{path.relative_to(KIT).as_posix()}\n{code_of(path)}\n".encode())
     return digest.hexdigest()
+
+
+def code_of(path):
+    """Return a file without docstrings, comments and empty lines, which change no film."""
+    text = path.read_text(encoding="utf-8")
+    lines = text.splitlines()
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT:
+            row, column = token.start
+            lines[row - 1] = lines[row - 1][:column].rstrip()
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, DOCUMENTED) and ast.get_docstring(node, clean=False) is not None:
+            first, last = node.body[0].lineno, node.body[0].end_lineno
+            lines[first - 1 : last] = [""] * (last - first + 1)
+    return "\n".join(filter(None, lines))
 
 
 def write(name, data, folder):
