@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from math import hypot, isfinite
+from math import hypot
 from typing import Any
 
 from pygame import Vector2
@@ -348,7 +348,7 @@ class Body:
 
     def check(self) -> None:
         """Raise ValueError naming the first number that is NaN or infinite."""
-        if not isfinite(self.x + self.y + self.vx + self.vy + self.angle + self.w):
+        if (self.x + self.y + self.vx + self.vy + self.angle + self.w) * 0.0:  # not 0, but NaN
             pair("Body.pos", (self.x, self.y))
             pair("Body.vel", (self.vx, self.vy))
             finite("Body.angle", self.angle)

@@ -46,7 +46,7 @@ class Bounds:
         self.left = self.right = body.x  # px
         self.top = self.bottom = body.y  # px
         self.low = self.high = self.side_low = self.side_high = 0.0  # px
-        self.first_lane: list[Bounds] = []
+        self.first_lane = 0
 
     def make_room(self, back: float, ahead: float) -> None:
         """Make room for the way of a body, from so many seconds ago to so many ahead."""
@@ -132,8 +132,7 @@ class BroadPhase:
         leavers = []
         for one in self.moving:
             body = one.body
-            x, y = body.x, body.y
-            if x < one.left or x > one.right or y < one.top or y > one.bottom:
+            if not (one.left <= body.x <= one.right and one.top <= body.y <= one.bottom):
                 leavers.append(one)
         if leavers:
             self.is_stale = True
@@ -196,17 +195,17 @@ class BroadPhase:
                 continue  # far from all that can move
             a, first = one.body, int((side_low - top) * per_px) if side_low > top else 0
             last = int((side_high - top) * per_px) if side_high < bottom else count
-            first_lane = one.first_lane = lanes[first]
+            one.first_lane = first
             for index in range(first, last + 1):
                 lane = lanes[index]
                 if len(lane) > FEW:
-                    lane[:] = [other for other in lane if other.high > low]
+                    lane = lanes[index] = [other for other in lane if other.high > low]
                 for other in lane:
                     if (
                         other.high > low
                         and other.side_low < side_high
                         and other.side_high > side_low
-                        and (lane is first_lane or lane is other.first_lane)
+                        and (index == first or index == other.first_lane)
                     ):
                         b = other.body
                         if a.idle and b.idle:
@@ -247,13 +246,16 @@ class BroadPhase:
         if not self.is_sorted or upright != self.upright:
             bounds.sort(key=LOW)
             self.is_sorted, self.upright = True, upright
-        for i in range(1, len(bounds)):
-            one, at = bounds[i], i
-            low, before = one.low, bounds[i - 1]
-            while low < before.low or (low == before.low and one.wins_tie(before)):
+        highest = -inf
+        for at, one in enumerate(bounds):
+            low = one.low
+            if low > highest:
+                highest = low
+                continue
+            while at > 0:
+                before = bounds[at - 1]
+                if low > before.low or (low == before.low and before.wins_tie(one)):
+                    break
                 bounds[at] = before
                 at -= 1
-                if at == 0:
-                    break
-                before = bounds[at - 1]
             bounds[at] = one

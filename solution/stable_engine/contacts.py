@@ -25,7 +25,7 @@ MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
 CROWDED = 0.1  # radii, by which balls that bear a load overlap in a crowd
 PARTED = 0.3  # of an overlap, by which balls in a crowd are put apart in a step
 TOUCHING = 1e-6  # bodies that are no further apart touch, but for what numbers are rounded to
-MOST_BODIES = 2**30  # and no id is larger
+MOST_BODIES = 2**29  # and no id is larger
 REDETECT_DISTANCE = 1e-4  # contacts stay valid until a body has moved further
 
 OnHit = Callable[[Body, Body, float], object]
@@ -122,8 +122,10 @@ class Contacts(Effect):
         self.beside_static = list(dict.fromkeys([p.a for p in phase.pairs if not p.b.inv_mass]))
         for c in self.touching:
             self.unpaired[pair_number(c.a, c.b)] = c
-        for pair in phase.pairs if self.unpaired else []:
-            pair.contact = self.unpaired.pop(pair_number(pair.a, pair.b), None)
+        touched = {c.a for c in self.unpaired.values()}
+        for pair in phase.pairs if touched else []:
+            if pair.a in touched:
+                pair.contact = self.unpaired.pop(pair_number(pair.a, pair.b), None)
 
     def find_contacts(self, dt: float) -> None:
         """Find the contacts of all bodies where they are now, with the impulses they had before.
