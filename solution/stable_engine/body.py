@@ -17,7 +17,7 @@ LEAST = 1e-100  # kg and kg px²: far below, and far above its inverse, floats r
 
 
 class Listeners:
-    """The part of a world that its bodies call when something of them is set."""
+    """The part of a world that a body calls when one of its values is set."""
 
     __slots__ = ()
 
@@ -27,11 +27,11 @@ class Listeners:
     lighter_hooks: list[Callable[..., Any]]
 
     def set_bullet(self, body: Body, value: bool) -> None:
-        """Have a body be a bullet or not."""
+        """Make a body a bullet, or not."""
         raise NotImplementedError
 
     def look_again(self, body: Body) -> None:
-        """Check in the next step what was set of this body."""
+        """Check the new values of this body in the next step."""
         raise NotImplementedError
 
     def push(self, body: Body, fx: float, fy: float, torque: float) -> None:
@@ -40,7 +40,7 @@ class Listeners:
 
 
 class Island:
-    """Bodies that fell asleep together and wake together. on_wake is called when they do."""
+    """Bodies that sleep and wake together. Waking calls on_wake."""
 
     def __init__(self, bodies: list[Body], on_wake: Callable[[], None]) -> None:
         self.bodies = bodies
@@ -64,7 +64,7 @@ class Body:
 
     Mass 0 makes a static body, which never moves; a kinematic one moves by its own velocity, and
     no force changes that. A Box or Segment has no mass. A Segment stands where it was drawn unless
-    pos says where its middle is; other shapes need a pos. Restitution and friction are for scenes
+    pos names its middle; other shapes need a pos. Restitution and friction are for scenes
     that declare Bounce() and Friction(); there None means 0.3 and 0.6. A bullet is stopped where it
     first touches a static body, however fast it is. Raises ValueError when a value makes no sense.
 
@@ -129,7 +129,7 @@ class Body:
         self.sleeps = False
         self.still = 0.0  # s, how long it has been slow enough to sleep
         self.calm = 0.0  # px²/s², its speed when that began, squared
-        # from here on methods run: a compiled attribute is fast if it was set before any did
+        # compiled attributes are fast if they are set before any method runs
         self.weigh(mass)
         if restitution is not None:
             self.restitution = restitution
@@ -304,7 +304,7 @@ class Body:
         self.push(0.0, 0.0, finite("Body.apply_torque's torque", torque))
 
     def push(self, fx: float, fy: float, torque: float) -> None:
-        """Have the world push and turn this body in the next step."""
+        """Pass a force and a torque on to the world, for the next step."""
         require(not self.is_static, "Body.mass", 0, "above 0 for a force to move it")
         if self.world is None:
             refuse("Body.world", None, "a World: add the body before you push it")
@@ -324,12 +324,12 @@ class Body:
         return abs(dx) <= self.hx and abs(dy) <= self.hy
 
     def wake(self) -> None:
-        """Wake this body and all that sleep with it."""
+        """Wake this body and those that sleep with it."""
         if self.island:
             self.island.wake()
 
     def moved(self) -> None:
-        """Wake this body; if it is static, also wake what rested on it or touches it now."""
+        """Wake this body; if it is static, also wake bodies that rested on it or touch it now."""
         self.wake()
         if self.world is None:
             return
@@ -339,7 +339,7 @@ class Body:
                 static_moved(self)
 
     def changed(self) -> None:
-        """Wake, and have the effects take over what was set."""
+        """Wake this body, and tell the effects of its new values."""
         self.wake()
         if self.world:
             self.world.look_again(self)

@@ -8,7 +8,7 @@ from .effect import Effect, WorldState
 from .impacts import Impacts
 from .rods import Rods
 
-RESTING_STEPS = 3.7  # an impact no faster than gravity makes a ball in so many does not bounce
+RESTING_STEPS = 3.7  # impacts slower than gravity's speed after so many do not bounce
 LEAST_SPEED = 0.001  # 1/s, in units of the world: the same without gravity
 
 
@@ -58,21 +58,21 @@ class Bounce(Effect):
         return min(RESTING_SPEED * unit, RESTING_STEPS * g * dt + LEAST_SPEED * unit)
 
     def law(self, c: Contact, closing: float) -> tuple[float, float]:
-        """Return the speed (px/s) at which a pair separates that closes in at this speed.
+        """Return the speed (px/s) at which a pair separates after closing in at this speed.
 
-        A ball leaves a static body as exactly for any step size: a contact is found after the ball
-        has crossed the surface and has gained speed below it. So e is applied to the speed at the
-        surface, which follows from conservation of energy. With semi-implicit Euler velocities lag
+        At any step size a ball leaves a static body exactly. A contact is found when the ball is
+        below the surface and too fast, so e is applied to its speed at the surface, which
+        conservation of energy gives. With semi-implicit Euler velocities lag
         half a substep behind positions.
 
-        Return as well the share of the impulse that does not go into the speed gained.
+        Also return the share of the impulse without the speed gained below the surface.
         """
         gx, gy = self.world.g
         g = gx * c.nx + gy * c.ny  # px/s², into the surface; negative at a ceiling
         if g == 0 or not c.b.is_static:
             return c.e * closing, 1.0
         lag = g * self.h / 2
-        fallen = -2 * g * c.gap  # px²/s², what the fall from the surface to here adds to speed²
+        fallen = -2 * g * c.gap  # px²/s², added to speed² by the fall from the surface
         speed = max(closing + lag, 0.0)
         crossing = sqrt(max(speed * speed - fallen, 0.0))
         parting = sqrt(max(c.e * c.e * crossing * crossing + fallen, 0.0)) + lag
@@ -80,7 +80,7 @@ class Bounce(Effect):
         return parting, min((1 + c.e) * crossing / whole, 1.0) if whole > 0 else 1.0
 
     def is_separating(self, c: Contact) -> bool:
-        """Return whether a pair has bounced off. Pushed out as well, it would rise higher.
+        """Return whether a pair has bounced: if pushed out as well, it would rise too high.
 
         So it counts as just touching. It stays a contact: without one, a rod or a heavy ball that
         still moves towards the wall would press the ball into it.

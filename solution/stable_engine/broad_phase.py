@@ -7,12 +7,12 @@ from .body import Body
 from .contact import Contact
 
 ROOM = 0.1  # radii, on each side of a body that can move
-SWEEP = 3  # looks at near pairs, for each such body: they cost as much as a sweep
-LONGEST = 0.5  # s, that a room covers
-SHUFFLED = 8  # steps, after which the order of the sweep has changed much
-WIDER = 1.1  # times, must bodies be spread along the other axis for the sweep to change to it
-LANE = 6.0  # times half the width of a ball, as broad as a lane is
-FEW = 4  # boxes in a lane, so few that dropping any is not worth it
+SWEEP = 3  # checks of near pairs per such body, which cost as much as a sweep
+LONGEST = 0.5  # s of motion in a room
+SHUFFLED = 8  # steps until the order of the sweep has changed much
+WIDER = 1.1  # ratio of the spreads along both axes at which the sweep changes its axis
+LANE = 6.0  # width of a lane, in half widths of a ball
+FEW = 4  # boxes in a lane; up to so many, ended ones may stay
 
 
 class Pair:
@@ -27,10 +27,10 @@ class Pair:
 
 
 class Bounds:
-    """The room of a body, in which its centre may move, and the box that it cannot leave then.
+    """The room in which a body's centre may move, and the box that holds the body meanwhile.
 
-    Along the axis of the sweep the box goes from low to high, across it from side_low to side_high.
-    The first lane that it is in is known once the sweep has met it.
+    The box goes from low to high along the axis of the sweep, from side_low to side_high across.
+    The sweep finds the first lane of the box.
     """
 
     __slots__ = (
@@ -49,7 +49,7 @@ class Bounds:
         self.first_lane = 0
 
     def make_room(self, back: float, ahead: float) -> None:
-        """Make room for the way of a body, from so many seconds ago to so many ahead."""
+        """Make room for the path of a body, from so many seconds ago to so many ahead."""
         body, margin = self.body, self.margin
         x, y, vx, vy = body.x, body.y, body.vx, body.vy
         if vx > 0:
@@ -67,13 +67,13 @@ class Bounds:
         self.top, self.bottom = self.top + min(fall_y, 0.0), self.bottom + max(fall_y, 0.0)
 
     def find_start(self, dt: float) -> None:
-        """Work out where a body was dt seconds ago, that flew straight out of its room."""
+        """Work out the position dt seconds ago of a body that flew straight out of its room."""
         body = self.body
         body.last_x = max(self.left, min(body.x - body.vx * dt, self.right))
         body.last_y = max(self.top, min(body.y - body.vy * dt, self.bottom))
 
     def update_box(self, upright: bool, margin: float) -> None:
-        """Work out the box. Low ends are moved out by margin px."""
+        """Work out the box, with margin px added at its low ends."""
         hx, hy = self.body.hx, self.body.hy
         if upright:
             self.low, self.high = self.top - hy - margin, self.bottom + hy
@@ -95,28 +95,28 @@ LOW = attrgetter("low")
 class BroadPhase:
     """The pairs of bodies that are near each other, found by a sweep.
 
-    Each body has room to move, and pairs are near whose boxes with all their room overlap. So no
-    other pair can touch until a body has left its room; only then the sweep is made anew. Rooms are
-    longer the longer the last ones lasted, and shorter where too many pairs are near in vain.
+    Each body has room to move. Two bodies are near if their boxes, rooms included, overlap. No
+    other pair can touch until a body leaves its room; then the sweep is repeated. New rooms are
+    longer if the last ones lasted long, and shorter if many near pairs did not touch.
 
-    The sweep goes along the axis on which the bodies that can move are spread wider. It meets each
-    box where it begins; the boxes that began before and have not ended are the only ones it can be
-    near. The plane is cut into lanes along the sweep, so that few of them are in one lane with it.
-    Those that have ended are dropped now and then: that costs less than dropping each at once.
+    The sweep goes along the axis on which moving bodies are spread wider. A new box can
+    only be near boxes that began before and have not ended. Lanes along the sweep leave few of
+    these to compare. Boxes that have ended are dropped now and then, which costs less than dropping
+    each at once.
     """
 
     def __init__(self) -> None:
         self.bounds: list[Bounds] = []  # of all bodies, in the order of the last sweep
         self.moving: list[Bounds] = []  # of those that can move
         self.widest = 0.0  # px, half of the widest that can move
-        self.lane = 0.0  # px, how broad a lane is
+        self.lane = 0.0  # px, the width of a lane
         self.pairs: list[Pair] = []
         self.is_stale = True
         self.is_sorted = False
         self.upright = False  # whether the sweep goes along y
-        self.ahead = LONGEST  # s, that rooms cover
+        self.ahead = LONGEST  # s of motion in a room
         self.age = 0.0  # s, of the rooms
-        self.looks = 0  # at pairs that did not touch, since the last sweep
+        self.looks = 0  # checks of pairs that did not touch, since the last sweep
 
     def take(self, bodies: list[Body]) -> None:
         """Begin anew, with these bodies."""
@@ -141,10 +141,10 @@ class BroadPhase:
     def renew(
         self, g: tuple[float, float], held: set[Body], dt: float, back: float, margin: float
     ) -> None:
-        """Make room for all that can move, and find the pairs whose boxes come within margin px.
+        """Make room for all bodies that can move, and find pairs of boxes within margin px.
 
-        Rooms also cover the way of the last `back` seconds. Those of bodies that are not held cover
-        their fall.
+        Rooms also cover the path of the last `back` seconds, and the fall of bodies that nothing
+        holds.
         """
         if self.is_crowded() or self.age < self.ahead + dt / 2:
             ahead = max(self.ahead / 2, dt)
@@ -162,17 +162,17 @@ class BroadPhase:
         self.is_stale = False
 
     def add_looks(self, count: int, dt: float) -> None:
-        """Count looks at pairs that did not touch. After many, the next step has smaller rooms."""
+        """Count checks of pairs that did not touch. After many, the next step has smaller rooms."""
         self.looks += count
         if self.is_crowded() and self.ahead > dt:
             self.is_stale = True
 
     def is_crowded(self) -> bool:
-        """Return whether looks in vain have cost more than a sweep."""
+        """Return whether checks of pairs that did not touch cost more than a sweep."""
         return self.looks > SWEEP * len(self.moving)
 
     def sweep(self, margin: float) -> list[Pair]:
-        """Return the pairs whose boxes come within margin px, one of the two able to move."""
+        """Return pairs of boxes within margin px of which at least one can move."""
         left, right, top, bottom = self.find_hull(self.widest + margin)
         taller = (bottom - top) / (right - left)
         upright = taller > (1 / WIDER if self.upright else WIDER)
@@ -192,7 +192,7 @@ class BroadPhase:
             if low >= right:
                 break
             if one.high <= left or side_low >= bottom or side_high <= top:
-                continue  # far from all that can move
+                continue  # far from all bodies that can move
             a, first = one.body, int((side_low - top) * per_px) if side_low > top else 0
             last = int((side_high - top) * per_px) if side_high < bottom else count
             one.first_lane = first
@@ -211,7 +211,7 @@ class BroadPhase:
                         if a.idle and b.idle:
                             continue
                         one.near = other.near = True
-                        if spare:  # used again: that costs less than a new one
+                        if spare:  # reused, which is cheaper than a new one
                             pair = spare.pop()
                             pair.a, pair.b = (a, b) if a.id > b.id else (b, a)
                             pair.contact = None
@@ -222,7 +222,7 @@ class BroadPhase:
         return pairs
 
     def find_hull(self, edge: float) -> tuple[float, float, float, float]:
-        """Return left, right, top and bottom of all room, and an edge of so many px around it."""
+        """Return left, right, top and bottom of all rooms, with so many px around them."""
         left = top = inf
         right = bottom = -inf
         for one in self.moving:
@@ -239,8 +239,8 @@ class BroadPhase:
     def sort(self, upright: bool) -> None:
         """Put the boxes into the order in which the sweep meets them.
 
-        Bodies move little between two sweeps, so that the order of one is nearly that of the next:
-        a box that lies wrong is moved down to where it belongs (insertion sort).
+        Bodies move little between two sweeps, so the order hardly changes: insertion sort moves
+        each misplaced box down.
         """
         bounds = self.bounds
         if not self.is_sorted or upright != self.upright:

@@ -7,11 +7,11 @@ from .contacts import RESTING_SPEED, Contacts
 from .effect import Effect, WorldState
 
 SWEEP_FROM = 0.5  # radii, a bullet that moves further in one step is swept
-OVERLAP = 0.05  # radii, how deep a stopped bullet overlaps, so that the next step finds the contact
+OVERLAP = 0.05  # radii, the overlap of a stopped bullet, so that the next step finds the contact
 
 
 class Bullets(Effect):
-    """Continuous collision detection: a bullet's step is swept, and ends where it first hits.
+    """Continuous collision detection: a bullet's step is swept, and ends at its first hit.
 
     Contacts stop any fast ball, but only once its core is in the static body, and softly: a ball
     of 200,000 px/s still gets through a thin one. Where Bounce is declared, fast balls also meet

@@ -13,7 +13,7 @@ FAST = 20.0  # radii in a frame
 SOON = 10.0  # s
 MOST = 50  # balls
 WEAK = 20.0  # units/s²
-SHAKY = 0.15  # where a load of 3 g swings, a ball turns by more than 1 rad in a substep
+SHAKY = 0.15  # under a load of 3 g a ball turns by more than 1 rad in a substep
 
 
 def complaints(world: WorldState) -> list[str]:
@@ -23,12 +23,12 @@ def complaints(world: WorldState) -> list[str]:
 
 
 def missing(world: WorldState, looked_at: list[Body]) -> dict[str, str]:
-    """Return a sentence for each effect, by its name, that these bodies need and do not have.
+    """Return a sentence for each missing effect that these bodies need, by its name.
 
-    A friction above 0 that was given needs Friction, and so does a body that turns or is a belt. A
-    restitution above 0 that was given needs Bounce. Contacts are needed for friction, restitution,
+    A given friction above 0 needs Friction, and so does a body that turns or is a belt. A given
+    restitution above 0 needs Bounce. Contacts are needed for friction, restitution,
     balls that fly at each other, and a static body that no joint is tied to. A ball that is too
-    fast for Contacts needs Bullets. Where no body can move, nothing is needed.
+    fast for Contacts needs Bullets. If no body can move, nothing is needed.
     """
     bodies = looked_at if len(world.bodies) > len(world.statics) else []
     reasons: dict[str, str] = {}
@@ -61,7 +61,7 @@ def missing(world: WorldState, looked_at: list[Body]) -> dict[str, str]:
 
 
 def is_belt(body: Body) -> bool:
-    """Return whether a body has a velocity and stays where it is."""
+    """Return whether a body has a velocity but does not move."""
     return body.is_static and not body.is_kinematic and bool(body.vx or body.vy)
 
 
@@ -74,7 +74,7 @@ def meetings(world: WorldState, bodies: list[Body]) -> Iterator[tuple[Body, Body
     """Yield pairs of free balls that overlap or fly at each other, of the first MOST in the world.
 
     Gravity accelerates both alike, so each flies straight as seen from the other. Balls on joints
-    do not, and are left out.
+    are left out.
     """
     new = set(bodies)
     free = [body for body in world.bodies if not (body.is_static or body.joint_count)][:MOST]
@@ -85,7 +85,7 @@ def meetings(world: WorldState, bodies: list[Body]) -> Iterator[tuple[Body, Body
 
 
 def will_meet(a: Body, b: Body) -> bool:
-    """Return whether two balls overlap, or come to touch within SOON seconds as they fly."""
+    """Return whether two flying balls overlap, or will touch within SOON seconds."""
     x, y = a.x - b.x, a.y - b.y
     vx, vy = a.vx - b.vx, a.vy - b.vy
     speed2 = vx * vx + vy * vy
@@ -113,7 +113,7 @@ def tied(body: Body, world: WorldState) -> bool:
 
 
 def unused(world: WorldState) -> list[str]:
-    """Return a sentence for each declared effect that nothing in the scene has a use for."""
+    """Return a sentence for each declared effect that the scene does not use."""
     return [
         f"This scene declares {name}(), but has no use for it. Leave it out, or add what it is for."
         for name, effect in world.effects.items()
@@ -129,7 +129,7 @@ def overloaded_rods(world: WorldState) -> list[str]:
     rods: list[Joint] = getattr(world.effects.get("Rods"), "joints", [])
     h, g = FRAME / 2 / world.substep_count, hypot(*world.g)
     load: dict[Body, float] = {}
-    for _ in rods:  # at the latest after so many rounds, each ball knows the heaviest
+    for _ in rods:  # after so many rounds at most, each ball knows the heaviest
         before = dict(load)
         for rod in rods:
             ends = [body for body in (rod.a, rod.b) if not body.is_static]

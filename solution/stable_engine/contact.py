@@ -8,7 +8,7 @@ from .body import Body
 from .shapes import Segment
 
 GOLDEN_ANGLE = 2.399963  # rad
-OPPOSITE = -0.5  # cosine; where a normal turns further, a centre has crossed a segment
+OPPOSITE = -0.5  # cosine; if a normal turns further, a centre has crossed a segment
 
 
 class Contact:
@@ -30,10 +30,10 @@ class Contact:
         self.b = b
         self.nx = self.ny = 0.0  # unit normal from A to B; the tangent is (-ny, nx)
         self.found = 0.0  # px, the gap between them, negative when they overlap
-        self.gap = 0.0  # px, the gap to be solved for: Bounce lets those that part just touch
+        self.gap = 0.0  # px, the gap to solve for: for Bounce, separating bodies just touch
         self.reach = 0.0  # px
         self.jn = 0.0  # kg px/s, accumulated normal impulse, never negative
-        self.load = 0.0  # kg px/s, the part of jn that lasts, see Contacts.prepare
+        self.load = 0.0  # kg px/s, the lasting part of jn, see Contacts.prepare
         self.jt = 0.0  # kg px/s, accumulated friction impulse
         self.mn = 1 / (a.inv_mass + b.inv_mass)  # kg, effective mass along the normal
         self.mt = 0.0  # kg, effective mass along the tangent, filled in by Friction
@@ -62,7 +62,7 @@ class Contact:
     def impulse(self) -> float:
         """Return the impulse (kg px/s) of the latest substep, 0 or more: it pushes A and B apart.
 
-        Divide it by the length of a substep for the force. What Bounce does is not part of it.
+        Divide it by the length of a substep for the force. It leaves out impulses of Bounce.
         """
         return self.jn
 
@@ -113,7 +113,7 @@ def collide(a: Body, b: Body) -> tuple[float, float, float]:
 
 
 def circle_circle(a: Body, b: Body) -> tuple[float, float, float]:
-    """Return the normal and gap of two circles. If they are concentric, each pair gets another.
+    """Return the normal and gap of two circles. Each concentric pair gets its own normal.
 
     With the same normal for all pairs, a heap of balls in one place would spread along one line.
     """
@@ -126,7 +126,7 @@ def circle_circle(a: Body, b: Body) -> tuple[float, float, float]:
 
 
 def circle_box(a: Body, b: Body) -> tuple[float, float, float]:
-    """Return normal and gap of a circle and a box. A centre inside leaves by the nearest face."""
+    """Return normal and gap of a circle and a box. From inside, the nearest face counts."""
     x, y = a.x - b.x, a.y - b.y
     dx, dy = max(-b.hx, min(x, b.hx)) - x, max(-b.hy, min(y, b.hy)) - y
     distance = sqrt(dx * dx + dy * dy)
@@ -163,8 +163,8 @@ def is_at_face(c: Contact) -> bool:
 def the_way_it_came(c: Contact, nx: float, ny: float, gap: float) -> tuple[float, float, float]:
     """Return the normal and gap of two bodies that touched before, with normal (c.nx, c.ny).
 
-    A circle whose centre has got into a box leaves through the face it came in by. Through the
-    nearest one, a ball pressed into a thin box beyond the middle would come out on the other side.
+    A circle whose centre is in a box leaves through the face by which it entered. By the nearest
+    one, a ball pressed beyond the middle of a thin box would come out on the other side.
     """
     a, b = c.a, c.b
     if b.segment is not None:
@@ -184,8 +184,7 @@ def the_side_it_came(
 ) -> tuple[float, float, float]:
     """Return the normal and gap of a ball and a segment that touched before.
 
-    A centre that has crossed the segment, and has not gone round its end, leaves by the side it
-    came from.
+    A centre that has crossed the segment, but not round its end, leaves on the side it came from.
     """
     a, b = c.a, c.b
     along = (a.x - b.x) * wall.ux + (a.y - b.y) * wall.uy

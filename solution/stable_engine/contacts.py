@@ -19,21 +19,21 @@ STIFFENING = 0.07  # of a substep, per step
 RESTING_SPEED = 30.0  # 1/s, a slower impact does not bounce
 SPECULATIVE_SPEED = 10.0  # 1/s, slower pairs get a contact before they touch
 CORE = 0.5  # radii
-FAR = 0.125  # of both radii; two balls that come closer by more in a step may have passed
-CORNER_PASSES = 4  # of keeping cores out: put back from one static body, a ball may meet another
+FAR = 0.125  # of both radii; balls that approach by more in a step may have passed each other
+CORNER_PASSES = 4  # of keeping cores out: a ball put back may meet another static body
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
 CROWDED = 0.1  # radii, by which balls that bear a load overlap in a crowd
-PARTED = 0.3  # of an overlap, by which balls in a crowd are put apart in a step
-TOUCHING = 1e-6  # bodies that are no further apart touch, but for what numbers are rounded to
+PARTED = 0.3  # share of an overlap that a step takes from balls in a crowd
+TOUCHING = 1e-6  # a gap that counts as touching: rounding
 MOST_BODIES = 2**29  # and no id is larger
-REDETECT_DISTANCE = 1e-4  # contacts stay valid until a body has moved further
+REDETECT_DISTANCE = 1e-4  # contacts stay valid until a body moves further
 
 OnHit = Callable[[Body, Body, float], object]
 OnPart = Callable[[Body, Body], object]
 
 
 class Group:
-    """Contacts that are solved alike: those of two balls, or those of balls and static bodies."""
+    """Contacts that are solved alike: ball against ball, or ball against static body."""
 
     __slots__ = ("bias_rate", "contacts", "mass_scale", "moves_b")
 
@@ -46,12 +46,12 @@ class Group:
 class Contacts(Effect):
     """Contacts found once per step and solved in every substep as soft constraints.
 
-    on_hit(a, b, speed) is called at the end of a step for each two bodies that began to touch in
-    it; speed (px/s) is that at which they came together. on_part(a, b) is called for each two that
-    no longer touch. a is a ball with mass, b may be any body. Both functions may add and remove
+    on_hit(a, b, speed) is called at the end of a step for each pair that began to touch in it, with
+    the speed (px/s) at which the two met. on_part(a, b) is called for each pair that no longer
+    touches. a is a ball with mass, b may be any body. Both functions may add and remove
     bodies, and can be set later on. Bodies that are removed do not part.
 
-    Each stage solves contacts of two balls first: the last word is that of the static bodies.
+    Each stage solves contacts of static bodies last, so that these hold best.
     """
 
     rank = 3
@@ -62,25 +62,25 @@ class Contacts(Effect):
         if on_part is not None and not callable(on_part):
             refuse("Contacts.on_part", on_part, "a function of two bodies, or None")
         self.on_hit, self.on_part = on_hit, on_part
-        self.hits: list[tuple[Body, Body, float]] = []  # of this step, where somebody asks
-        self.parted: list[tuple[Body, Body]] = []  # in this step, where somebody asks
+        self.hits: list[tuple[Body, Body, float]] = []  # of this step, if on_hit is set
+        self.parted: list[tuple[Body, Body]] = []  # in this step, if on_part is set
         self.touching: list[Contact] = []
-        self.begun: list[Contact] = []  # those of touching that are new in this step
-        self.changed = False  # whether contacts are new in this step, so that rows must be too
-        self.lets_none_pass = False  # whether balls that touched on their way count: for Bounce
+        self.begun: list[Contact] = []  # contacts that are new in this step
+        self.changed = False  # whether contacts are new, so that their rows must be renewed
+        self.lets_none_pass = False  # for Bounce: whether balls that touched and passed on count
         self.friction_warms = False  # whether Friction warm starts both, in one pass
         self.last_dt = 0.0  # s, of the step before
         self.flown: dict[Body, float] = {}  # s, how long a ball flew before it was stopped
         self.broad_phase = BroadPhase()
-        self.crowd: dict[Contact, None] = {}  # of balls that are put apart
+        self.crowd: dict[Contact, None] = {}  # of balls that part_crowd separates
         self.near: list[Body] = []  # can move, and are near others
         self.beside_static: list[Body] = []  # balls that are near static bodies
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
-        self.groups: list[Group] = []  # those of them that hold any contact
-        self.unpaired: dict[int, Contact] = {}  # those of sleeping bodies, by their pair's number
+        self.groups: list[Group] = []  # of these two, those with any contact
+        self.unpaired: dict[int, Contact] = {}  # of sleeping bodies, by their pair's number
         self.ignored: set[int] = set()  # numbers of pairs
         self.pace = Pace(STIFFENING)
-        self.h = 0.0  # s, the substep of the impulses that are kept
+        self.h = 0.0  # s, the substep of the kept impulses
 
     def attach(self, world: WorldState) -> None:
         super().attach(world)
@@ -102,7 +102,7 @@ class Contacts(Effect):
             self.find_contacts(dt)
 
     def any_moved(self) -> bool:
-        """Return whether a body with others near is no longer where contacts were last found."""
+        """Return whether a body with others near has moved since contacts were last found."""
         far = REDETECT_DISTANCE * self.world.unit
         far2 = far * far
         for body in self.near:
@@ -112,7 +112,7 @@ class Contacts(Effect):
         return False
 
     def renew_pairs(self, dt: float) -> None:
-        """Find the near pairs anew. Contacts get theirs back where bodies still touch."""
+        """Find the near pairs anew, and keep the contacts of bodies that still touch."""
         phase, margin = self.broad_phase, self.slow * dt
         held = {body for c in self.touching for body in (c.a, c.b)}
         phase.renew(self.world.g, held, dt, self.last_dt if self.lets_none_pass else 0.0, margin)
@@ -128,13 +128,13 @@ class Contacts(Effect):
                 pair.contact = self.unpaired.pop(pair_number(pair.a, pair.b), None)
 
     def find_contacts(self, dt: float) -> None:
-        """Find the contacts of all bodies where they are now, with the impulses they had before.
+        """Find the present contacts of all bodies, with the impulses they had before.
 
-        Bodies that touch are in contact. So are slow ones that may touch within dt seconds: such
-        a speculative contact lets them close the gap and no more. Fast ones may still miss each
-        other, so they get none. Those that touched are slow if they meet or part slowly. A ball
-        that rolls over a round one gets the normal of the middle of the step, or it would hop. An
-        elastic one does not: turned, a normal makes a pair that passes seem to collide.
+        Bodies that touch are in contact, and so are slow ones that may touch within dt seconds: a
+        speculative contact lets them close the gap and no more. Fast ones get none, as they may
+        still miss each other. A ball that rolls over a round one gets the normal of the middle of
+        the step, or it would hop. Elastic balls do not: a turned normal makes balls that pass each
+        other seem to collide.
         """
         touching: list[Contact] = []
         balls: list[Contact] = []
@@ -193,7 +193,7 @@ class Contacts(Effect):
             self.end_unpaired()
 
     def make_contact(self, a: Body, b: Body, nx: float, ny: float) -> Contact:
-        """Return a new contact with this normal, and with what other effects need of it."""
+        """Return a new contact with this normal, filled in by the other effects."""
         c = Contact(a, b)
         c.nx, c.ny = nx, ny
         for begin_contact in self.begin_contact_hooks:
@@ -246,11 +246,11 @@ class Contacts(Effect):
         self.broad_phase.bounds = []
 
     def prepare(self, h: float) -> None:
-        """Set the stiffness of contacts from the substep, their damping from the number of them.
+        """Set the stiffness of contacts by the substep, their damping by the number of substeps.
 
-        In a step, balls may overlap by as far as they move in it, however short its substeps are.
-        More damping makes the push out of that overlap slower. A push within a few substeps would
-        give a pile energy: the shorter the substeps, the more.
+        Balls may overlap by their motion in a step, however short its substeps are. Damping slows
+        the push out of that overlap: a push within a few substeps would give a pile energy, and
+        more the shorter they are.
         """
         if h != self.h:
             self.keep_forces(h)
@@ -341,11 +341,11 @@ class Contacts(Effect):
                     b.vy += c.by * jn
 
     def finish(self, h: float) -> None:
-        """Keep the core of a ball out of static bodies, however fast it is or hard it is pressed.
+        """Keep the core of a ball out of static bodies, however fast or hard pressed it is.
 
-        Deep in a static body, a ball might leave it on the other side.
+        From deep in a static body, a ball might leave on the other side.
 
-        The core is half as wide as the ball, so that one that slides is not held up at a seam.
+        The core is half as wide as the ball, so that a sliding ball does not catch on a seam.
         """
         if self.crowd:
             self.part_crowd(h * self.world.substep_count)
@@ -370,7 +370,7 @@ class Contacts(Effect):
                 self.stop_core(body, h)
 
     def gather_crowd(self) -> None:
-        """Have balls in a crowd touch and no more. Those that they are put against join it."""
+        """Make balls in a crowd just touch. Balls that they are moved against join the crowd."""
         members = {body for c in self.crowd for body in (c.a, c.b)}
         for c in self.begun:
             met = not (c.b.is_static or members.isdisjoint((c.a, c.b)))
@@ -381,10 +381,10 @@ class Contacts(Effect):
             c.gap = max(c.gap, self.touching_gap)
 
     def part_crowd(self, dt: float) -> None:
-        """Put balls apart of which one had its centre in another, and those they meet by that.
+        """Separate balls whose centre was in another ball, and balls that they meet by that.
 
-        They get no speed. Pushed apart, many balls in one place would keep some, as no pass over
-        their contacts takes all of it away again: energy that nothing has given.
+        They are moved and get no speed: impulses between many balls at one position would leave
+        some speed, which is energy from nothing.
         """
         deepest = 0.0
         for c in self.crowd:
@@ -401,16 +401,16 @@ class Contacts(Effect):
             self.crowd = {}
 
     def stop_core(self, body: Body, h: float) -> None:
-        """Stop a ball that has gone further than its radius where its core met a static body."""
+        """Stop a ball that moved by more than its radius where its core met a static body."""
         distance = abs(body.x - body.last_x) + abs(body.y - body.last_y)
         if distance > body.r > 0 and not (body.is_bullet or body.is_static):
             self.sweep(body, (body.last_x, body.last_y), CORE * body.r, 0.0, h)
 
     def let_no_deeper(self, c: Contact, gap: float) -> bool:
-        """Put a ball back whose core got into a static body, or deeper than it was, and stop it.
+        """Put back and stop a ball whose core entered a static body, or went deeper into it.
 
-        Returns whether it did. gap is along the normal with which the step began. Another one
-        counts where the ball has gone round a corner since, but not where it has gone through.
+        Returns whether it did. gap is along the normal at the start of the step; after a corner
+        a new normal counts, but not after the ball went through the body.
         """
         a, b = c.a, c.b
         nx, ny, now = the_way_it_came(c, *collide(a, b))
@@ -437,7 +437,7 @@ class Contacts(Effect):
         return first_hit([c.b], 0.0, a.last_x, a.last_y, *way) < NO_HIT
 
     def tell(self, h: float) -> None:
-        """Tell of hits and partings, those whose bodies are still there."""
+        """Call on_hit and on_part, for bodies that are still in the world."""
         if self.hits and self.on_hit:
             hits, self.hits = self.hits, []
             for a, b, speed in hits:
@@ -452,7 +452,7 @@ class Contacts(Effect):
     def sweep(
         self, body: Body, start: tuple[float, float], radius: float, overlap: float, h: float
     ) -> None:
-        """Stop a ball at the first static body on its way from start that it does not pass through.
+        """Stop a ball at the first static body on its way from start, except bodies it ignores.
 
         See stop_at_first_hit.
         """
@@ -464,11 +464,11 @@ class Contacts(Effect):
             self.flown[body] = fraction * h * self.world.substep_count
 
     def all_contacts(self) -> list[Contact]:
-        """Return all contacts, those between sleeping bodies among them."""
+        """Return all contacts, also those between sleeping bodies."""
         return list(dict.fromkeys([*self.touching, *self.unpaired.values()]))
 
     def of_body(self, body: Body) -> list[Contact]:
-        """Return the contacts of a body, those it sleeps with among them."""
+        """Return the contacts of a body, also while it sleeps."""
         return [c for c in self.all_contacts() if body in (c.a, c.b)]
 
     def wake_beside(self, body: Body) -> None:
@@ -478,7 +478,7 @@ class Contacts(Effect):
             c.b.wake()
 
     def body_changed(self, body: Body) -> None:
-        """Fill its contacts in anew, and wake whatever touches it."""
+        """Fill in the body's contacts anew, and wake whatever touches it."""
         for c in self.of_body(body):
             c.mn = 1 / (c.a.inv_mass + c.b.inv_mass)
             for begin_contact in self.begin_contact_hooks:
@@ -487,9 +487,9 @@ class Contacts(Effect):
         self.broad_phase.bounds = []
 
     def lighter(self, body: Body, share: float) -> None:
-        """Lower the impulses of the balls that carry it, by what their load loses.
+        """Lower the impulses below a body that loses mass, by the weight it loses.
 
-        They begin the next step with the impulses of this one, and would be thrown up.
+        The next step begins with these impulses; unchanged, they would throw balls up.
         """
         contacts = self.all_contacts()
         balls = in_touch(body, contacts)
@@ -505,7 +505,7 @@ class Contacts(Effect):
         self.broad_phase.bounds = []
 
     def static_moved(self, body: Body) -> None:
-        """Wake the bodies that sleep on it or touch it now."""
+        """Wake the bodies that sleep on a static body or touch it now."""
         world = self.world
         if len(world.awake) + len(world.statics) < len(world.bodies):
             self.wake_beside(body)
@@ -515,12 +515,12 @@ class Contacts(Effect):
                     other.wake()
 
     def forget(self, body: Body) -> None:
-        """Wake whatever touches it: it may have lain on it."""
+        """Wake whatever touches the body: it may have rested on it."""
         self.wake_beside(body)
         self.drop(body, body)
 
     def drop(self, a: Body, b: Body) -> None:
-        """Drop all contacts that have A and B: they are not told of as parted."""
+        """Drop all contacts of A and B, without a call of on_part."""
         ends = {a, b}
         self.touching = [c for c in self.touching if not ends <= {c.a, c.b}]
         self.unpaired = {n: c for n, c in self.unpaired.items() if not ends <= {c.a, c.b}}
@@ -566,7 +566,7 @@ def turned(x: float, y: float, angle: float) -> tuple[float, float]:
 
 
 def is_crowded(c: Contact) -> bool:
-    """Return whether two balls of a crowd still overlap much, or a little but under no load."""
+    """Return whether two balls still overlap much, or a little without a load."""
     return c.jn == 0 or c.gap < -CROWDED * min(c.a.r, c.b.r)
 
 

@@ -42,7 +42,7 @@ class Damping(Effect):
         return self.linear > 0 or self.angular > 0
 
     def update(self) -> None:
-        """Tell the world, if there is one, that damping may have anything to do now or not."""
+        """Tell the world, if there is one, to ask again whether damping is idle."""
         if hasattr(self, "world"):
             self.world.update_hooks()
 

@@ -36,7 +36,7 @@ class WorldState(Listeners):
     def hooks(self, name: str, busy: bool = False) -> list[Callable[..., Any]]:
         """Return the hooks of this name that the scene's effects override, lowest rank first.
 
-        Only those of effects that are busy, where asked for.
+        If asked, leave out effects that are idle.
         """
         effects = sorted(self.effects.values(), key=lambda effect: effect.rank)
         base = getattr(Effect, name)
@@ -47,7 +47,7 @@ class WorldState(Listeners):
         ]
 
     def update_hooks(self) -> None:
-        """Call in substeps the effects that have anything to do now, and no others."""
+        """Call only effects that are not idle in substeps."""
         raise NotImplementedError
 
     def need(self, name: str, user: object) -> Any:
@@ -63,8 +63,8 @@ class WorldState(Listeners):
 class Effect:
     """Base of all effects. The world calls the hooks an effect overrides, and no others.
 
-    So an effect that is not declared costs nothing, and one that is costs no empty calls. h is the
-    length of a substep in seconds. At each stage effects of lower rank come first.
+    So an undeclared effect costs nothing, and a declared one no empty calls. h is the length of a
+    substep in seconds. At each stage effects of lower rank come first.
     """
 
     rank: ClassVar[int]
@@ -74,7 +74,7 @@ class Effect:
         return f"{type(self).__name__}()"
 
     def attach(self, world: WorldState) -> None:
-        """Become part of a world, once. Look up here the other effects that this one needs."""
+        """Join a world, once. Look up the other effects that this one needs here."""
         name, found = f"World.effects' {self!r}", "in another world already"
         require(not hasattr(self, "world"), name, found, "a new one: each world has its own")
         self.world = world
@@ -86,7 +86,7 @@ class Effect:
         """Take a joint off this effect's own list."""
 
     def is_used(self) -> bool:
-        """Return whether anything in the world has a use for this effect.
+        """Return whether anything in the world uses this effect.
 
         Asked by World.check alone.
         """
@@ -95,7 +95,7 @@ class Effect:
     def is_idle(self) -> bool:
         """Return whether the hooks of the substeps have nothing to do now.
 
-        When that changes, call update_hooks of the world.
+        Call the world's update_hooks when that changes.
         """
         return False
 
@@ -108,16 +108,16 @@ class Effect:
         """Resolve impacts: change velocities at once, before any force of the step acts."""
 
     def prepare(self, h: float) -> None:
-        """Work out what the substeps of this step share."""
+        """Work out values that all substeps of this step use."""
 
     def finish(self, h: float) -> None:
-        """Look at the result of the step."""
+        """Correct or note the result of the step."""
 
     def coast(self, dt: float) -> None:
         """Advance by a step of dt seconds in which no ball is awake: no other hook is called."""
 
     def tell(self, h: float) -> None:
-        """Tell the program of the step, once all is done: it may change the world as it likes."""
+        """Call the program's functions after the step; these may change the world."""
 
     # once per substep
 
@@ -125,38 +125,36 @@ class Effect:
         """Change velocities as forces do."""
 
     def warm_start(self, h: float) -> None:
-        """Apply the impulses of the substep before once more: most are nearly right already."""
+        """Apply the impulses of the last substep again, which are nearly right."""
 
     def solve(self, h: float) -> None:
-        """Correct velocities with impulses, and errors of position by velocities (the bias)."""
+        """Correct velocities by impulses, and position errors by extra velocity (the bias)."""
 
     def relax(self, h: float) -> None:
-        """After bodies have moved, take back the speed that the bias gave them."""
+        """After bodies have moved, take back the speed of the bias."""
 
     # between effects
 
     def begin_contact(self, c: Contact) -> None:
-        """Fill in what this effect needs of a new contact, such as its friction."""
+        """Fill in this effect's fields of a new contact, such as its friction."""
 
     def body_changed(self, body: Body) -> None:
         """Take over a new mass, friction or restitution of a body."""
 
     def lighter(self, body: Body, share: float) -> None:
-        """Prepare for a body whose mass falls to this share of its old mass: 0 if it leaves."""
+        """Prepare for a body's mass to fall to this share: 0 if it leaves."""
 
     def body_moved(self, body: Body) -> None:
-        """Take over a position of a body that the program has set."""
+        """Take over a body's position that the program has set."""
 
     def static_moved(self, body: Body) -> None:
-        """Wake the bodies that a new position, velocity or spin of a static body concerns."""
+        """Wake bodies affected by a static body's new position, velocity or spin."""
 
     def forget(self, body: Body) -> None:
-        """Drop all that refers to a body, which leaves the world."""
+        """Drop every reference to a body that leaves the world."""
 
     def links(self) -> list[tuple[Body, Body]]:
-        """Return the pairs of bodies it connects, the edges of islands: they sleep and wake
-        together.
-        """
+        """Return the pairs of bodies that this effect makes sleep and wake together."""
         return []
 
     def awake_changed(self) -> None:

@@ -6,7 +6,7 @@ from .contact import Contact
 from .contacts import Contacts, Group
 from .effect import Effect, WorldState
 
-CALM = 1e-7  # share of the limit; a smaller change is not worth its work
+CALM = 1e-7  # share of the limit; smaller changes are skipped
 
 
 class Friction(Effect):
@@ -48,7 +48,7 @@ class Friction(Effect):
                 self.groups.append(group)
             for c in group.contacts:
                 a, b, tx, ty = c.a, c.b, -c.ny, c.nx
-                # the arms of two balls meet, or they would make spin from nothing
+                # both arms end at one point, or friction would make spin from nothing
                 half = (c.reach + c.gap - a.r - b.r) / 2 if group.moves_b else 0.0
                 c.arm_a, c.arm_b = a.r + half, b.r + half
                 c.tax, c.tay, c.aw = tx * a.inv_mass, ty * a.inv_mass, c.arm_a * a.inv_inertia
@@ -76,7 +76,7 @@ class Friction(Effect):
                         b.vy += c.by * jn
 
     def solve(self, h: float) -> None:
-        """Rub where contacts press now: a pile in which only relax rubbed would never rest."""
+        """Apply friction to contacts that press now; in relax alone, a pile would never rest."""
         self.rub()
 
     def relax(self, h: float) -> None:

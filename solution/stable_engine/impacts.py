@@ -1,4 +1,4 @@
-"""Impacts: which come first, which come together, and where the bodies are afterwards."""
+"""Impacts: their order, those at one moment, and the positions afterwards."""
 
 from collections.abc import Callable
 from math import cos, hypot, sin
@@ -9,19 +9,19 @@ from .contacts import Contacts
 from .rods import Frame, Rods
 from .sweep import first_hit, moment_of_touch
 
-ROUNDS = 20  # per contact: how often impacts are passed on within one step
-SETTLINGS = 3  # each may make impacts due once more
+ROUNDS = 20  # passes of impacts from ball to ball in one step, per contact
+SETTLINGS = 3  # each may cause further impacts
 TURNS = 5  # of normal impulses and friction, where bodies stay together
 PASSES = 200  # of the solver for impacts at one moment
 WORK = 4000  # contacts, over all passes of the solver for one large group
-ARC = 1.1  # how much further back two may touch that fly on an arc, and not straight
-SAME = 1e-9  # share by which times and speeds of one moment may differ
-BEFORE = 0.01  # radii, how far from a wall a bullet is left: the next step finds what it meets
-FIXED = 1e-6  # share of an impulse that reaches a ball which rods hold still
-CONVERGED = 1e-14  # share of an impulse by which the last pass changed it
+ARC = 1.1  # ratio by which the touch may lie further back for flights on an arc
+SAME = 1e-9  # share by which equal times and speeds may differ
+BEFORE = 0.01  # radii between a bullet and a wall, so that the next step finds the contact
+FIXED = 1e-6  # share of an impulse that moves a ball which rods hold still
+CONVERGED = 1e-14  # share of an impulse; the last pass changes it by less
 
-# How fast (px/s) a contact is to separate that closes in at a speed (px/s), and which share of the
-# impulse that takes counts as the limit of friction.
+# From a closing speed (px/s): the speed at which to separate (px/s), and the share of that impulse
+# that limits friction.
 Law = Callable[[Contact, float], tuple[float, float]]
 
 
@@ -38,25 +38,25 @@ class Impact:
 class Impacts:
     """The impacts of one step, until no pair closes in fast any more.
 
-    The earliest comes first, of those at one moment the hardest, and equally hard ones together: so
-    an impact travels through a row of balls, and a mirrored scene stays mirrored. In the end, what
-    still closes in slowly is stopped, all of an island at once.
+    The earliest impact comes first. At one moment the hardest comes first, equally hard ones
+    together: so an impact travels through a row of balls, and a mirrored scene stays mirrored. At
+    the end, pairs that still close in slowly are stopped, a whole island at once.
 
-    A contact is found after the touch. Impulses go along the normal at the touch, and free balls
-    are put where they would be had they bounced then, and so are balls that swing on one rod: the
-    overlap would push them apart. This keeps angular momentum. A ball on other joints or at a
-    static body stays where it is, and so does a bullet that was stopped at one. Rods pass an
-    impact on at once: a ball weighs as much as what hangs on it along the normal.
+    A contact is found after the touch. Impulses go along the normal at the touch. Free balls, and
+    balls that swing on one rod, are moved to where a bounce at the touch would have taken them:
+    otherwise the overlap would push them apart. This keeps angular momentum. Balls on other joints
+    or at a static body stay, and so do bullets that were stopped at one. Rods pass an impact on at
+    once, so a ball weighs as much as all that hangs on it along the normal.
     """
 
     def __init__(self, contacts: Contacts, rods: Rods | None, slow: float) -> None:
         self.touching = contacts.touching
         self.begun = set(contacts.begun)
-        self.flown = dict(contacts.flown)  # s, how long a ball has flown straight; else a step
+        self.flown = dict(contacts.flown)  # s, how long a ball has flown straight, if not a step
         self.contacts = contacts
         self.last_dt = contacts.last_dt  # s, of the step in which they touched
         self.touching_gap = contacts.touching_gap
-        self.slow = slow  # px/s, slower ones are not due
+        self.slow = slow  # px/s, slower impacts are ignored
         self.due: dict[Contact, Impact] = {}
         self.frame_of: dict[Body, Frame] = {}
         self.pivots: dict[Body, Body] = {}  # of balls that swing on one rod
@@ -66,12 +66,12 @@ class Impacts:
             self.pivots = find_pivots(rods)
 
     def find(self) -> None:
-        """Find what is due. A contact that has just begun counts as it was when it touched."""
+        """Find all impacts. For a new contact, the moment of its touch counts."""
         for c in self.touching:
             self.look(c, c in self.begun)
 
     def look(self, c: Contact, is_new: bool = False) -> None:
-        """Enter a pair that closes in fast."""
+        """Note an impact if the pair closes in fast."""
         speed, ago = c.closing_speed(), 0.0
         if speed <= self.slow and not is_new:
             self.due.pop(c, None)
@@ -87,11 +87,11 @@ class Impacts:
             self.due[c] = Impact(ago, speed)
 
     def turn_back(self, c: Contact) -> float:
-        """Turn a contact's normal to where it was when the two touched. Return how long (s) ago.
+        """Turn a contact's normal back to that of the touch. Return the time (s) since then.
 
-        The normal of a flat face of a static body stays: it is the same at each moment. Others stay
-        if the two did not touch while both flew straight. A ball that swings fast has not flown
-        straight, nor one that an impact has just stopped. Nothing flies through a wall.
+        At a flat face of a static body the normal is always the same. Others stay if the two did
+        not touch while both flew straight, unlike balls that swing fast or have just been stopped
+        by an impact. Nothing flies through a wall.
         """
         since = min(self.flown.get(c.a, self.last_dt), self.flown.get(c.b, self.last_dt))
         if since <= 0 or self.swings(c.a) or self.swings(c.b):
@@ -116,10 +116,7 @@ class Impacts:
         return body not in self.frame_of or hypot(body.vx, body.vy) * self.last_dt > body.r
 
     def resolve_all(self, law: Law) -> None:
-        """Resolve the impacts that are due, and those they lead to.
-
-        Those of one island are over before those of the next begin: they do not reach it.
-        """
+        """Resolve all impacts, and those that they cause, island by island."""
         self.link()
         due, done = self.due, set[Contact]()
         for c, impact in due.items():
@@ -132,14 +129,14 @@ class Impacts:
                 self.resolve_island(law, ROUNDS * len(island))
 
     def is_alone(self, c: Contact) -> bool:
-        """Return whether an impact reaches no other contact."""
+        """Return whether an impact affects no other contact."""
         for body in (c.a, c.b):
             if body in self.frame_of or (body in self.beside and len(self.beside[body]) > 1):
                 return False
         return True
 
     def resolve_alone(self, law: Law, c: Contact, ago: float) -> None:
-        """Resolve an impact so long (s) ago that reaches no other contact."""
+        """Resolve an impact of so long (s) ago that affects no other contact."""
         hit = [c.a] if c.b.is_static else [c.a, c.b]
         turns_back = ago > 0 and self.free.issuperset(hit)
         if turns_back:
@@ -150,7 +147,7 @@ class Impacts:
             c.nx, c.ny, c.gap = collide(c.a, c.b)
 
     def contacts_from(self, c: Contact) -> list[Contact]:
-        """Return the contacts that an impact of this one may reach, over balls and rods."""
+        """Return the contacts that an impact may affect through balls and rods."""
         found, bodies = {c: None}, balls_of([c])
         reached = set(bodies)
         for body in bodies:
@@ -166,7 +163,7 @@ class Impacts:
         return list(found)
 
     def resolve_island(self, law: Law, rounds: int) -> None:
-        """Resolve the impacts that are due in an island, in no more than so many rounds."""
+        """Resolve the impacts of an island, in no more than so many rounds."""
         for _ in range(SETTLINGS):
             reached: dict[Body, float] = {}
             while self.due and rounds > 0:
@@ -178,7 +175,7 @@ class Impacts:
                 break
 
     def resolve_first(self, law: Law, reached: dict[Body, float]) -> None:
-        """Resolve the first impacts that are due, and enter whom they reached, and how long ago."""
+        """Resolve the first impacts. Note which balls they moved, and how long ago."""
         group, ago = self.take_first()
         hit = balls_of(group)
         if ago > 0 and not self.can_go_back.issuperset(hit):
@@ -197,7 +194,7 @@ class Impacts:
         self.look_around(hit, ago)
 
     def fly_on(self, hit: list[Body], seconds: float) -> None:
-        """Have balls fly straight on for a time, or back. A bullet stops before it meets a wall."""
+        """Move balls straight on for a time, or back. A bullet stops before a wall."""
         statics = self.contacts.world.statics
         for body in hit:
             if body in self.pivots:
@@ -215,7 +212,7 @@ class Impacts:
             body.angle += body.w * share * seconds
 
     def look_around(self, hit: list[Body], ago: float) -> None:
-        """Look anew at all contacts of balls that were hit, and moved if that was some time ago."""
+        """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
         self.flown.update(dict.fromkeys(hit, ago))
         for c in dict.fromkeys([c for body in hit for c in self.beside[body]]):
             if ago > 0:
@@ -223,7 +220,7 @@ class Impacts:
             self.look(c)
 
     def link(self) -> None:
-        """Find the contacts of each ball, and the balls that can be put elsewhere."""
+        """Find the contacts of each ball, and the balls that may be moved."""
         self.beside: dict[Body, list[Contact]] = {}
         for c in self.touching:
             for body in (c.a, c.b):
@@ -238,7 +235,7 @@ class Impacts:
         self.can_go_back = self.free | swinging
 
     def take_first(self) -> tuple[list[Contact], float]:
-        """Return the earliest contacts, of these the hardest, and how long (s) ago they touched."""
+        """Return the hardest of the earliest impacts, and how long (s) ago they touched."""
         due = self.due
         if len(due) == 1:
             ((c, impact),) = due.items()
@@ -249,10 +246,10 @@ class Impacts:
         return [c for c in early if due[c].speed >= hardest], earliest
 
     def settle(self, body: Body, ago: float, reached: dict[Body, float]) -> None:
-        """Stop what closes in slowly in the island of a ball that was hit, at once.
+        """Stop all pairs that close in slowly in the island of a ball that was hit, at once.
 
-        Where joints or static bodies have a part in it, the solver does. Where anything was fast at
-        the moment of the hit, stopping it would take energy.
+        The solver stops islands with joints or static bodies. Where anything was fast at the hit,
+        stopping it would take energy.
         """
         slow = self.island_of(body, reached)
         hit = balls_of(slow)
@@ -267,7 +264,7 @@ class Impacts:
         self.look_around(hit, ago)
 
     def island_of(self, body: Body, reached: dict[Body, float]) -> list[Contact]:
-        """Return the contacts that lead from a ball on. Takes their balls off the reached."""
+        """Return the contacts of a ball's island. Remove its balls from `reached`."""
         ahead, bodies, found = [body], {body}, dict[Contact, None]()
         while ahead:
             for c in self.beside[ahead.pop()]:
@@ -282,7 +279,7 @@ class Impacts:
         return list(found)
 
     def frames_of(self, group: list[Contact]) -> list[Frame]:
-        """Return the frames of rods that the balls of contacts belong to, each once."""
+        """Return each frame of rods that a ball of these contacts is in."""
         found: dict[Frame, None] = {}
         for c in group if self.frame_of else []:
             for body in (c.a, c.b):
@@ -292,9 +289,9 @@ class Impacts:
         return list(found)
 
     def resolve(self, group: list[Contact], law: Law, frames: list[Frame], turns: int = 1) -> None:
-        """Bring contacts to the speeds (px/s) at which they are to separate, or to higher ones.
+        """Make contacts separate at least at the given speeds (px/s).
 
-        Normal impulses come first, then friction with them as its limits: so no energy is created.
+        Normal impulses come first, then friction limited by them, so no energy is created.
         In further turns, normal impulses stop what friction has set in motion.
         """
         hits = []
@@ -316,19 +313,19 @@ class Impacts:
 
 
 class Hit:
-    """A contact while its impact is resolved, together with those at the same moment."""
+    """A contact whose impact is resolved together with others of the same moment."""
 
     __slots__ = ("c", "mass", "mu", "pressed", "rubbed", "wanted")
 
     def __init__(self, c: Contact, wanted: float, share: float) -> None:
         self.c = c
-        self.wanted = wanted  # px/s, at which it is to separate
+        self.wanted = wanted  # px/s, the speed at which to separate
         self.mu = c.mu * share
         self.mass = c.mn  # kg, effective mass along the normal
         self.pressed = self.rubbed = 0.0  # kg px/s, impulses along normal and tangent
 
     def feel(self, frames: list[Frame]) -> None:
-        """Find out the effective mass, with all that hangs on the two bodies by rods."""
+        """Find the effective mass, with all balls that hang on both bodies by rods."""
         c, before = self.c, self.c.closing_speed()
         for j in (c.mn, -c.mn):
             c.push_apart(j)
@@ -367,13 +364,13 @@ def rub(hits: list[Hit], frames: list[Frame]) -> bool:
 
 
 def hold(frames: list[Frame]) -> None:
-    """Have rods pass on what has been done to their balls."""
+    """Make rods pass on the impulses on their balls."""
     for frame in frames:
         frame.hold()
 
 
 def find_pivots(rods: Rods) -> dict[Body, Body]:
-    """Return the pivot of each ball that one rod ties to a body at rest, and nothing else."""
+    """Return the pivot of each ball whose only joint is a rod to a body at rest."""
     pivots: dict[Body, Body] = {}
     for rod in rods.awake:
         for ball, pivot in ((rod.end_a, rod.end_b), (rod.end_b, rod.end_a)):
@@ -383,7 +380,7 @@ def find_pivots(rods: Rods) -> dict[Body, Body]:
 
 
 def swing(body: Body, pivot: Body, seconds: float) -> None:
-    """Turn a ball about the pivot of its rod, at the speed it has, for a time or back."""
+    """Turn a ball about the pivot of its rod at its speed for a time, or back."""
     x, y = body.x - pivot.x, body.y - pivot.y
     angle = (x * body.vy - y * body.vx) / (x * x + y * y) * seconds
     c, s = cos(angle), sin(angle)
@@ -393,12 +390,12 @@ def swing(body: Body, pivot: Body, seconds: float) -> None:
 
 
 def settle(c: Contact, closing: float) -> tuple[float, float]:
-    """Return the law of contacts that stay together: see Bounce.law."""
+    """Return the law of contacts that do not bounce: see Bounce.law."""
     return 0.0, 1.0
 
 
 def passes_for(count: int, frames: list[Frame]) -> int:
-    """Return how many passes over so many contacts may be made: one over one that is free."""
+    """Return the maximum of passes over so many contacts: 1 for a single free one."""
     if count == 1 and not frames:
         return 1
     return max(min(PASSES, WORK // (count * (1 + sum([len(frame.rods) for frame in frames])))), 1)

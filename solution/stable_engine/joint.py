@@ -9,7 +9,7 @@ from .validate import not_negative, refuse, require
 
 
 class Joint:
-    """A constraint along the line between the centres of a and b: it turns neither of them.
+    """A constraint along the line between the centres of a and b, which turns neither.
 
     Setting one of its numbers later on wakes both. Raises ValueError if a number makes no sense, if
     a and b are the same body, or if both are static.
@@ -48,7 +48,7 @@ class Joint:
 
     @property
     def length(self) -> float:
-        """Return the distance in px at which it is at rest. Setting it wakes both ends."""
+        """Return its length at rest, in px. Setting it wakes both ends."""
         return self.rest
 
     @length.setter
@@ -57,11 +57,11 @@ class Joint:
         self.changed()
 
     def fitting(self, length: float) -> float:
-        """Return a length as a float. Raises ValueError when it is no length for such a joint."""
+        """Return a length as a float. Raises ValueError if such a joint cannot have it."""
         return not_negative(f"{type(self).__name__}.length", length)
 
     def changed(self) -> None:
-        """Wake both ends, and have the effects take over what was set."""
+        """Wake both ends, and tell the effects of the new value."""
         self.end_b.wake()
         self.end_a.changed()
 

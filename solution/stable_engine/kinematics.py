@@ -12,7 +12,7 @@ class Kinematics(Effect):
     pass through the ball.
     """
 
-    rank = -1  # so that they have moved before any other effect relaxes
+    rank = -1  # moves bodies before any other effect relaxes
 
     def __init__(self) -> None:
         self.bodies: list[Body] = []
@@ -28,7 +28,7 @@ class Kinematics(Effect):
         return bool(self.bodies)
 
     def detect(self, h: float) -> None:
-        """Wake what sleeps where moving ones are."""
+        """Wake sleepers near moving kinematic bodies."""
         world = self.world
         if len(world.awake) + len(world.statics) < len(world.bodies):
             for body in self.bodies:
@@ -37,7 +37,7 @@ class Kinematics(Effect):
                         static_moved(body)
 
     def relax(self, h: float) -> None:
-        """Move them on, at the same time as the balls."""
+        """Move kinematic bodies, at the same time as the balls."""
         for body in self.bodies:
             body.x += body.vx * h
             body.y += body.vy * h

@@ -10,10 +10,10 @@ from .joint import AnyJoint, Joint
 
 
 class Coupling:
-    """Hold what an impulse on one joint does to the speed of another one.
+    """The effect of an impulse on one joint on the speed of another.
 
-    They share a ball, or both share one with a joint that is eliminated before them. The matrix is
-    symmetric: once the order is known, `one` is eliminated before `other`.
+    They share a ball, or each shares one with a joint that is eliminated earlier. The matrix is
+    symmetric; once the order is known, `one` is eliminated before `other`.
     """
 
     __slots__ = ("one", "other", "share", "value", "weight")
@@ -30,7 +30,7 @@ Fill = tuple[Coupling, Coupling, Coupling]
 
 
 class Row:
-    """A joint, its couplings to later ones, and what eliminating it does to their couplings."""
+    """A joint, its couplings to later ones, and the changes that eliminating it makes to those."""
 
     __slots__ = ("couplings", "fills", "joint")
 
@@ -41,9 +41,9 @@ class Row:
 
 
 class Network(Generic[AnyJoint]):
-    """Connected joints in the order of elimination: always the one with the fewest couplings left.
+    """Connected joints in the order of elimination: next is the one with the fewest couplings left.
 
-    A chain or a tree of joints so costs as much per joint as a pass that treats each alone.
+    So a chain or tree costs as much per joint as a pass that treats each joint alone.
     """
 
     def __init__(self, joints: list[AnyJoint]) -> None:
@@ -58,7 +58,7 @@ class Network(Generic[AnyJoint]):
         self.backwards = self.rows[::-1]
 
     def eliminate(self, joint: Joint, beside: dict[Joint, dict[Joint, Coupling]]) -> Row:
-        """Take a joint out of those that are left, and couple its neighbours to each other."""
+        """Remove a joint from those left, and couple its neighbours to each other."""
         couplings: list[Coupling] = []
         fills: list[Fill] = []
         for other, c in beside.pop(joint).items():
@@ -77,8 +77,8 @@ class Network(Generic[AnyJoint]):
     def solve(self) -> None:
         """Find the impulses that together give each joint its speed.
 
-        A joint brings pivot, the change of its speed by a unit of impulse on it (1/kg), and rhs,
-        the change of speed that it wants (px/s). Afterwards rhs holds its impulse (kg px/s).
+        Each joint has pivot, the change of its speed per unit of its impulse (1/kg), and rhs, the
+        change of speed to reach (px/s). Afterwards rhs holds its impulse (kg px/s).
         """
         for c in self.couplings:
             one, other = c.one, c.other
@@ -105,7 +105,7 @@ class Network(Generic[AnyJoint]):
 
 
 def couple(joints: Sequence[Joint]) -> dict[Joint, dict[Joint, Coupling]]:
-    """Return the couplings of joints that share balls, by both joints."""
+    """Return the couplings of joints that share balls, by pair of joints."""
     beside: dict[Joint, dict[Joint, Coupling]] = {joint: {} for joint in joints}
     at: dict[Body, list[tuple[Joint, float]]] = {}
     for joint in joints:
@@ -122,7 +122,7 @@ def couple(joints: Sequence[Joint]) -> dict[Joint, dict[Joint, Coupling]]:
 
 
 def connect(joints: list[AnyJoint]) -> list[Network[AnyJoint]]:
-    """Return the networks of joints, one for each set that balls connect."""
+    """Return a network for each set of joints that balls connect."""
     beside, networks = couple(joints), []
     seen: set[Joint] = set()
     for joint in joints:

@@ -23,7 +23,7 @@ def cast_ray(
 ) -> RayHit | None:
     """Return where a ray from start first meets one of the bodies before its end, or None.
 
-    Of bodies that it meets at the same distance, the first in the list counts.
+    At equal distances, the first body in the list counts.
     """
     x, y = start
     dx, dy = end[0] - x, end[1] - y
@@ -42,7 +42,7 @@ def cast_ray(
 
 
 def normal_at(body: Body, x: float, y: float, dx: float, dy: float) -> tuple[float, float]:
-    """Return the unit normal out of a body at (x, y) from its centre, where a ray comes in."""
+    """Return the unit normal of a body where a ray enters it, at (x, y) from its centre."""
     wall = body.segment
     if wall is not None:
         if wall.rim == 0:

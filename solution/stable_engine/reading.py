@@ -11,13 +11,13 @@ IN_PLACE = (
 
 
 class Reading(Vector2):
-    """A body's place or velocity. Setting a part of it raises an error instead of changing nothing.
+    """A body's position or velocity. Setting a part raises an error instead of changing nothing.
 
-    It is a copy, so body.vel.x += 5 would be lost; body.vel += (5, 0) is not. What comes of it by
-    arithmetic, and a copy, is an ordinary vector, which belongs to no body.
+    It is a copy, so body.vel.x += 5 would be lost; body.vel += (5, 0) is not. Copies and results
+    of arithmetic are ordinary vectors.
     """
 
-    __slots__ = ("field",)  # only a reading itself has its field set
+    __slots__ = ("field",)  # copies have no field
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name != "field":
@@ -26,7 +26,7 @@ class Reading(Vector2):
 
 
 def read(field: str, x: float, y: float) -> Vector2:
-    """Return a reading of the field of that name."""
+    """Return a Reading for the field of that name."""
     reading = Reading(x, y)
     reading.field = field
     return reading
@@ -44,7 +44,7 @@ def refuse_change(vector: Vector2) -> None:
 
 
 def guarded(name: str) -> Any:
-    """Return the method of Vector2 of that name, refused where it would change a reading."""
+    """Return that method of Vector2, which raises an error if it would change a Reading."""
     change = getattr(Vector2, name)
 
     def method(self: Vector2, *arguments: Any) -> Any:

@@ -14,17 +14,17 @@ FREQUENCY = 0.25  # of a rod, per substep
 DAMPING_RATIO = 5.0
 STIFFENING = 0.02  # of a substep, per step
 PASSES = 6  # of Newton's method: a length is no linear function of the speeds
-NEAR = 1e-6  # share of a length; a pass that begins so near is the last
+NEAR = 1e-6  # share of a length; after a smaller error, one pass is left
 EXACT = 1e-10  # share of a length, at which the passes end
-SLOW = 0.03  # share of an error that a pass may leave; more tells of rods that turn too far
+SLOW = 0.03  # share of an error that a pass may leave; more means that rods turn too far
 TURNED = 0.97  # cosine of what a rod may turn by in a substep or part
 TORN = 0.02  # share of a length; a rod that is further off is torn
-LOOSE = 0.003  # share of a length; if the last pass is off by more, it is soft
-GUARDED = 0.9  # cosine; where a rod turns further in a substep, none may gain energy
-LOST = 0.8  # cosine; where a rod turns further in a substep, Newton's method gets lost
+LOOSE = 0.003  # share of a length; above this error the frame is soft
+GUARDED = 0.9  # cosine; if a rod turns further in a substep, none may gain energy
+LOST = 0.8  # cosine; if a rod turns further in a substep, Newton's method fails
 PARTS = 4  # into which a substep is cut at first
 MOST_PARTS = 64
-FIRM = 1 + 1e-9  # times a pivot: where there are more rods than needed, a matrix has no inverse
+FIRM = 1 + 1e-9  # times a pivot: with more rods than needed, the matrix has no inverse
 ROUNDING = 1e-9  # share of a length
 
 Velocity = tuple[float, float]
@@ -58,13 +58,13 @@ class Rod(Joint):
 class Rods(Joints[Rod]):
     """Rods on the length they will have after the move, solved together (SHAKE and RATTLE).
 
-    With the speed along the axis alone, a swinging rod would stretch in every move. relax works
-    along the axis after the move: along the one before, a pendulum would lose energy.
+    If only the speed along the axis were removed, a swinging rod would stretch in every move. relax
+    uses the axis after the move: with the one before, a pendulum would lose energy.
 
-    Where a rod of a frame turns far in a substep, or light balls between heavy ones are thrown
-    about, the frame takes the substep in parts. An error of length that is there is taken back
-    softly. If its ends would pass each other, use the speed along the present axis; the direction
-    after the move would drive them on.
+    If a rod of a frame turns far in a substep, or light balls between heavy ones move fast, the
+    frame cuts the substep into parts. Existing errors of length are corrected softly. If a rod's
+    ends would pass each other, the speed along the present axis counts, as the axis after the move
+    would drive them on.
     """
 
     rank = 2
@@ -112,7 +112,7 @@ class Rods(Joints[Rod]):
         self.find_frames()
 
     def find_frames(self) -> None:
-        """Find the rods that balls connect, if there are others than before."""
+        """Find the frames again, if rods were added or removed."""
         if self.is_stale:
             self.is_stale = False
             self.frames = [Frame(network, self.world) for network in connect(self.awake)]
@@ -144,9 +144,9 @@ class Frame:
         self.balls = [body for body in ends if not body.is_static]
         self.ends = list(ends)
         self.hangs = len(self.balls) < len(ends)
-        self.most = -1.0  # kg px²/s², the energy that it may have, or -1 for any
-        self.lost = 0.0  # kg px²/s², what it has lost while it turned fast, and may gain again
-        self.work = 0.0  # kg px²/s², that its rods have done in this substep, if they are firm
+        self.most = -1.0  # kg px²/s², the maximum of its energy, or -1 for none
+        self.lost = 0.0  # kg px²/s², lost while it turned fast; it may gain it again
+        self.work = 0.0  # kg px²/s², the work of its firm rods in this substep
         self.is_off = False  # whether a rod was torn or hit before this substep
         self.gave_way = False  # whether its rods may take energy in this substep
         # the velocities (px/s) of a substep in parts, during the move and after it
@@ -155,8 +155,8 @@ class Frame:
     def keep_lengths(self, h: float, bias: float, soft: float) -> None:
         """Choose velocities with which all rods have their lengths after the move.
 
-        bias is the share per second of an error of length that is taken back, soft by how much
-        more a rod gives way where a substep cannot be cut finely enough.
+        bias is the share of an error of length corrected per second; soft is how much more a rod
+        gives way if a substep cannot be cut finely enough.
         """
         if self.find_impulses(h, bias):
             return
@@ -166,8 +166,8 @@ class Frame:
     def find_impulses(self, h: float, bias: float, slow: float = SLOW) -> bool:
         """Find the impulses with which all rods keep their length in a move of h seconds (SHAKE).
 
-        Return whether there are any: Newton's method fails where rods turn too far. A pass may
-        leave the share slow of the error.
+        Return whether it found any: Newton's method fails if rods turn too far. A pass may leave
+        the share `slow` of the error.
         """
         last = 0.0
         before = [rod.j for rod in self.rods]
@@ -189,11 +189,11 @@ class Frame:
         return False
 
     def go_in_parts(self, h: float, bias: float) -> bool:
-        """Cut a substep into parts so short that each rod turns only a little in one of them.
+        """Cut a substep into parts so short that each rod turns only a little in each.
 
-        The balls get the velocities that take them to where they are then. In relax they get those
-        that they have then, unless a contact was in the way. Return whether the parts are short
-        enough; else nothing is changed.
+        The balls get velocities that take them to their positions after all parts. In relax they
+        get their velocities at that time, unless a contact was in the way. Return whether the parts
+        are short enough; otherwise change nothing.
         """
         before = [(ball, (ball.x, ball.y), (ball.vx, ball.vy)) for ball in self.balls]
         impulses = [rod.j for rod in self.rods]
@@ -203,7 +203,7 @@ class Frame:
         self.fall(-h / 2)
         self.hold()
         energy = self.energy(*self.velocity()) - self.fallen()
-        count, done = PARTS, 0  # of equal parts, how many are done
+        count, done = PARTS, 0  # equal parts done so far
         while done < count <= MOST_PARTS:
             part = h / count
             self.fall(part / 2)
@@ -234,14 +234,14 @@ class Frame:
         return count <= MOST_PARTS
 
     def fall(self, seconds: float) -> None:
-        """Give the balls the speed of so long a fall."""
+        """Add the speed of a fall of so many seconds."""
         gx, gy = self.world.g
         for ball in self.balls:
             ball.vx += gx * seconds
             ball.vy += gy * seconds
 
     def velocity(self) -> tuple[float, float]:
-        """Return the velocity (px/s) of the whole frame, 0 where it hangs on something static."""
+        """Return the velocity (px/s) of the centre of mass, 0 if it hangs on a static body."""
         if self.hangs:
             return 0.0, 0.0
         mass = sum([ball.m for ball in self.balls])
@@ -249,14 +249,14 @@ class Frame:
         return momentum_x / mass, sum([ball.m * ball.vy for ball in self.balls]) / mass
 
     def fallen(self) -> float:
-        """Return twice the energy (kg px²/s²) that gravity has given, but for a constant."""
+        """Return twice the energy (kg px²/s²) from gravity, up to a constant."""
         gx, gy = self.world.g
         if not self.hangs:
             return 0.0
         return sum([2 * b.m * (gx * b.x + gy * b.y) for b in self.balls])
 
     def scale_speeds(self, wanted: float) -> None:
-        """Scale the speeds of the balls as seen from the whole to twice an energy (kg px²/s²)."""
+        """Scale the balls' speeds about the centre of mass to twice an energy (kg px²/s²)."""
         vx, vy = self.velocity()
         energy = self.energy(vx, vy)
         if energy > 0 and wanted != energy:
@@ -266,13 +266,13 @@ class Frame:
                 ball.vy = vy + (ball.vy - vy) * share
 
     def energy(self, vx: float, vy: float) -> float:
-        """Return twice the energy (kg px²/s²) of the balls, seen at a velocity."""
+        """Return twice the balls' energy (kg px²/s²), measured relative to a velocity."""
         return sum([b.m * ((b.vx - vx) ** 2 + (b.vy - vy) ** 2) for b in self.balls])
 
     def energy_before(self, h: float) -> float:
         """Return the energy that the balls had before the rods acted in this substep.
 
-        Find out as well whether any rod is off its length, or would be without impulses: one that
+        Also note whether any rod has the wrong length, or would have without impulses: a rod that
         was torn or hit takes energy.
         """
         self.is_off = False
@@ -287,9 +287,9 @@ class Frame:
         return energy
 
     def keep_energy(self) -> None:
-        """Have rods do no work in a substep in which they were soft.
+        """Make soft rods do no work in a substep.
 
-        Some may take energy, see energy_before. The balls never get more than they had.
+        Some may take energy, see energy_before. The balls never gain any.
         """
         energy = self.energy(*self.velocity())
         most = self.most + self.lost
@@ -299,17 +299,17 @@ class Frame:
         self.most = -1.0
 
     def is_whole(self) -> bool:
-        """Return whether all rods have about their lengths."""
+        """Return whether all rods have nearly the right length."""
         return all([abs(rod.distance - rod.rest) < TORN * rod.rest for rod in self.rods])
 
     def is_carried(self) -> bool:
-        """Return whether the frame is tied to a body that moves on by itself."""
+        """Return whether the frame is tied to a kinematic body."""
         return any([body.is_kinematic for body in self.ends])
 
     def give_way(self, h: float, bias: float, soft: float) -> None:
-        """Choose velocities for a frame that is torn, or in touch and turns far in a substep.
+        """Choose velocities for a frame that is torn, or turns far in a substep while touching.
 
-        It is soft where it turns too far for Newton's method, and its rods do no work.
+        It is soft if it turns too far for Newton's method; its rods do no work.
         """
         is_soft = False
         for left in range(PASSES - 1, -1, -1):
@@ -335,7 +335,7 @@ class Frame:
     def look_ahead(self, h: float, bias: float) -> tuple[float, float]:
         """Set the changes of speed that keep each rod's length in the move to come.
 
-        Returns how far (share of its length) the worst is off, and the cosine by which one turns.
+        Return the largest error (share of its length) and the cosine of the largest turn.
         """
         off, turned = 0.0, 1.0
         for rod in self.rods:
@@ -351,20 +351,20 @@ class Frame:
         return off, turned
 
     def apply(self) -> None:
-        """Give all rods the changes of speed that they want. rhs holds the impulses then."""
+        """Solve for the impulses that change all rods' speeds by rhs, and apply them."""
         self.network.solve()
         for rod in self.rods:
             rod.apply_impulse(rod.rhs)
 
     def hold(self) -> None:
-        """Take from the balls all speed along the rods, at this instant."""
+        """Remove all speed along the rods, at this instant."""
         for rod in self.rods:
             rod.measure()
             rod.pivot, rod.rhs = FIRM / rod.m, -rod.speed()
         self.apply()
 
     def take_back_stretching(self) -> None:
-        """Take from the balls all speed along the rods, where these are now (RATTLE)."""
+        """Remove all speed along the rods, in their present directions (RATTLE)."""
         if self.later and all([(b.vx, b.vy) == way for b, way, _ in self.later]):
             for body, _, velocity in self.later:
                 body.vx, body.vy = velocity
@@ -387,5 +387,5 @@ class Frame:
 
 
 def may_touch(rod: Rod) -> bool:
-    """Return whether a rod leaves a gap between its ends: a contact would fight a shorter one."""
+    """Return whether a rod leaves a gap between its ends; a contact would fight a shorter rod."""
     return rod.rest > (rod.a.r + rod.b.r) * (1 + ROUNDING)

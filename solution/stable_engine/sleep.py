@@ -8,25 +8,24 @@ from .effect import Effect, WorldState
 
 # speeds are in units of the world per second, see World.unit
 STILL_SPEED = 3.0  # of the centre and of the rim
-GAINED_SPEED = 0.03  # in STILL_TIME; what gains more is not at rest, but on a gentle slope
+GAINED_SPEED = 0.03  # in STILL_TIME; a ball that gains more is on a gentle slope, not at rest
 STILL_TIME = 0.5  # s
-LOOK_EVERY = 8  # steps; a look at all that are awake costs as much as moving them
+LOOK_EVERY = 8  # steps between checks, as a check of all awake balls costs as much as moving them
 
 
 class Sleep(Effect):
     """Put islands to sleep that have lain still: balls that touch each other or share a joint.
 
-    Only whole islands sleep: a ball alone would hang in the air when its neighbours moved on. An
-    island must rest on something static or hang on it. Without gravity, it may also float, if it
-    does not move at all. An island wakes when an awake ball touches it, or when a program sets what
-    keeps it at rest: one of its balls or joints, a static body that it touches or hangs on, or the
-    gravity.
+    Only whole islands sleep: a single ball would hang in the air when its neighbours moved on. An
+    island must rest on a static body or hang on one. Without gravity, it may also float, if it does
+    not move at all. An island wakes when an awake ball touches it, or when a program changes one of
+    its balls or joints, a static body that it touches or hangs on, or the gravity.
     """
 
     rank = 4
 
     def __init__(self) -> None:
-        self.since, self.steps = 0.0, 0  # s and steps, since it last looked
+        self.since, self.steps = 0.0, 0  # s and steps since the last check
 
     def attach(self, world: WorldState) -> None:
         super().attach(world)
@@ -65,7 +64,7 @@ class Sleep(Effect):
             self.put_to_sleep()
 
     def put_to_sleep(self) -> None:
-        """Put every island to sleep that has lain still for STILL_TIME."""
+        """Put islands to sleep that have lain still for STILL_TIME."""
         still = [i for i in self.find_islands() if self.is_still(i)]
         for island in still:
             Island(island, self.update_awake)
@@ -75,7 +74,7 @@ class Sleep(Effect):
     def is_still(self, island: list[Body]) -> bool:
         """Return whether an island has lain still for STILL_TIME, and nothing sets it in motion.
 
-        For a ball that has gained speed, the time starts again.
+        A ball that has gained speed starts the time again.
         """
         if min([body.still for body in island]) <= STILL_TIME:
             return False
@@ -125,5 +124,5 @@ class Sleep(Effect):
 
 
 def sleepers(contacts: Contacts) -> list[Body]:
-    """Return the sleeping balls in contacts; contacts are only found where one body is awake."""
+    """Return the sleeping balls in contacts, which all have one awake body."""
     return [body for c in contacts.touching for body in (c.a, c.b) if body.sleeps]

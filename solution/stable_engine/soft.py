@@ -2,7 +2,7 @@
 
 import math
 
-SAME_DIRECTION = 0.9  # cosine; an impulse is not kept along a direction that has turned further
+SAME_DIRECTION = 0.9  # cosine; an impulse is dropped if its direction has turned further
 
 
 def softness(hertz: float, zeta: float, h: float) -> tuple[float, float]:
@@ -17,19 +17,19 @@ def softness(hertz: float, zeta: float, h: float) -> tuple[float, float]:
 
 
 class Pace:
-    """The pace: the length of substep from which stiffness is computed when steps vary.
+    """The pace: the length of substep that sets the stiffness when steps vary.
 
-    A constraint is as stiff as the substep allows, so a long substep lets more overlap in. A short
-    one after it, at its full stiffness, would throw that overlap out. So the pace follows a longer
-    substep at once and a shorter one gradually: slowly enough for gravity to keep a pile together
-    while it rises. In equal steps the pace is the substep. stiffening is the share of a substep by
+    A constraint is as stiff as the substep allows, so a long substep lets bodies overlap more. A
+    short one after it would push them apart violently at its full stiffness. So the pace follows
+    longer substeps at once and shorter ones gradually, slowly enough for gravity to keep a rising
+    pile together. In equal steps the pace is the substep. stiffening is the share of a substep by
     which a step may shorten the pace.
     """
 
     def __init__(self, stiffening: float) -> None:
         self.stiffening = stiffening
         self.h = 0.0  # s
-        self.slept = 0.0  # s, the longest at which anybody who sleeps now has fallen asleep
+        self.slept = 0.0  # s, the longest pace at which a present sleeper fell asleep
 
     def follow(self, h: float) -> float:
         """Return the pace (s) of a step that takes substeps of h seconds."""
@@ -37,9 +37,9 @@ class Pace:
         return self.h
 
     def awake_changed(self, anybody_sleeps: bool) -> None:
-        """Go back to the longest pace at which sleepers fell asleep: they keep its overlap.
+        """Return to the longest pace at which sleepers fell asleep, as they keep its overlap.
 
-        So it counts when they wake, however short steps have become.
+        It counts when they wake, however short steps have become.
         """
         self.h = max(self.h, self.slept)
         self.slept = self.h if anybody_sleeps else 0.0

@@ -6,11 +6,11 @@ from .network import Network, connect
 from .validate import not_negative
 
 NUMEROV = 1 / 12  # of how the stretch curves in a substep: see Springs
-LEAST_DRAG = 1e-12  # share of the mass: one without drag would have no row in the network
+LEAST_DRAG = 1e-12  # share of the mass: a spring without drag would have no row in the network
 
 
 class Spring(Joint):
-    """Pulls or pushes a and b to a distance of length px: the one they start with, unless given.
+    """Pull or push a and b to a distance of length px, by default their first one.
 
     stiffness is force per px of stretch (kg/s²), damping is force per px/s (kg/s).
     """
@@ -28,9 +28,9 @@ class Spring(Joint):
     ) -> None:
         super().__init__(a, b)
         self.j = 0.0  # kg px/s, accumulated impulse, positive when it pushes
-        self.crowd = 0.0  # 1/s², the most that it may swing with, from all springs at its ends
-        self.pull = 0.0  # kg px/s, that of its stretch in a substep
-        self.drag = 0.0  # kg, impulse per px/s at which its ends part
+        self.crowd = 0.0  # 1/s², its maximum omega², from all springs at its ends
+        self.pull = 0.0  # kg px/s, from its stretch in a substep
+        self.drag = 0.0  # kg, impulse per px/s between its ends
         self.vx = self.vy = 0.0  # px/s, of B as seen from A in the move before
         self.k = not_negative("Spring.stiffness", stiffness)
         self.c = not_negative("Spring.damping", damping)
@@ -68,12 +68,12 @@ class Spring(Joint):
 class Springs(Joints[Spring]):
     """Springs as soft constraints, solved together: stable at any stiffness and damping.
 
-    A soft spring pulls by the stretch it has, and keeps its energy. A stiff one would swing wider
-    and wider: it pulls by the stretch that it will have after the move, which damps what a substep
-    cannot follow. Impulses add up from substep to substep, so that a chain hangs as Hooke says.
+    A soft spring pulls by its present stretch, and keeps its energy. A stiff one would swing wider
+    and wider, so it pulls by its stretch after the move, which damps motion too fast for a substep.
+    Impulses add up over substeps, so that a chain hangs by Hooke's law.
 
-    A spring that pulls by its stretch alone swings too fast, by a share of (omega h)² / 24. So a
-    twelfth of the change of its speed counts as more stretch: Numerov's method, which errs by h⁴.
+    By its stretch alone, a spring swings too fast by (omega h)² / 24. So a twelfth of the
+    change of its speed counts as extra stretch: Numerov's method, with an error of h⁴.
     """
 
     rank = 1
@@ -96,7 +96,7 @@ class Springs(Joints[Spring]):
         self.is_stale = True
 
     def prepare(self, h: float) -> None:
-        """Find the networks where springs are new. What an impact does is not part of the swing."""
+        """Find the networks if springs are new. Impacts are not part of the swing."""
         if self.is_stale:
             self.is_stale = False
             self.networks = connect(self.awake)
@@ -104,7 +104,7 @@ class Springs(Joints[Spring]):
         self.relax(h)
 
     def find_crowds(self) -> None:
-        """Find out for each spring how fast it may swing, with all springs at its ends."""
+        """Find how fast each spring may swing, with all springs at its ends."""
         sums: dict[Body, float] = {}
         for spring in self.awake:
             for body in (spring.end_a, spring.end_b):
@@ -116,8 +116,8 @@ class Springs(Joints[Spring]):
         for spring in self.awake:
             spring.measure()
             k = spring.k
-            turn2 = h * h * spring.crowd  # rad², by how far it swings in a substep
-            ahead = 1 - 1 / (1 + turn2 * turn2 * turn2)  # how much the stretch to come counts
+            turn2 = h * h * spring.crowd  # rad², its swing in a substep, squared
+            ahead = 1 - 1 / (1 + turn2 * turn2 * turn2)  # the share of the stretch after the move
             heavier = NUMEROV * h * h * k  # kg
             before = spring.vx * spring.nx + spring.vy * spring.ny
             spring.pull = heavier * before - h * k * (spring.distance - spring.rest)
@@ -136,7 +136,7 @@ class Springs(Joints[Spring]):
             spring.j += spring.rhs
 
     def relax(self, h: float) -> None:
-        """Remember the speeds of this move for the next one."""
+        """Keep the speeds of this move for the next one."""
         for spring in self.awake:
             spring.vx = spring.end_b.vx - spring.end_a.vx
             spring.vy = spring.end_b.vy - spring.end_a.vy

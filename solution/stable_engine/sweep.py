@@ -1,4 +1,4 @@
-"""Continuous collision detection: where the flight of a ball first hits a static body."""
+"""Continuous collision detection: find where a ball's flight first hits a static body."""
 
 from math import copysign, hypot, sqrt
 
@@ -17,13 +17,13 @@ def stop_at_first_hit(
     gravity: tuple[float, float],
     h: float,
 ) -> float:
-    """Put a ball back to where it first hit a static body on its way from start, if it did.
+    """Put a ball back to its first hit with a static body on its way from start, if any.
 
-    Returns the fraction of its way that it has gone.
+    Return the fraction of the way up to there.
 
-    The step counts as one straight flight of a ball of this radius (px). Put back, it overlaps by
-    overlap px, so that the next step finds the contact and resolves the impact. It keeps its
-    velocity, but for the speed that gravity gave it on the way it has not gone.
+    The step counts as one straight flight of a ball of this radius (px). There it overlaps
+    by overlap px, so that the next step finds the contact and resolves the impact. It keeps its
+    velocity, without the speed from gravity on the rest of the way.
     """
     x, y = start
     dx, dy = body.x - x, body.y - y
@@ -43,7 +43,7 @@ def stop_at_first_hit(
 def moment_of_touch(a: Body, b: Body, dt: float) -> tuple[float, float, float]:
     """Return how long ago (s) a ball began to touch a body, and the unit normal from A to B then.
 
-    Both have flown straight on since. 0 where they did not begin to touch within dt seconds.
+    Both have flown straight since. Return 0 if they did not begin to touch within dt seconds.
     """
     stays = b.is_static and not b.is_kinematic
     vx, vy = (a.vx, a.vy) if stays else (a.vx - b.vx, a.vy - b.vy)
@@ -67,7 +67,7 @@ def first_hit(
 ) -> float:
     """Return the time of impact of a ball that moves from (x, y) by (dx, dy), or NO_HIT.
 
-    As a fraction of the step, 0 at its start and 1 at its end.
+    The time is a fraction of the step: 0 at its start, 1 at its end.
     """
     fraction = NO_HIT
     for s in statics:
@@ -85,9 +85,7 @@ def hit_body(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -
 
 
 def hit_box(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -> float:
-    """Return the time of impact with a box: a point against its faces moved out, its corners
-    rounded.
-    """
+    """Return the time of impact of a point with a box grown by the ball's radius."""
     enter, leave = 0.0, NO_HIT
     for start, move, half in ((x, dx, s.hx + radius), (y, dy, s.hy + radius)):
         if move == 0:
@@ -106,9 +104,7 @@ def hit_box(s: Body, radius: float, x: float, y: float, dx: float, dy: float) ->
 
 
 def hit_segment(wall: Segment, radius: float, x: float, y: float, dx: float, dy: float) -> float:
-    """Return the time of impact with a segment: a point against its sides moved out, its ends
-    rounded.
-    """
+    """Return the time of impact of a point with a segment grown by the ball's radius."""
     reach, ux, uy = wall.rim + radius, wall.ux, wall.uy
     along, off = x * ux + y * uy, y * ux - x * uy
     ahead, across = dx * ux + dy * uy, dy * ux - dx * uy
@@ -124,7 +120,7 @@ def hit_segment(wall: Segment, radius: float, x: float, y: float, dx: float, dy:
 
 
 def hit_point(reach: float, x: float, y: float, dx: float, dy: float) -> float:
-    """Return the time at which a start at (x, y) from a point comes within reach (px)."""
+    """Return the time at which a ball at (x, y) from a point comes within reach (px)."""
     length2, ahead, outside = dx * dx + dy * dy, x * dx + y * dy, x * x + y * y - reach * reach
     root2 = ahead * ahead - length2 * outside
     if outside <= 0 or ahead >= 0 or root2 < 0:

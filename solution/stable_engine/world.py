@@ -21,9 +21,9 @@ class World(WorldState):
     """Bodies, and the effects that the scene declares. No other effect runs a line of code.
 
     gravity is in px/s², and a step has so many substeps. Both can be set later on; effects cannot.
-    unit is the length of a pixel in the lengths of the scene: 0.01 for metres at 100 px each. What
-    counts as slow or as touching follows from it. bodies lists all bodies in the order of adding:
-    read it, and change it by add and remove. Raises ValueError when a value makes no sense, or an
+    unit is the length of a pixel in the lengths of the scene: 0.01 for metres at 100 px each. It
+    sets which speeds and gaps count as small. bodies lists all bodies in the order of adding: read
+    it, and change it by add and remove. Raises ValueError when a value makes no sense, or an
     effect needs another one that is not declared.
     """
 
@@ -48,8 +48,8 @@ class World(WorldState):
         self.bodies = []
         self.awake = []
         self.statics = []
-        self.added = 0  # how many bodies ever were
-        self.unchecked: list[Body] = []  # bodies and ends of joints that are new or were set
+        self.added = 0  # bodies added so far
+        self.unchecked: list[Body] = []  # bodies and ends of joints that are new or changed
         self.warned: set[str] = set()  # the effects that a step has warned of
         self.forces: dict[Body, tuple[float, float, float]] = {}  # kg px/s² twice, kg px²/s²
         self.effects = {}
@@ -118,8 +118,8 @@ class World(WorldState):
     def add(self, thing: Thing) -> Thing:
         """Add a body, rod or spring and return it.
 
-        Raises ValueError when it is in a world already, when it ties bodies that are not in this
-        one, or when the scene does not declare the effect it needs.
+        Raises ValueError if it is in a world already, if it ties bodies that are not in this one,
+        or if the scene does not declare the effect it needs.
         """
         if isinstance(thing, Body):
             self.add_body(thing)
@@ -155,7 +155,7 @@ class World(WorldState):
         effect.add(joint)
 
     def set_bullet(self, body: Body, value: bool) -> None:
-        """Have a body be a bullet or not."""
+        """Make a body a bullet, or not."""
         bullets = self.need("Bullets", body)
         if value:
             bullets.add(body)
@@ -163,7 +163,7 @@ class World(WorldState):
             bullets.forget(body)
 
     def look_again(self, body: Body) -> None:
-        """Check in the next step what was added, or set of this body."""
+        """Check this new or changed body in the next step."""
         if not self.unchecked:
             self.detect_hooks = [self.warn, *self.hooks("detect")]
         self.unchecked.append(body)
@@ -234,29 +234,29 @@ class World(WorldState):
             body.w += torque * body.inv_inertia * h
 
     def clear_forces(self, h: float) -> None:
-        """End all forces, with the step they were for."""
+        """End all forces at the end of their step."""
         self.forces = {}
         self.finish_hooks = self.hooks("finish")
         self.force_hooks = self.hooks("force", busy=True)
 
     def check(self) -> list[str]:
-        """Return a sentence for each effect that is needed but not declared, or declared in vain.
+        """Return a sentence for each effect that is needed but undeclared, or declared but unused.
 
-        Other sentences name a gravity too weak for the unit, and rods that shake. Without this call
-        a step warns of effects that are not declared, once bodies were added or set.
+        Other sentences name a gravity too weak for the unit, and rods that shake. Without this
+        call, a step warns of undeclared effects after bodies were added or changed.
         """
         self.seen()
         self.warned |= missing(self, self.bodies).keys()
         return complaints(self)
 
     def seen(self) -> list[Body]:
-        """Return what was to be checked, each body once, and have the next step check nothing."""
+        """Return the bodies to check, each once, and clear the list."""
         bodies, self.unchecked = list(dict.fromkeys(self.unchecked)), []
         self.detect_hooks = self.hooks("detect")
         return bodies
 
     def warn(self, h: float) -> None:
-        """Warn of effects that were not warned of before and that new or set bodies call for."""
+        """Warn once of each undeclared effect that new or changed bodies need."""
         bodies = [body for body in self.seen() if body.world is self]
         for name, sentence in missing(self, bodies).items():
             if name not in self.warned:
