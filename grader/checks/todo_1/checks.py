@@ -20,6 +20,7 @@ MASSES = (1.0, 1e-3, 1e6, 0.05, 1e3)  # kg; a contact does not depend on them
 # Fields that the contact does not depend on.
 MOVING: dict[str, Any] = {"vel": (1.5, -300.0), "omega": 4.0, "angle": 1.0}
 Fields = dict[str, Any]
+SAID = "normal ({:.{n}f}, {:.{n}f}), depth {:.{n}f} px, point ({:.{n}f}, {:.{n}f})"
 
 
 def make_pair(
@@ -71,7 +72,7 @@ def want_touch(
             want_new(lab, contact, order, (disc, rect) if noted else None)
         right = exact.circle_box(disc, rect)
         good = any(is_same(answer, each) for each in right)
-        want_answer(lab, good, say, right[0], answer)
+        want_answer(lab, good, SAID, right[0], answer)
 
     lab.call(
         "circle_box",
@@ -101,15 +102,6 @@ def want_new(
         "a new contact, on which no impulse has worked yet: jn = jt = 0",
         f"jn = {contact.jn:g}, jt = {contact.jt:g}",
     )
-
-
-def say(answer: Touch | None, digits: int = 3) -> str:
-    if answer is None:
-        return "None"
-    nx, ny, depth, px, py = answer  # plain numbers, if the answer was recorded
-    normal = f"({nx:.{digits}f}, {ny:.{digits}f})"
-    point = f"({px:.{digits - 1}f}, {py:.{digits - 1}f})"
-    return f"normal {normal}, depth {depth:.{digits}f} px, point {point}"
 
 
 def want_exact(lab: Lab, discs: Iterable[Disc], at: Pair = (0.0, 0.0), **circle: Any) -> None:

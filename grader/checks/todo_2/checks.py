@@ -59,13 +59,9 @@ def want_exact(
         lab.saw("effective_mass", (a, b, axis), answer)
         right = exact.effective_mass(a, b, axis)
         good = math.isclose(answer, right, rel_tol=1e-9)
-        want_answer(lab, good, per_kg, right, answer, digits=6)
+        want_answer(lab, good, "{:.{n}g} per kg", right, answer, digits=6)
 
     lab.call("effective_mass", *both, *arms, axis, changes=changes, twice=framed, then=judge)
-
-
-def per_kg(value: float, digits: int) -> str:
-    return f"{value:.{digits}g} per kg"
 
 
 def want_about(lab: Lab, a: Lever, b: Lever, axis: Pair) -> None:

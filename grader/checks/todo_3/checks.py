@@ -2,11 +2,12 @@
 
 import math
 from itertools import product
+from typing import NamedTuple
 
 from hypothesis import strategies as st
 
 from grader.checks import exact
-from grader.checks.digits import want_answer
+from grader.checks.digits import A_AND_B, say, want_answer
 from grader.checks.exact import BETA, Rod
 from grader.checks.strategies import any_spins, any_surface, directions, lengths, masses
 from grader.judge.asking import Judge
@@ -25,14 +26,21 @@ MANY = 55  # rods on either side: enough to find a fault in one call of a hundre
 STILL, SLOW, FAST = (0.0, 0.0), (20.0, -10.0), (100.0, 60.0)  # px/s
 
 
+class Joined(NamedTuple):
+    """A prepared joint and its bodies."""
+
+    joint: Thing
+    a: Thing
+    b: Thing
+
+
 def join(
     lab: Lab,
     rod: Rod,
     spins: Pair = STILL,
     at: Pair = STILL,
     surfaces: tuple[Surface, Surface] = (ROUGH, SMOOTH),
-) -> tuple[Thing, Thing, Thing]:
-    """Return a prepared joint and its bodies A and B."""
+) -> Joined:
     (x, y), (dx, dy), (first, second) = at, rod.offset, surfaces
     a = lab.circle(at, 10.0, rod.mass_a, vel=rod.vel_a, omega=spins[0], angle=ANGLES[0], **first)
     at_first = (x + rod.length, y)
@@ -42,26 +50,25 @@ def join(
     joint = lab.make("DistanceJoint", a, b)
     lab.put(b, pos=(x + dx, y + dy))
     lab.let(joint, "prepare", rod.dt)
-    return joint, a, b
+    return Joined(joint, a, b)
 
 
-def solve(lab: Lab, joint: Thing, a: Thing, b: Thing, rod: Rod) -> Ends:
+def solve(lab: Lab, joined: Joined, rod: Rod) -> Ends:
     """Return A and B after a pass over a newly prepared rod."""
-    tell_solve(lab, joint, a, b, rod)
-    return read_ends(lab, a, b, rod)
+    tell_solve(lab, joined, rod)
+    return read_ends(lab, joined, rod)
 
 
-def tell_solve(
-    lab: Lab, joint: Thing, a: Thing, b: Thing, rod: Rod, then: Judge | None = None
-) -> None:
+def tell_solve(lab: Lab, joined: Joined, rod: Rod, then: Judge | None = None) -> None:
     """Call solve, which may change the velocities of ends that can move, and nothing else."""
-    may = {end: "vel" for end, mass in ((a, rod.mass_a), (b, rod.mass_b)) if mass}
-    lab.tell(joint, "solve", changes=may, sees=(a, b), noted=("rod", (rod,)), then=then)
+    joint, *ends = joined
+    may = {end: "vel" for end, mass in zip(ends, rod[:2], strict=True) if mass}
+    lab.tell(joint, "solve", changes=may, sees=ends, noted=("rod", (rod,)), then=then)
 
 
-def read_ends(lab: Lab, a: Thing, b: Thing, rod: Rod) -> Ends:
+def read_ends(lab: Lab, joined: Joined, rod: Rod) -> Ends:
     """Return A and B, which came with the answer."""
-    ends = lab.state(a), lab.state(b)
+    ends = lab.state(joined.a), lab.state(joined.b)
     offset = ends[1].pos.x - ends[0].pos.x, ends[1].pos.y - ends[0].pos.y
     lab.saw("rod", (rod,), (*velocities(ends), offset))
     return ends
@@ -80,38 +87,23 @@ def velocities(ends: Ends) -> tuple[Pair, Pair]:
     return (ax, ay), (bx, by)
 
 
-def as_pair(moment: Moment) -> Pair:
-    return moment.vx, moment.vy
-
-
-def say(vel_a: Pair, vel_b: Pair, digits: int = 3) -> str:
-    return f"A {numbers(vel_a, digits)}, B {numbers(vel_b, digits)} px/s"
-
-
-def say_both(ends: tuple[Pair, Pair], digits: int) -> str:
-    return say(*ends, digits)
-
-
-def numbers(pair: Pair, digits: int) -> str:
-    return f"({pair[0]:.{digits}f}, {pair[1]:.{digits}f})"
-
-
 def want_exact(lab: Lab, rod: Rod, at: Pair = STILL) -> None:
-    """Insist on the right velocities after a pass over the rod."""
+    """Insist on the right velocities after a pass over a similar rod."""
+    rod = make_similar(lab, rod)
     lab.ran(
         f"solve on a rod {rod.length:g} px long at 1/{1 / rod.dt:g} s: "
         f"A {weight(rod.mass_a)}, {rod.vel_a} px/s; B {weight(rod.mass_b)}, {rod.vel_b} px/s, "
         f"{in_px(rod.offset)} from A"
     )
-    joint, a, b = join(lab, rod, at=at)
+    joined = join(lab, rod, at=at)
 
     def judge(_: Value) -> None:
-        answer, right = velocities(read_ends(lab, a, b, rod)), exact.solve_rod(rod)
+        answer, right = velocities(read_ends(lab, joined, rod)), exact.solve_rod(rod)
         most = rounding(rod, math.hypot(*at))
         good = all(math.dist(*each) <= most for each in zip(answer, right, strict=True))
-        want_answer(lab, good, say_both, right, answer)
+        want_answer(lab, good, A_AND_B, right, answer)
 
-    tell_solve(lab, joint, a, b, rod, then=judge)
+    tell_solve(lab, joined, rod, then=judge)
 
 
 def rounding(rod: Rod, far: float = 0.0) -> float:
@@ -127,35 +119,34 @@ def rounding(rod: Rod, far: float = 0.0) -> float:
 
 def make_similar(lab: Lab, rod: Rod) -> Rod:
     """Return another rod with the same length, relative error, masses and speeds."""
-    size, fast, x, y = lab.about(1.0), lab.about(1.0), *rod.offset
+    size, fast = lab.about(1.0), lab.about(1.0)
+    (x, y), (ax, ay), (bx, by) = rod.offset, rod.vel_a, rod.vel_b
     return Rod(
         lab.about(rod.mass_a),
         lab.about(rod.mass_b),
         size * rod.length,
         (size * x, size * y),
-        (fast * rod.vel_a[0], fast * rod.vel_a[1]),
-        (fast * rod.vel_b[0], fast * rod.vel_b[1]),
+        (fast * ax, fast * ay),
+        (fast * bx, fast * by),
         rod.dt,
     )
 
 
 def a_stretched_rod_pulls_its_ends_together(lab: Lab) -> None:
     """A stretched rod pulls its ends together"""
-    want_exact(lab, make_similar(lab, Rod(3.0, 1.0, 50.0, (60.0, 0.0), STILL, STILL, STEP)))
-    want_exact(
-        lab, make_similar(lab, Rod(1.0, 4.0, 80.0, (-60.0, 80.0), SLOW, FAST, STEP)), at=FAR_AWAY
-    )
-    want_exact(lab, make_similar(lab, Rod(1.0, 4.0, 0.0, (-3.0, 4.0), SLOW, FAST, STEP)))
-    want_exact(lab, make_similar(lab, Rod(3.0, 1.0, 50.0, (0.0, A_HAIR + 50.0), SLOW, FAST, STEP)))
+    want_exact(lab, Rod(3.0, 1.0, 50.0, (60.0, 0.0), STILL, STILL, STEP))
+    want_exact(lab, Rod(1.0, 4.0, 80.0, (-60.0, 80.0), SLOW, FAST, STEP), at=FAR_AWAY)
+    want_exact(lab, Rod(1.0, 4.0, 0.0, (-3.0, 4.0), SLOW, FAST, STEP))
+    want_exact(lab, Rod(3.0, 1.0, 50.0, (0.0, A_HAIR + 50.0), SLOW, FAST, STEP))
     # A static end can still have a speed, as on a moving belt.
-    want_exact(lab, make_similar(lab, Rod(0.0, 2.0, 50.0, (60.0, 0.0), SLOW, FAST, STEP)))
+    want_exact(lab, Rod(0.0, 2.0, 50.0, (60.0, 0.0), SLOW, FAST, STEP))
 
 
 def a_squeezed_rod_pushes_its_ends_apart(lab: Lab) -> None:
     """A squeezed rod pushes its ends apart"""
-    want_exact(lab, make_similar(lab, Rod(3.0, 1.0, 50.0, (40.0, 0.0), STILL, STILL, STEP)))
-    want_exact(lab, make_similar(lab, Rod(1.0, 4.0, 120.0, (60.0, -80.0), SLOW, FAST, STEP)))
-    want_exact(lab, make_similar(lab, Rod(3.0, 1.0, 50.0, (0.0, A_HAIR - 50.0), SLOW, FAST, STEP)))
+    want_exact(lab, Rod(3.0, 1.0, 50.0, (40.0, 0.0), STILL, STILL, STEP))
+    want_exact(lab, Rod(1.0, 4.0, 120.0, (60.0, -80.0), SLOW, FAST, STEP))
+    want_exact(lab, Rod(3.0, 1.0, 50.0, (0.0, A_HAIR - 50.0), SLOW, FAST, STEP))
     ends_in_one_place_part(lab)
 
 
@@ -172,29 +163,26 @@ def ends_in_one_place_part(lab: Lab) -> None:
     lab.want(
         apart and kept,
         f"B leaves A at bias, {right:g} px/s, and the momentum is as before",
-        say(vel_a, vel_b),
+        say(A_AND_B, (vel_a, vel_b), 3),
     )
 
 
 def a_rod_of_the_right_length_stops_only_the_speed_along_it(lab: Lab) -> None:
     """A rod of the right length stops the speed along it and no other"""
     for vel_a, vel_b in ((SLOW, FAST), (FAST, SLOW), (STILL, (0.5, 0.25))):
-        for mass_a, mass_b in ((3.0, 1.0), (2.0, 2.0)):
-            want_exact(
-                lab, make_similar(lab, Rod(mass_a, mass_b, 50.0, (30.0, 40.0), vel_a, vel_b, STEP))
-            )
+        for both in ((3.0, 1.0), (2.0, 2.0)):
+            want_exact(lab, Rod(*both, 50.0, (30.0, 40.0), vel_a, vel_b, STEP))
     rod = make_similar(lab, Rod(3.0, 1.0, 50.0, (30.0, 40.0), FAST, FAST, STEP))
-    joint, a, b = join(lab, rod)
-    solve(lab, joint, a, b, rod)
+    joint, *ends = joined = join(lab, rod)
+    solve(lab, joined, rod)
     lab.ran("solve on a rod whose ends move alike, then a second under gravity (0, 60)")
-    world = lab.world(a, b, joints=[joint], gravity=(0.0, 60.0))
-    last = lab.simulate(world, [a, b], 120, every=120)
-    left = as_pair(last.body(0)[-1]), as_pair(last.body(1)[-1])
+    world = lab.world(*ends, joints=[joint], gravity=(0.0, 60.0))
+    last = lab.simulate(world, ends, 120, every=120)
+    left = [(each.vx, each.vy) for each in (last.body(0)[-1], last.body(1)[-1])]
     falling = rod.vel_a[0], rod.vel_a[1] + 60.0
-    right = falling, falling
-    apart = all(math.dist(*each) <= 1e-6 for each in zip(left, right, strict=True))
+    alike = all(math.dist(each, falling) <= 1e-6 for each in left)
     meaning = "Each end needs a velocity of its own."
-    want_answer(lab, apart, say_both, right, left, meaning=meaning)
+    want_answer(lab, alike, A_AND_B, (falling, falling), left, meaning=meaning)
 
 
 STRAINS = 0.0, 0.25, -0.25, 1 / 1024, -1 / 1024  # of the length
@@ -254,9 +242,9 @@ def want_passes(lab: Lab, rod: Rod, spins: Pair, surfaces: tuple[Surface, Surfac
     """Insist on the speed, the momentum and a static end at rest after each of two passes."""
     lab.ran(f"2 x solve at 1/{1 / rod.dt:g} s on a rod, {describe(rod)}")
     still = (spins[0] * (rod.mass_a > 0), spins[1] * (rod.mass_b > 0))
-    joint, a, b = join(lab, rod, still, surfaces=surfaces)
+    joined = join(lab, rod, still, surfaces=surfaces)
     for _ in range(2):
-        ends = solve(lab, joint, a, b, rod)
+        ends = solve(lab, joined, rod)
         vel_a, vel_b = velocities(ends)
         want_solved(lab, rod, vel_a, vel_b, 0.0)
         rod = rod._replace(vel_a=vel_a, vel_b=vel_b)
@@ -271,20 +259,20 @@ def want_passes(lab: Lab, rod: Rod, spins: Pair, surfaces: tuple[Surface, Surfac
 def want_both_rods(lab: Lab, rod: Rod, other: Rod, turned: bool) -> None:
     """Insist on the right speeds in three passes over two rods that share a ball."""
     lab.ran(f"3 x solve on two rods that share a ball: {describe(rod)}; {describe(other)}")
-    joint, a, b = join(lab, rod)
-    x, y = rod.offset
+    joined = join(lab, rod)
+    (x, y), (_, a, b) = rod.offset, joined
     c = lab.circle((x + other.length, y), 10.0, other.mass_b, vel=other.vel_b)
-    second = lab.make("DistanceJoint", *((c, b) if turned else (b, c)))
+    ends, meant = ((c, b), other.with_swapped_ends) if turned else ((b, c), other)
+    second = Joined(lab.make("DistanceJoint", *ends), *ends)
     lab.put(c, pos=(x + other.offset[0], y + other.offset[1]))
-    lab.let(second, "prepare", rod.dt)
+    lab.let(second.joint, "prepare", rod.dt)
     vel = {a: rod.vel_a, b: rod.vel_b, c: other.vel_b}
     far = math.hypot(x, y) + math.hypot(*other.offset)
-    last = (second, c, b, other.with_swapped_ends, far) if turned else (second, b, c, other, far)
     for _ in range(3):
-        for each, first, end, meant, away in ((joint, a, b, rod, 0.0), last):
-            now = meant._replace(vel_a=vel[first], vel_b=vel[end])
-            vel[first], vel[end] = velocities(solve(lab, each, first, end, now))
-            want_solved(lab, now, vel[first], vel[end], away)
+        for each, usual, away in ((joined, rod, 0.0), (second, meant, far)):
+            now = usual._replace(vel_a=vel[each.a], vel_b=vel[each.b])
+            vel[each.a], vel[each.b] = velocities(solve(lab, each, now))
+            want_solved(lab, now, vel[each.a], vel[each.b], away)
 
 
 def describe(rod: Rod) -> str:
@@ -300,35 +288,27 @@ def want_solved(lab: Lab, rod: Rod, vel_a: Pair, vel_b: Pair, far: float) -> Non
     if rod.mass_a and rod.mass_b:
         off = math.dist(after.momentum, rod.momentum)
         kept = off <= rounding(rod, far) * (rod.mass_a + rod.mass_b)
-        words = "a momentum of {}, as before"
-        want_answer(lab, kept, in_kg, rod.momentum, after.momentum, expected=words)
+        words, unit = "a momentum of {}, as before", "({:.{n}f}, {:.{n}f}) kg px/s"
+        want_answer(lab, kept, unit, rod.momentum, after.momentum, expected=words)
     reached = abs(after.speed - rod.bias) <= rounding(rod, far)
     words = "B leaves A at bias, {} along the rod, after any number of passes"
-    want_answer(lab, reached, in_px_a_second, rod.bias, after.speed, expected=words)
-
-
-def in_kg(momentum: Pair, digits: int) -> str:
-    return f"{numbers(momentum, digits)} kg px/s"
-
-
-def in_px_a_second(speed: float, digits: int) -> str:
-    return f"{speed:.{digits}f} px/s"
+    want_answer(lab, reached, "{:.{n}f} px/s", rod.bias, after.speed, expected=words)
 
 
 def nothing_happens_where_no_end_can_move(lab: Lab) -> None:
     """solve does nothing if neither end can move, and works if one can"""
     lab.ran("solve on a stretched rod after inv_mass and inv_inertia of both ends were set to 0")
     rod = make_similar(lab, Rod(3.0, 1.0, 50.0, (60.0, 0.0), (5.0, 0.0), (0.0, 7.0), STEP))
-    joint, a, b = join(lab, rod, (2.0, -3.0))
-    for end in (a, b):
+    joint, *ends = joined = join(lab, rod, (2.0, -3.0))
+    for end in ends:
         lab.put(end, inv_mass=0.0, inv_inertia=0.0)
     lab.let(joint, "prepare", STEP)
-    left = velocities(solve(lab, joint, a, b, rod._replace(mass_a=0.0, mass_b=0.0)))
+    left = velocities(solve(lab, joined, rod._replace(mass_a=0.0, mass_b=0.0)))
     before = rod.vel_a, rod.vel_b
-    want_answer(lab, left == before, say_both, before, left)
+    want_answer(lab, left == before, A_AND_B, before, left)
     for n in range(-MANY, MANY):  # it does work if they can; k near 0.5, the usual value
         heavy = 4.0 + (n + 0.5) / 128
-        want_exact(lab, make_similar(lab, Rod(4.0, heavy, 50.0, (n / 8, 40.0), SLOW, FAST, STEP)))
+        want_exact(lab, Rod(4.0, heavy, 50.0, (n / 8, 40.0), SLOW, FAST, STEP))
 
 
 # ---------------------------------------------------------------- what a player sees
@@ -337,9 +317,7 @@ def nothing_happens_where_no_end_can_move(lab: Lab) -> None:
 def swing(
     lab: Lab, start: Pair, mass: float, gravity: float, seconds: float
 ) -> tuple[list[Moment], float]:
-    """Return the bob of a pendulum in a world after each step, and its length; the hook is at (0,
-    0).
-    """
+    """Return the bob of a pendulum after each step, and its length; its hook is at (0, 0)."""
     hook, bob = lab.circle(STILL, 6.0, 0.0), lab.circle(start, 24.0, mass)
     joint = lab.make("DistanceJoint", hook, bob)
     world = lab.world(hook, bob, gravity=(0.0, gravity), joints=[joint])

@@ -11,7 +11,7 @@ from itertools import product
 from hypothesis import strategies as st
 
 from grader.checks import exact
-from grader.checks.digits import want_answer
+from grader.checks.digits import A_AND_B, want_answer
 from grader.checks.exact import Discs
 from grader.checks.strategies import (
     damped_steps,
@@ -143,7 +143,7 @@ def want_opposite(
     size = 1.0 + sum(map(abs, (*first, *last)))  # of what is rounded
     off = max(abs(one - other) for one, other in zip(last, right, strict=True))
     words = "opposite impulses on A and B, and nothing else: {}"
-    want_answer(lab, off <= 1e-7 * size, say_motion, right, last, expected=words)
+    want_answer(lab, off <= 1e-7 * size, A_AND_B, right, last, expected=words)
 
 
 def want_contact(lab: Lab, world: Thing, discs: Discs, pressing: float, rubbing: float) -> None:
@@ -173,15 +173,6 @@ def weight(mass: float) -> str:
     return f"{mass:g} kg" if mass else "a static body"
 
 
-def say_motion(motion: Motion, digits: int) -> str:
-    ax, ay, bx, by = (f"{each + 0.0:.{digits}f}" for each in motion)
-    return f"A ({ax}, {ay}) px/s, B ({bx}, {by}) px/s"
-
-
-def say(impulse: float, digits: int) -> str:
-    return f"{round(impulse, digits) + 0.0:.12g} kg px/s"
-
-
 def want_exact(
     lab: Lab, discs: Discs, closing: float, slip: float, dt: float = STEP, spin: float = 0.0
 ) -> None:
@@ -191,7 +182,7 @@ def want_exact(
     size = 1.0 + lighter * (abs(closing) + abs(slip) + sum(map(abs, discs.drift)))
     good = abs(answer - right) <= 1e-7 * size
     words = "a friction impulse of {} on B, along its slip"
-    want_answer(lab, good, say, right, answer, digits=2, expected=words)
+    want_answer(lab, good, "{:.{n}f} kg px/s", right, answer, digits=2, expected=words)
 
 
 def want_about(lab: Lab, discs: Discs, closing: float, slip: float) -> None:

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterable
-from dataclasses import astuple, replace
 from itertools import product
 from typing import NamedTuple
 
@@ -10,20 +9,19 @@ from hypothesis import strategies as st
 
 from grader.checks import exact
 from grader.checks.digits import want_answer
-from grader.checks.strategies import (
-    any_speeds,
-    crawls,
-    damped_steps,
-    rates,
-    wide_velocities,
-)
+from grader.checks.strategies import any_speeds, crawls, damped_steps, rates, wide_velocities
 from grader.judge.drawing import given
-from grader.judge.lab import Lab, Moment, Pair, Thing
-from grader.protocol import BodyValue
+from grader.judge.lab import Lab, Pair, Thing
 
 SPEED, SPIN = 300.0, 12.0  # px/s, rad/s
 SINGLE = 2.0**-23  # share of a speed per step: single precision is accepted
 Shares = tuple[float, float]  # of speed and spin
+Motion = tuple[Pair, Pair, Pair]  # position and velocity; angle and spin
+BOTH = "{:.{n}%} of the speed and {:.{n}%} of the spin"
+IN_FULL = (
+    "at ({:.{n}f}, {:.{n}f}) px, speed ({:.{n}f}, {:.{n}f}) px/s, "
+    "angle {:.{n}f} rad, spin {:.{n}f} rad/s"
+)
 PULLS = (0.0, 0.0), (0.0, 980.0), (-120.375, 35.5), (0.125, -980.25)  # px/s²
 
 
@@ -66,19 +64,6 @@ def damp(
     return damped_ball(lab, linear, angular, walls).shares(linear, angular, dt, steps, motion)
 
 
-def say(share: float, decimals: int = 2) -> str:
-    return f"{100 * share:.{decimals}f}%"
-
-
-def say_both(shares: Shares, decimals: int) -> str:
-    return f"{say(shares[0], decimals)} of the speed and {say(shares[1], decimals)} of the spin"
-
-
-def say_twice(shares: tuple[Shares, Shares], decimals: int) -> str:
-    once, often = (say_both(each, decimals) for each in shares)
-    return f"{once} in one step, {often} in many"
-
-
 def are_close(answer: Iterable[float], right: Iterable[float], within: float) -> bool:
     return all(math.isclose(a, b, rel_tol=within) for a, b in zip(answer, right, strict=True))
 
@@ -93,8 +78,8 @@ def one_second_keeps_the_same_share_at_every_step_size(lab: Lab) -> None:
     # A straight line instead of exp is near enough here, and not in the properties below.
     lab.want(
         are_close(kept.values(), [right] * 3, within=0.01),
-        f"{say(right)} of its speed left at every step size (e^-{rate:g})",
-        ", ".join(f"{say(share)} at 1/{n} s" for n, share in kept.items()),
+        f"{right:.2%} of its speed left at every step size (e^-{rate:g})",
+        ", ".join(f"{share:.2%} at 1/{n} s" for n, share in kept.items()),
     )
 
 
@@ -107,18 +92,18 @@ def speed_and_spin_have_a_rate_of_their_own(lab: Lab) -> None:
         got = damp(lab, linear, angular, 1 / 120, 60, motion, walls)
         want_shares(lab, got, (linear, angular), 0.5)
         for rate, share in zip((linear, angular), got, strict=True):
-            lab.want(rate > 0 or share == 1.0, "all of it left at a rate of 0", say(share, 6))
+            lab.want(rate > 0 or share == 1.0, "all of it left at a rate of 0", f"{share:.6%}")
     motion = lab.about(SPEED), lab.about(SPIN)
     lab.ran("one ball, both dampings 0, for one second")
     left = damp(lab, 0.0, 0.0, 1 / 120, 120, motion)
-    want_answer(lab, left == (1.0, 1.0), say_both, (1.0, 1.0), left, digits=2)
+    want_answer(lab, left == (1.0, 1.0), BOTH, (1.0, 1.0), left, digits=2)
 
 
 def want_shares(lab: Lab, got: Shares, rates: Pair, seconds: float) -> None:
     """Insist on about what exp says; a straight line is near enough where steps are short."""
     right = exact.compute_share(rates[0], seconds), exact.compute_share(rates[1], seconds)
     good = are_close(got, right, within=0.01)
-    want_answer(lab, good, say_both, right, got, digits=2, expected="{} left")
+    want_answer(lab, good, BOTH, right, got, digits=2, expected="{} left")
 
 
 def one_world_follows_its_rates_and_its_step(lab: Lab) -> None:
@@ -171,7 +156,8 @@ def want_both(lab: Lab, damped: Damped, rates: Pair, dt: float, parts: int) -> N
     right = exact.compute_share(linear, dt), exact.compute_share(angular, dt)
     within = SINGLE * (1 + max(rates) * dt)  # the exponent is rounded as well
     good = are_close(once, right, within) and are_close(often, right, parts * within)
-    want_answer(lab, good, say_twice, (right, right), (once, often), digits=2)
+    words = f"{BOTH} in one step, {BOTH} in many"
+    want_answer(lab, good, words, (right, right), (once, often), digits=2)
 
 
 def say_step(dt: float) -> str:
@@ -190,13 +176,13 @@ def damping_keeps_the_direction_and_leaves_statics_alone(
     lab: Lab, first: Pair, slow: Pair, spins: Pair, rates: Pair, dt: float
 ) -> None:
     """Damping keeps the direction, after gravity, and does not change static bodies"""
-    meant = [  # far from each other: at 20000 px/s a ball moves 10000 px
-        Moment(-1e5, 40.0, *first, 0.3, spins[0]),
-        Moment(1e5, -70.0, *slow, -2.0, spins[1]),
+    meant: list[Motion] = [  # far from each other: at 20000 px/s a ball moves 10000 px
+        ((-1e5, 40.0), first, (0.3, spins[0])),
+        ((1e5, -70.0), slow, (-2.0, spins[1])),
     ]
     balls = [
-        lab.circle((m.x, m.y), mass=2.0, vel=(m.vx, m.vy), angle=m.angle, omega=m.omega)
-        for m in meant
+        lab.circle(pos, mass=2.0, vel=vel, angle=angle, omega=omega)
+        for pos, vel, (angle, omega) in meant
     ]
     fleet, rods = a_fleet(lab)
     still = lab.box((0.0, 5e5), (20.0, 20.0))
@@ -223,10 +209,10 @@ def damping_keeps_the_direction_and_leaves_statics_alone(
             lab.tell(world, "step", step, changes=may, sees=[*may, still])
             keep = exact.compute_share(linear, step), exact.compute_share(angular, step)
             times = 1 + max(linear, angular) * step  # the exponent is rounded as well
-            meant = [step_moment(each, pull, keep, step) for each in meant]
-            for ball, right in zip(balls, meant, strict=True):
-                want_moment(lab, moment(lab.state(ball)), right, step, times)
-            meant = [moment(lab.state(ball)) for ball in balls]
+            meant = [
+                want_motion(lab, ball, step_on(each, pull, keep, step), step, times)
+                for ball, each in zip(balls, meant, strict=True)
+            ]
     want_unmoved(lab, still, belt)
 
 
@@ -254,32 +240,27 @@ def a_fleet(lab: Lab) -> tuple[list[Thing], list[Thing]]:
     return balls, [lab.make("DistanceJoint", *each) for each in ends]
 
 
-def step_moment(each: Moment, pull: Pair, keep: Shares, dt: float) -> Moment:
+def step_on(motion: Motion, pull: Pair, keep: Shares, dt: float) -> Motion:
     """Return a body that touches nothing, a step later: gravity, damping, then motion."""
-    vx, vy = keep[0] * (each.vx + pull[0] * dt), keep[0] * (each.vy + pull[1] * dt)
-    omega = keep[1] * each.omega
-    return Moment(each.x + vx * dt, each.y + vy * dt, vx, vy, each.angle + omega * dt, omega)
+    (x, y), (vx, vy), (angle, omega) = motion
+    vx, vy, omega = keep[0] * (vx + pull[0] * dt), keep[0] * (vy + pull[1] * dt), keep[1] * omega
+    return (x + vx * dt, y + vy * dt), (vx, vy), (angle + omega * dt, omega)
 
 
-def moment(body: BodyValue) -> Moment:
-    return Moment(body.pos.x, body.pos.y, body.vel.x, body.vel.y, body.angle, body.omega)
+def want_motion(lab: Lab, ball: Thing, right: Motion, dt: float, times: float) -> Motion:
+    """Insist on the right motion after a step, up to `times` what SINGLE allows of its speeds.
 
-
-def want_moment(lab: Lab, answer: Moment, right: Moment, dt: float, times: float) -> None:
-    """Insist on the right motion after a step, up to `times` what SINGLE allows of its speeds."""
-    turns = right.angle + math.remainder(answer.angle - right.angle, math.tau)
-    got, meant = astuple(replace(answer, angle=turns)), astuple(right)
-    vx, vy, omega = (times * SINGLE * abs(speed) for speed in (right.vx, right.vy, right.omega))
-    most = vx * dt, vy * dt, vx, vy, omega * dt, omega
+    Return the motion it has.
+    """
+    body, (pos, vel, (angle, omega)) = lab.state(ball), right
+    turned = angle + math.remainder(body.angle - angle, math.tau)
+    numbers = (*body.pos, *body.vel, turned, body.omega)
+    most = [times * SINGLE * abs(speed) for speed in (*vel, omega)]
+    off = most[0] * dt, most[1] * dt, *most[:2], most[2] * dt, most[2]
     good = all(
-        math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9 + off)
-        for a, b, off in zip(got, meant, most, strict=True)
+        math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9 + each)
+        for a, b, each in zip(numbers, (*pos, *vel, angle, omega), off, strict=True)
     )
-    want_answer(lab, good, say_moment, right, answer, digits=4)
-
-
-def say_moment(each: Moment, n: int) -> str:
-    return (
-        f"speed ({each.vx:.{n}f}, {each.vy:.{n}f}) px/s, spin {each.omega:.{n}f} rad/s, "
-        f"at ({each.x:.{n}f}, {each.y:.{n}f}) px, angle {each.angle:.{n}f} rad"
-    )
+    found = (body.pos.x, body.pos.y), (body.vel.x, body.vel.y), (body.angle, body.omega)
+    want_answer(lab, good, IN_FULL, right, found, digits=4)
+    return found

@@ -153,7 +153,7 @@ def want_full_disc(lab: Lab, ball: Ball) -> None:
     want_answer(
         lab,
         math.isclose(ball.moment, right, rel_tol=1e-9),
-        lambda moment, digits: f"{moment:.{digits}f}",
+        "{:.{n}f}",
         right,
         ball.moment,
         digits=2,

@@ -90,14 +90,10 @@ def want_step(
         lab.saw(method.name, (x, v, dt, force), answer)
         off = zip(answer, right, sizes, strict=True)
         good = all(abs(a - b) <= 1e-12 * size for a, b, size in off)
-        want_answer(lab, good, say, right, answer, digits=6)
+        want_answer(lab, good, "x = {:.{n}g} px, v = {:.{n}g} px/s", right, answer, digits=6)
 
     lab.integrate(method.name, state, dt, force, twice=twice, then=judge)
     return right
-
-
-def say(state: State, digits: int) -> str:
-    return f"x = {state[0]:.{digits}g} px, v = {state[1]:.{digits}g} px/s"
 
 
 def formula(force: Polynomial) -> str:

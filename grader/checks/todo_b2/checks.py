@@ -6,7 +6,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from grader.checks import exact
-from grader.checks.digits import want_answer
+from grader.checks.digits import A_AND_B, want_answer
 from grader.checks.exact import Rod, Spring
 from grader.checks.todo_3.checks import FAST, SLOW, STILL, make_similar, velocities, weight
 from grader.judge.lab import STEP, Lab, Moment, Pair, Thing
@@ -74,7 +74,7 @@ def apply_once(
         lab.saw("spring", (spring,), answer)
         right = exact.apply_spring(spring)
         good = are_close(spring, answer, right, math.hypot(*place))
-        want_answer(lab, good, say, right, answer)
+        want_answer(lab, good, A_AND_B, right, answer)
 
     lab.tell(joint, "apply", rod.dt, changes=changes, sees=(a, b), then=judge)
 
@@ -98,11 +98,6 @@ def are_close(spring: Spring, answer: Ends, right: Ends, far: float) -> bool:
 
 def in_short(pair: Pair) -> str:
     return f"({pair[0]:.6g}, {pair[1]:.6g})"
-
-
-def say(ends: Ends, digits: int) -> str:
-    a, b = (f"({x:.{digits}f}, {y:.{digits}f})" for x, y in ends)
-    return f"A {a}, B {b} px/s"
 
 
 def springs(seed: int) -> list[tuple[Spring, Rod, Setting]]:

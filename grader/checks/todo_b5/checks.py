@@ -5,13 +5,14 @@ from collections.abc import Callable
 from itertools import pairwise
 
 from grader.checks import exact
-from grader.checks.digits import want_answer
+from grader.checks.digits import say, want_answer
 from grader.checks.exact import Place
 from grader.checks.pacing import frames_at, want_a_proper_end
-from grader.judge.lab import NOTHING, STEP, Lab, Pair, Thing
+from grader.judge.lab import NOTHING, STEP, Lab, Thing
 from grader.protocol import Value
 
 CLOSE = 1e-6  # px or rad
+PLACE = "({:.{n}f}, {:.{n}f})"
 STEPS = (  # x, y and angle before a step, and now, and the step's length in s
     ((0.0, 0.0, 0.0), (8.0, -4.0, 0.25), STEP),
     ((-30.0, 70.0, 1.5), (-30.0, 75.5, 1.25), STEP),
@@ -67,8 +68,8 @@ def want_all_shares(lab: Lab, body: Thing, before: Place, now: Place) -> None:
     kept = (*lab.pair(was[0], "Body.before"), lab.number(was[1], "Body.before"))
     lab.want(
         math.dist(kept, before) < CLOSE,
-        f"body.before as it was, at {say_place(before[:2], 3)}",
-        f"it is at {say_place(kept[:2], 3)}",
+        f"body.before as it was, at {say(PLACE, before[:2], 3)}",
+        f"it is at {say(PLACE, kept[:2], 3)}",
         "between says where to draw. body.before is for the next frame, too: compute with +, as += "
         "changes a vector in place.",
     )
@@ -93,30 +94,15 @@ def want_part_of_the_way(lab: Lab, found: Place, before: Place, now: Place, shar
     near = math.dist(found[:2], right[:2]) < CLOSE
     way = math.dist(before[:2], found[:2]) + math.dist(found[:2], now[:2])
     off = way > math.dist(before[:2], now[:2]) + CLOSE
-    want_answer(
-        lab,
-        near,
-        say_place,
-        right[:2],
-        found[:2],
-        expected="the place {}",
-        meaning=OFF_THE_WAY * off,
-    )
+    words, why = "the place {}", OFF_THE_WAY * off
+    want_answer(lab, near, PLACE, right[:2], found[:2], expected=words, meaning=why)
     good = any(abs(without_turns(found[2] - each[2])) < CLOSE for each in (before, right, now))
-    want_answer(lab, good, say_angle, right[2], found[2], digits=4, expected="the angle {}")
+    want_answer(lab, good, "{:.{n}f} rad", right[2], found[2], digits=4, expected="the angle {}")
 
 
 def without_turns(angle: float) -> float:
     """Return an angle without whole turns."""
     return math.remainder(angle, 2 * math.pi)
-
-
-def say_place(place: Pair, digits: int) -> str:
-    return f"({place[0]:.{digits}f}, {place[1]:.{digits}f})"
-
-
-def say_angle(angle: float, digits: int) -> str:
-    return f"{angle:.{digits}f} rad"
 
 
 def make_moved_body(
