@@ -50,7 +50,9 @@ def test_no_command_is_told_twice_what_the_class_is(place: Path):
 
 
 def test_bonus_tasks_are_named_too(place: Path):
-    (place / "autumn.toml").write_text('todos = ["8a", "8c", "B1", "B4"]\n')
+    (place / "autumn.toml").write_text(
+        'todos = ["8a", "8c", "B1", "B4"]\npoints = { 8a = 3, 8c = 1 }\n'
+    )
     said = call_class("new", place / "lab", "--course", place / "autumn.toml")
     assert "4 points, TODO 8a, 8c; bonus B1, B4" in said
 

@@ -134,7 +134,7 @@ def test_an_exception_is_shown_once_with_the_students_line(hand_in):
     tree = hand_in("starter")
     fill_in(tree, WORLD, _5="        keep_vel = keep_omega = math.exq(-dt)")
     out = check(tree, "5")
-    assert "5 checks  (0 / 8)" in out and out.count("AttributeError") == 1
+    assert re.search(r"5 checks  \(0 / \d+\)", out) and out.count("AttributeError") == 1
     assert "keep_vel = keep_omega = math.exq(-dt)" in " ".join(out.split())
     assert re.search(r"Look at +mini_engine/world\.py:\d+, TODO 5", out)
     assert "Traceback" not in out and "grader/" not in out
