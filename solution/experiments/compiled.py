@@ -2,7 +2,7 @@
 
 It needs mypy (python -m pip install mypy setuptools) and a C compiler. The folder stable_engine
 stays as it is; the compiled copy is the package stable_compiled in build/compiled. The window and
-the leaderboard use it where it is built, and accuracy.py times it beside the plain source.
+the leaderboard use it once it is built, and accuracy.py times it beside the plain source.
 
     python -m experiments.compiled
 
@@ -23,12 +23,19 @@ from .measures import bits, run
 from .scenes import NAMED
 
 TREE = Path(__file__).parents[1]
-WHEEL = Path(__file__).with_name("wheel")  # what a wheel is made from, and a trial of it
+WHEEL = Path(__file__).with_name("wheel")  # for a wheel and a trial of it
 OUT = Path("build/compiled")
 INSTALLED = Path(sysconfig.get_path("platlib"))
-FOLDERS = (TREE / OUT, TREE.parent / OUT, INSTALLED)  # where it is; the second is the kit's own
+FOLDERS = (
+    TREE / OUT,
+    TREE.parent / OUT,
+    INSTALLED,
+)  # where it may be; the kit's is second
 NAME = "stable_compiled"
-LEFT_PLAIN = ("reading.py", "validate.py")  # their classes come from others that are not compiled
+LEFT_PLAIN = (
+    "reading.py",
+    "validate.py",
+)  # their classes inherit from plain ones
 CONSTANT = re.compile(r"^([A-Z][A-Z_]*) = ", re.MULTILINE)
 FUTURE = "from __future__ import annotations\n"
 EFFECT = "\nclass Effect:"
@@ -46,7 +53,7 @@ setup(ext_modules=mypycify({modules!r}))
 
 
 def sources():
-    """Return the files of the engine by name, as they are compiled.
+    """Return the files of the engine by name, as prepared for compiling.
 
     In the compiled copy alone, Effect says that classes of plain Python may inherit from it, and
     constants are Final, so that mypyc need not look them up.
@@ -68,7 +75,7 @@ def with_final_constants(text):
 
 
 def write_sources(folder):
-    """Write the package as it is compiled into folder; returns the paths of what is compiled."""
+    """Write the prepared package into folder; return the paths of the files to compile."""
     package = folder / NAME
     shutil.rmtree(package, ignore_errors=True)
     package.mkdir(parents=True)
@@ -89,7 +96,7 @@ def write_project(folder):
 
 
 def build(folder):
-    """Compile the engine in folder. Raises RuntimeError with the compiler's words."""
+    """Compile the engine in folder. Raises RuntimeError with the compiler's messages."""
     command = [sys.executable, "-m", "mypyc", *write_sources(folder)]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     if done.returncode:
@@ -100,7 +107,7 @@ def build(folder):
 
 
 def load(folder):
-    """Return the compiled engine in folder, or None if none is of this source and Python."""
+    """Return the compiled engine in folder, or None if it is of another source or Python."""
     package = folder / NAME
     try:
         fresh = all((package / name).read_text("utf-8") == t for name, t in sources().items())
@@ -120,7 +127,7 @@ def load(folder):
 
 
 class Compiled(Stable):
-    """The stable engine, compiled. It has a package once one was found."""
+    """The stable engine, compiled. Its package is set once one is found."""
 
     package = None
 
@@ -155,7 +162,7 @@ def find(folders):
 
 
 def same_bits(seconds=2.0):
-    """Return the named scenes in which the two builds differ in any bit after so long."""
+    """Return the named scenes in which the two builds differ in a bit after so many seconds."""
     differ = []
     for name, make in NAMED.items():
         plain, compiled = Stable(make()), Compiled(make())

@@ -1,7 +1,7 @@
-"""Measure what each effect costs: `python -m experiments.effects [--quick] [--markdown FILE]`.
+"""Measure the price of each effect: `python -m experiments.effects [--quick] [--markdown FILE]`.
 
-Takes a pile of balls at rest, declares one effect after the other, and counts what one step takes:
-opcodes, and what the engine did (pairs, contacts, solves ...). The price of an effect is the
+Takes a pile of balls at rest, declares one effect after the other, and counts the opcodes of a step
+and the engine's work (pairs, contacts, solves ...). The price of an effect is the
 difference between two such runs. Prints the tables, and writes them with a figure to build/effects.
 """
 
@@ -30,19 +30,19 @@ SIZES = (10, 40, 200)  # balls
 HEAPS = (40, 200, 400)  # balls, for the two bonus tasks that save work
 LULL = 1.25  # s, after which a pile at rest is asleep
 USERS = 10  # rods, springs, bullets
-MOVED = 0.001  # px, so far that contacts may have changed
-WARM_UP = 40  # steps before anything is counted: rooms adapt to what moves
+MOVED = 0.001  # px, enough to change contacts
+WARM_UP = 40  # steps before counting: rooms adapt to motion
 DAMPING = (0.05, 0.3)  # 1/s
 OUT = Path("build/effects")
 
 
 @dataclass
 class Row:
-    """One line of the price list: a scene with these effects, less the same scene with base."""
+    """One line of the price list: a scene with these effects, minus the scene with base."""
 
     title: str
     effects: tuple
-    base: tuple | None = TOUCH  # None: less nothing
+    base: tuple | None = TOUCH  # None: minus nothing
     scene: str = "pile"
 
 
@@ -63,14 +63,14 @@ ROWS = [
     Row("all asleep", (*TOUCH, "Sleep"), None, "asleep"),
 ]
 APART = ("contacts, nobody moves", "10 bullets, fast", TOGETHER, "all asleep")
-STACKED = [row.title for row in ROWS if row.title not in APART]  # these add up to all together
+STACKED = [row.title for row in ROWS if row.title not in APART]  # these prices add up
 
 
 # ---------------------------------------------------------------- scenes
 
 
 def settled(count):
-    """Return a pile at rest. Ties and flags count only where their effect is declared."""
+    """Return a pile at rest. Rods, springs and bullets count only with their effect."""
     width = 26.0 * max(4, round(math.sqrt(2.5 * count)))
     engine = Stable(replace(pile(count, width), effects=(*TOUCH, "Damping"), damping=(1.0, 1.0)))
     run(engine, 4)
@@ -86,7 +86,7 @@ def settled(count):
 
 
 def neighbours(bodies):
-    """Return the closest pairs of balls that do not touch. Ties leave them where they are."""
+    """Return the closest pairs of balls that do not touch; joints do not move them."""
     balls = [
         (i, body, State(*body.pos, 0, 0, 0, 0))
         for i, body in enumerate(bodies)
@@ -116,7 +116,7 @@ def row_of_balls(count):
 def packed(count):
     """Return five rows of balls in a bin, each ball on two of the row below, and the rest on top.
 
-    They overlap as little as in a pile at rest: by less than the solver leaves alone.
+    They overlap as in a pile at rest: by less than the solver corrects.
     """
     wide, half = math.ceil(count / 5), Ball.radius - 0.2  # px, half the way to the next ball
     places = [
@@ -128,10 +128,10 @@ def packed(count):
 
 
 class RepeatedStep:
-    """An engine that starts every step from the scene's places: each step costs the same.
+    """An engine that starts every step from the scene's positions: each step costs the same.
 
-    kind "still": the engine may know that nobody has moved since the last step. "asleep": it runs
-    freely until all sleep.
+    kind "still": the engine may know that nothing has moved since the last step. "asleep": it
+    runs freely until all sleep.
     """
 
     def __init__(self, engine, kind="pile"):
@@ -144,7 +144,7 @@ class RepeatedStep:
             engine.step(DT)
 
     def reset(self):
-        """Put every body back where the scene has it, and reset the time it has lain still."""
+        """Put every body back to its position in the scene, and reset its time at rest."""
         if self.kind == "asleep":
             return
         for body, data in zip(self.engine.bodies, self.engine.scene.bodies, strict=True):
@@ -155,7 +155,7 @@ class RepeatedStep:
 
 
 def put_back(body, data):
-    """Give a body of either engine the place and velocity that the scene says."""
+    """Give a body of either engine its position and velocity in the scene."""
     if hasattr(body, "still"):
         (body.x, body.y), (body.vx, body.vy) = data.pos, data.vel
         body.w = body.still = 0.0
@@ -239,7 +239,7 @@ def list_prices(balls):
 
 
 def list_lesson(balls):
-    """Return what the lesson's engine does on the same pile, and on scenes where it does less."""
+    """Return the work of the lesson's engine on the same pile, and on scenes with less."""
     heap = settled(balls)
     scenes = {
         "balls far apart": row_of_balls(balls),
@@ -253,13 +253,13 @@ def list_lesson(balls):
 
 
 def list_bonus(balls):
-    """Return what the lesson's engine does on a pile at rest, before and after B3 and B1."""
+    """Return the work of the lesson's engine on a pile at rest, before and after B3 and B1."""
     scene = packed(balls)
     cases = {
         "before": RepeatedStep(Lesson(scene)),
         "B3: a grid": RepeatedStep(make_bonus_engine(scene, grid=True)),
         "B1: sleep, all awake": RepeatedStep(make_bonus_engine(scene, sleeping=True)),
-        # Between sleepers no pair is looked at: here the grid only shortens the wait.
+        # Pairs of sleepers are skipped: the grid only makes this faster.
         "B1: asleep": RepeatedStep(make_bonus_engine(scene, sleeping=True, grid=True), "asleep"),
     }
     return [

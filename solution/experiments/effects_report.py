@@ -1,4 +1,4 @@
-"""The price list of effects as tables, as bars, and as lines that the handouts rest on."""
+"""The price list of effects as tables, bars, and lines that support the handouts' claims."""
 
 from .table import Table, number
 
@@ -56,7 +56,7 @@ def make_bars(results):
 
 
 def make_lines(results):
-    """Return the price list by names: a line has one number."""
+    """Return the price list as lines: one number by name."""
     lines = {"python": results["python"].rpartition(".")[0]}
     for balls, rows in results["prices"].items():
         for row in rows:

@@ -1,4 +1,4 @@
-"""Figures, drawn by matplotlib: the charts of accuracy.py, and bars of what effects cost.
+"""Draw figures by matplotlib: the charts of accuracy.py, and the prices of effects as bars.
 
 In a chart, crosses at the top edge are failures. Triangles at the bottom edge are errors too small
 to matter. Colour-blind readers can tell the colours apart, and every curve has its own marker.
@@ -52,7 +52,7 @@ STYLE = {
     "lines.linewidth": 1.6,
     "lines.markersize": 5,
     "svg.fonttype": "none",
-    "svg.hashsalt": "experiments",  # the same file from the same numbers
+    "svg.hashsalt": "experiments",  # so that equal numbers give equal files
 }
 BARS = ("#bbbbbb", "#0072b2", "#56b4e9", "#009e73", "#d55e00", "#e69f00", "#f0e442", "#cc79a7",
         "#444444")  # fmt: skip
@@ -81,7 +81,7 @@ def draw_figures(named, folder):
 
 
 def shorten(svg):
-    """Return the same picture in a third of the bytes, without names, with short numbers."""
+    """Return the picture in a third of the bytes: without names, with short numbers."""
     svg = re.sub(r' id="(?:\w+_\d+|matplotlib\.axis_\d+)"| transform="rotate\(-0 [^"]*"', "", svg)
     svg = re.sub(r'"[^"]*"', lambda value: re.sub(r"(\d\.\d\d)\d+", r"\1", value[0]), svg)
     svg = re.sub(r"<g>\s*(<use [^>]*/>)\s*</g>", r"\1", svg)

@@ -26,10 +26,10 @@ from .table import Progress, Table, number, write_markdown
 BUDGET = 1.0  # ms of each frame
 MOST_SUBSTEPS = 64
 PATIENCE = 20.0  # s of processor time for a row
-TRIES = 2  # to find how many substeps fit
+TRIES = 2  # tries to find how many substeps fit
 FRAMES = 60  # per second
 MODES = {"substeps": "at equal substeps", "time": "at equal time"}
-PAGE = "hard-cases.md"  # the handout, whose lines results.json has under this name
+PAGE = "hard-cases.md"  # the handout, and the name of its lines in results.json
 
 
 class Trial:
@@ -60,13 +60,13 @@ class Trial:
 
 
 def ask(row, contestant, substeps):
-    """Return how far off an engine is in a row, or a word if it gives up, and ms per frame."""
+    """Return an engine's error in a row, or a word if it gives up, and its ms per frame."""
     trial = Trial(contestant, substeps)
     try:
         error = float(row.measure(trial, row.make()))
     except GaveUp as reason:
         error = str(reason)
-    except Exception:  # a student's engine, or one that asserts what a scene does not keep to
+    except Exception:  # a student's engine, or one that refuses the scene
         error = "stopped"
     else:
         error = error if math.isfinite(error) else "NaN"
@@ -91,7 +91,7 @@ def ask_at_equal_time(row, contestant, substeps, first):
 
 
 def ask_all(row, contestants, untimed=()):
-    """Return each engine's errors in a row, in both modes. Skip engines that lack what it needs.
+    """Return each engine's errors in a row, in both modes. Skip engines that lack its needs.
 
     Engines named in untimed are asked at equal substeps alone.
     """
@@ -176,7 +176,7 @@ def find_lost(rows, found, name="stable", mode="substeps"):
 
 
 def make_tables(subjects, found, contestants):
-    """Return three tables: rows held by each engine, what the stable one loses, and by subject."""
+    """Return three tables: rows held by each engine, rows that the stable one loses, subjects."""
     rows = [row for some in subjects.values() for row in some]
     words = {one.name: one.words for one in contestants}
     ranked = sorted(words, key=lambda name: -share_held(rows, found, name))
@@ -267,7 +267,7 @@ def print_rows(rows, found):
 
 
 def main(arguments=None):
-    """Run the rows, and print or write who holds how many. Return the exit status."""
+    """Run the rows, and print or write how many each engine holds. Return the exit status."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--quick", action="store_true", help="only some rows of each subject")
     parser.add_argument("--only", default="", metavar="WORDS", help="rows with this in the title")

@@ -1,6 +1,6 @@
 """Measure every engine in the same way. Lengths in px, speeds in px/s.
 
-Geometry comes from the scene's data and the places of the bodies, never from an engine's contacts.
+Geometry comes from the scene's data and the bodies' positions, never from an engine's contacts.
 """
 
 import math
@@ -80,7 +80,7 @@ def deepest_overlap(engine):
 
 
 def stretches(engine):
-    """Return how far each rod is from the length it starts with."""
+    """Return the change of each rod's length since the start."""
     bodies = engine.scene.bodies
     found = []
     for a, b in engine.scene.rods:
@@ -95,7 +95,7 @@ def worst_stretch(engine):
 
 
 def energy_height(engine, i, dt=DT):
-    """Return the height above y = 0 that a ball could reach with the energy of its flight.
+    """Return the height above y = 0 that a ball could reach with its energy.
 
     An engine's velocities lag behind its positions; gravity over that lag is added.
     """
@@ -123,7 +123,7 @@ def energy(engine, dt=DT):
 def lag_velocities(engine, dt):
     """Return how much gravity changes each body's velocity (px/s) over the engine's lag.
 
-    Rods carry the part along them: a ball that hangs at rest gains nothing.
+    Rods carry their part of it: a ball that hangs at rest gains nothing.
     """
     rods = engine.scene.rods if "Rods" in engine.scene.effects else []
     positions = np.array([state[:2] for state in states(engine)])

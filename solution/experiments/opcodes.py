@@ -1,4 +1,4 @@
-"""Count what runs, from outside: the engines hold no code for it, so it costs them nothing.
+"""Count what runs, from outside: the engines have no code for it, so it costs them nothing.
 
 An opcode is one instruction of Python's machine. Unlike time, the number of opcodes is the same in
 every run. Compare counts within one version of Python only.
@@ -23,8 +23,8 @@ def count_opcodes(call):
         return trace
 
     before, collecting = sys.gettrace(), gc.isenabled()
-    gc.disable()  # others may have asked to be called when garbage is collected
-    sys._getframe().f_trace_opcodes = True  # or Python 3.12 tells of no opcode at all
+    gc.disable()  # functions that others run at garbage collections would count
+    sys._getframe().f_trace_opcodes = True  # otherwise Python 3.12 reports no opcode
     sys.settrace(trace)
     try:
         call()
@@ -48,8 +48,8 @@ def files_run(call):
 def count_calls(call, watched):
     """Count the calls of watched functions while call() runs.
 
-    watched has rows of (name, function, amount): each time the function starts, the count of that
-    name grows by the amount, or by amount(first argument) where that is a function.
+    watched has rows of (name, function, amount). Each start of the function adds the amount to the
+    count of that name, or amount(first argument) if that is a function.
     """
     counts = Counter({name: 0 for name, _, _ in watched})
     rows = defaultdict(list)

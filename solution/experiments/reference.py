@@ -29,7 +29,7 @@ def reference(scene, seconds, parts=8):
 
 
 class Accelerations:
-    """The accelerations of bodies on rods and springs: the rods' pulls solve a linear system."""
+    """The accelerations of bodies on springs and rods, whose pulls solve a linear system."""
 
     def __init__(self, scene):
         self.scene = scene

@@ -1,6 +1,6 @@
 """Every scene of the experiments, as plain data. Lengths in px, times in s, masses in kg, y down.
 
-A scene names the effects it calls for. The builders in engines/ make it for each engine.
+A scene names the effects it needs. The builders in engines/ make it for each engine.
 """
 
 import math
@@ -21,7 +21,7 @@ NEED_CONTACTS = ("Friction", "Bounce", "Bullets")
 
 
 def all_but(effect):
-    """Return the names of all effects but one, and but those that need it."""
+    """Return the names of all effects except one and those that need it."""
     left_out = (effect, *NEED_CONTACTS) if effect == "Contacts" else (effect,)
     return tuple(name for name in EFFECTS if name not in left_out)
 
@@ -52,7 +52,7 @@ class Block:
 
 @dataclass
 class Spring:
-    """A spring between the bodies at places a and b of the scene's list."""
+    """A spring between the bodies at indices a and b of the scene's list."""
 
     a: int
     b: int
@@ -63,7 +63,7 @@ class Spring:
 
 @dataclass
 class Scene:
-    """Bodies and what ties them; a rod names two bodies by their place in the list."""
+    """Bodies and joints; a rod is the indices of two bodies in the list."""
 
     bodies: list
     effects: tuple = TOUCH
@@ -71,7 +71,7 @@ class Scene:
     springs: list = field(default_factory=list)
     gravity: tuple = (0.0, G)
     damping: tuple = (0.0, 0.0)  # rates per second: of velocity, of spin
-    unit: float = 1.0  # what a pixel is in the scene's unit of length: 0.01 in metres
+    unit: float = 1.0  # a pixel in the scene's unit of length: 0.01 in metres
 
     def moving(self):
         """Return the indices of the bodies that can move."""
@@ -121,7 +121,7 @@ def slot(width, height, thick=20.0):
 
 
 def tower(count=20, radius=10.0):
-    """Make equal balls on top of each other, in a slot as wide as they are."""
+    """Make equal balls on top of each other, in a slot of their width."""
     balls = [Ball((0, -radius * (2 * i + 1)), radius) for i in range(count)]
     walls = slot(2 * radius, 2 * radius * (count + 5))
     return Scene([*walls, *balls])
@@ -164,12 +164,12 @@ def squeezed(by=8.0, mass=1.0):
 
 
 def coincident(count=10):
-    """Make balls with one and the same centre, with no gravity."""
+    """Make balls with the same centre, without gravity."""
     return Scene([Ball((0, 0)) for _ in range(count)], gravity=(0, 0))
 
 
 def inside_ledge(pos=(0, 0)):
-    """Make a ball with its centre somewhere in the ledge, with no gravity."""
+    """Make a ball with its centre in the ledge, without gravity."""
     return Scene([LEDGE, Ball(pos)], gravity=(0, 0))
 
 
@@ -263,7 +263,7 @@ def resting(radius=10.0):
 
 
 def slide(speed=300.0, radius=10.0):
-    """Make a ball that slides and ends up rolling, at two thirds of its speed."""
+    """Make a ball that slides, and ends rolling at two thirds of its speed."""
     return on_floor(radius, vel=(speed, 0.0))
 
 
@@ -302,7 +302,7 @@ def pendulum_period(length=140.0, degrees=90.0):
 
 
 def find_pendulum_angle(seconds, length):
-    """Return the exact angle (rad) of a pendulum so long after it was let go at 90 degrees.
+    """Return the exact angle (rad) of a pendulum some seconds after its release at 90 degrees.
 
     sin(angle / 2) is k cd(seconds sqrt(G / length), k), by Landen's steps to smaller moduli.
     """
@@ -321,7 +321,7 @@ def find_pendulum_angle(seconds, length):
 
 
 def chain(links=20, step=(0.0, 20.0), bob=1.0):
-    """Make balls on rods from a peg, each a step further; the last one has mass bob."""
+    """Make balls on rods from a peg, each `step` further; the last one has mass bob."""
     balls = [Ball((step[0] * i, step[1] * i), 4) for i in range(1, links + 1)]
     balls[-1].mass = bob
     rods = [(i, i + 1) for i in range(links)]
@@ -339,7 +339,7 @@ def oscillator(stiffness=(2 * math.pi) ** 2, stretch=50.0):
 
 
 def shuffled(scene, seed=SEED):
-    """Return the scene with its bodies in another order, and the old indices of the new list."""
+    """Return the scene with its bodies in another order, and the old index of each body."""
     order = list(range(len(scene.bodies)))
     random.Random(seed).shuffle(order)
     place = {old: new for new, old in enumerate(order)}

@@ -1,6 +1,6 @@
 """Steps that vary, as in a game that steps by the time of each frame.
 
-Each function yields steps (s) without end; `lasting` takes as many as a time needs.
+Each function yields steps (s) without end; `lasting` ends them after a time.
 """
 
 import random
@@ -8,7 +8,7 @@ from itertools import chain, cycle, repeat
 
 
 def at_random(shortest=1 / 1000, longest=1 / 50, seed=1):
-    """Yield any step between these two."""
+    """Yield random steps between these two."""
     rng = random.Random(seed)
     while True:
         yield rng.uniform(shortest, longest)

@@ -38,7 +38,7 @@ class Table:
 def write_markdown(path, tables, lines, **more):
     """Put the tables between the two markers of a file, or into a file of their own.
 
-    lines and more go into results.json beside it; the text around the tables rests on the lines.
+    lines and more go into results.json beside it; lines support the text around the tables.
     """
     block = "\n".join(table.markdown() for table in tables)
     text = path.read_text(encoding="utf-8") if path.exists() else f"{BEGIN}\n{END}\n"
@@ -70,7 +70,7 @@ def number(value):
 
 
 def span(values, unit=""):
-    """Return the least and the most of some numbers in two digits, or one where they are equal.
+    """Return the least and the largest number in two digits, or one if they are equal.
 
     A word stays as it is.
     """

@@ -1,1 +1,1 @@
-"""What accuracy costs in time: questions, the runs that answer them, tables and charts."""
+"""Measure the cost of accuracy: questions, the runs that answer them, tables and charts."""

@@ -1,9 +1,9 @@
 """Charts of accuracy.py as plain data: figures.py draws them, and the handouts' pages do too.
 
 A chart is a dictionary: "says" is its message, "y" and each panel's "x" name the axes, "ends" are
-the least and the largest value along y. A curve has "points" [x, y], and the places along x of what
-lies beyond the ends: "high" (or given up) and "low". All axes are logarithmic. "frame" is the axis
-on which the time of one frame is marked, if any.
+the least and the largest value along y. A curve has "points" [x, y]. For points beyond the ends it
+has x alone: "high" (or given up) and "low". All axes are logarithmic. "frame" is the axis on which
+the time of one frame is marked, if any.
 """
 
 import math
@@ -34,7 +34,7 @@ def make_chart(says, y, ends, panels, frame=""):
 
 
 def make_curve(look, name, points, ends):
-    """Return a curve of points (x, y). Words and points beyond the ends keep only their x."""
+    """Return a curve of points (x, y), with x alone for words and points beyond the ends."""
     bottom, top = ends
     high = [x for x, y in points if not is_number(y) or y >= top]
     low = [x for x, y in points if is_number(y) and y <= bottom]
@@ -75,7 +75,7 @@ def chart_budgets(scene):
 
 
 def find_front(runs, engine):
-    """Return (ms, error) of the runs that no other run of the engine beats in both."""
+    """Return (ms, error) of each run that no other run of its engine beats in both."""
     known = [
         (median(run["ms"]), max(run["error"], EXACT))
         for run in runs

@@ -1,4 +1,4 @@
-"""Measure what a run costs: time, and counts that no other program on the machine can move."""
+"""Measure the cost of a run: time, and counts that other programs cannot change."""
 
 import gc
 import time
@@ -6,14 +6,14 @@ from statistics import median
 
 from ..opcodes import count_opcodes
 
-SLICE = 1 / 30  # simulated s: whole steps at every rate, and short, to fit between other programs
+SLICE = 1 / 30  # simulated s: whole steps at every rate, and short enough to miss other programs
 COUNTED = 2  # steps whose opcodes are counted
-FINE = 1e-6  # s: a coarser clock does not see a slice
+FINE = 1e-6  # s: with a coarser clock, a slice has no length
 PROCESSOR = time.get_clock_info("process_time").resolution <= FINE
 
 
 def now():
-    """Return this process's own time (s), or the time of day where that clock is too coarse.
+    """Return this process's own time (s), or the time of day if that clock is too coarse.
 
     On an idle machine both run alike.
     """
@@ -46,12 +46,12 @@ def repeated_times(runs, repeats, rounds):
 
 
 def spread(values):
-    """Return the least, the middle and the most of some numbers, such as the repeats of a time."""
+    """Return the least, the middle and the largest number, such as of the repeats of a time."""
     return [min(values), median(values), max(values)]
 
 
 def shares(taken, unit):
-    """Return a time as a share of another one: least, middle and most of the repeats, or None.
+    """Return a time divided by another: the spread over the repeats, or None.
 
     A busy moment of the machine slows both down, so their share stays.
     """

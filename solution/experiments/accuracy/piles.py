@@ -34,7 +34,7 @@ def settle_pile(count):
 def study_pile(count, effort, tick=lambda engine: None):
     """Return the overlap of a settled pile in each engine, and its time in shares of pymunk's.
 
-    Each engine first runs on until the pile lies as that engine leaves it.
+    Each engine first runs until the pile has settled in that engine.
     """
     scene = settle_pile(count)
     effort = replace(effort, scale=1.0)  # less time would leave the pile in motion

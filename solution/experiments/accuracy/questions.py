@@ -1,4 +1,4 @@
-"""Questions with exact answers, the settings of each engine, and the dials of the lesson's.
+"""Questions with exact answers, settings of each engine, and dials of the lesson's engine.
 
 A question runs an engine and returns its error: a number, or a word for how the engine gave up.
 """
@@ -14,7 +14,7 @@ from ..engines.chipmunk import PASSES
 from ..measures import deepest_overlap, energy_height, run, watch, worst_stretch
 from ..scenes import chain, drop, find_pendulum_angle, pendulum, pendulum_period, stack, tower
 
-LAUNCHED = 1.0  # px: a ball that rises by more was thrown, and did not sink
+LAUNCHED = 1.0  # px: a ball that rises by more was thrown
 RATE = 120  # steps per second, of the lesson
 SHARED = "shared substeps"  # of the lesson's engine: they share the 8 passes of a step
 
@@ -31,7 +31,7 @@ class Setting:
     passes: int | None = None  # None: the engine has none
     rate: int = RATE  # steps per second
     substeps: int = 1
-    slop: float | None = None  # px: overlap that pymunk leaves alone; None: its own choice, 0.1
+    slop: float | None = None  # px: overlap that pymunk accepts; None: its default, 0.1
 
     def __str__(self):
         dials = [plural(self.passes, "pass", "passes")] if self.passes else []
@@ -60,9 +60,9 @@ BOX2D = Setting("box2d", BOX2D_PASSES)
 
 
 def dials(quick=False):
-    """Return {dial: {value: setting}} of the lesson's engine; each includes it as it is.
+    """Return {dial: {value: setting}} of the lesson's engine; each dial has the default too.
 
-    Quick rows have the first value, the last and the default: verdicts depend on these only.
+    Quick rows have the first, the last and the default value: verdicts depend on these only.
     """
     passes, rates, counts = (4, 8, 16, 32, 64), (60, 90, 120, 240, 480), (1, 2, 4, 8)
     if quick:
@@ -75,9 +75,9 @@ def dials(quick=False):
 
 
 def families():
-    """Return each engine's settings with one substep, from which its substeps are increased.
+    """Return each engine's settings with one substep, to be increased.
 
-    The lesson's engine also comes with one pass, and pymunk also without any overlap allowed.
+    The lesson's engine also comes with one pass, and pymunk also without accepted overlap.
     """
     found = {
         "lesson": [LESSON, replace(LESSON, passes=1)],
@@ -101,12 +101,12 @@ class Question:
     seconds: float
 
     def name(self, setting):
-        """Return the name of the error in one setting, as claims have it."""
+        """Return the name of the error in one setting, as in claims.toml."""
         return f"{self.title}, {setting}: {self.error}"
 
 
 def measure_sink(engine, seconds, dt):
-    """Return how far the top of a stack ever comes down: some engines push it up again."""
+    """Return the deepest sink of a stack's top: some engines push it up again."""
     top = engine.scene.moving()[-1]
     start = engine.read(top).y
     drops = watch(engine, seconds, lambda: engine.read(top).y - start, dt)
@@ -132,7 +132,7 @@ def measure_overlap(engine, seconds, dt):
 
 
 def measure_lag(engine, seconds, dt):
-    """Return how far a pendulum's bob, body 1, ever is from where it should be."""
+    """Return the largest distance of a pendulum's bob, body 1, from its exact position."""
     length = engine.scene.bodies[1].pos[0]
 
     def miss(step, place):

@@ -1,4 +1,4 @@
-"""Runs of questions in many settings: what error each has, what it costs, and what follows."""
+"""Run questions in many settings: measure the error and cost of each, and compare them."""
 
 import math
 from dataclasses import asdict, dataclass, replace
@@ -8,7 +8,7 @@ from ..measures import finite
 from .costs import opcodes_per_second, repeated_times, spread, time_slice
 from .questions import LESSON, QUESTIONS, dials, families
 
-EXACT = 1e-9  # errors below this are all the same
+EXACT = 1e-9  # smaller errors count as equal
 HELPS = 0.05  # a dial that changes the error by a smaller share cannot help
 FRAMES = 60  # per second
 BUDGETS, QUICK_BUDGETS = (1.0, 4.0, 16.0), (1.0,)  # ms of each frame
@@ -17,7 +17,7 @@ TOO_SLOW = 1.3  # a setting that exceeds the largest budget by this factor is no
 
 @dataclass
 class Effort:
-    """The greatest amount of work in a study."""
+    """The maximum of work in a study."""
 
     quick: bool = False
     scale: float = 1.0  # share of the simulated time
@@ -95,10 +95,10 @@ def describe(question, effort):
 
 
 def judge(runs):
-    """Return what a dial does to the error, and how many times the work a tenth of it takes.
+    """Return the effect of a dial on the error, and the factor of work for a tenth of the error.
 
-    The first and the last value of the dial decide. The factor is carried on (or back) to an
-    error ten times smaller, and is None where the dial does not help.
+    The first and the last value of the dial decide. The factor is extrapolated to an error ten
+    times smaller, and is None if the dial does not help.
     """
     known = [(run["error"], run["work"]) for run in runs]
     known = [pair for pair in known if is_number(pair[0]) and pair[1]]
@@ -149,7 +149,7 @@ def climb(question, setting, effort):
 def find_least(runs, engine, budget):
     """Return an engine's smallest error, and its setting, in so many ms a frame.
 
-    There are three: by the times of the fastest repeat, of the middle one, and of the slowest.
+    There are three answers, by the times of the fastest, the middle and the slowest repeat.
     """
     ours = [run for run in runs if run["engine"] == engine]
     picked = [pick_within(ours, budget, which) for which in range(3)]
@@ -159,7 +159,7 @@ def find_least(runs, engine, budget):
 def pick_within(runs, budget, which):
     """Return the run with the smallest error of those that fit.
 
-    If none of them gave a number, return the last that fits, or else "too slow" as the error.
+    If none has a number, return the last that fits, or "too slow" as the error if none does.
     which is 0 for the fastest repeat, 1 for the middle one, 2 for the slowest.
     """
     fitting = [run for run in runs if run["ms"] and spread(run["ms"])[which] <= budget]

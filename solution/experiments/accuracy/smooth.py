@@ -1,9 +1,9 @@
-"""The four integrators of integrators.py where the exact answer is known: error against cost.
+"""Error against cost of the four integrators of integrators.py, where exact answers are known.
 
-A spring is run at many step sizes. The error is how far it ever is from where it should be, in the
-last of its swings; at the very end of a swing, errors cancel. The cost is how often the
-acceleration had to be worked out. One that was just worked out is kept: Verlet ends each step where
-the next one begins. An orbit shows whether the energy error stays bounded.
+A spring is run at many step sizes. The error is its largest distance from the exact position in its
+last swing; at the very end of a swing, errors cancel. The cost is the number of accelerations. The
+latest one is reused: Verlet ends each step where the next begins. An orbit shows whether the energy
+error stays bounded.
 """
 
 import math
@@ -19,10 +19,10 @@ METHODS = (
 )
 SETTLED = 0.05  # an error below this share of the swing follows the method's order
 ROUNDING = 2e-12  # below this share, rounding of the numbers hides the method's error
-FINEST = 3  # so many points, the finest of those in between, make the measured order
+FINEST = 3  # points with errors in between, the finest ones, from which the order is measured
 SWINGS = 10  # of the spring, each of 1 s
 STEPS = 160  # of the coarsest run
-HALVINGS = ((2, 11), (0, 8), (0, 8), (0, 8))  # of the step: the first and the last of each method
+HALVINGS = ((2, 11), (0, 8), (0, 8), (0, 8))  # of the step: the first and the last for each method
 ORDERS = (1, 1, 2, 4)  # expected
 
 
@@ -38,7 +38,7 @@ def study_spring(methods=METHODS, most=math.inf):
 
 
 class Remembered:
-    """An acceleration that remembers its last answer, and counts how often it worked one out."""
+    """An acceleration that reuses its last answer, and counts the others."""
 
     def __init__(self, accel):
         self.accel, self.calls, self.x, self.answer = accel, 0, None, None
@@ -69,7 +69,7 @@ def measure_run(method, steps):
 
 
 def measure_distance(x, v, seconds):
-    """Return how far a position and a velocity are from the exact ones of the spring, in px."""
+    """Return the distance (px) of a position and a velocity from the spring's exact ones."""
     turn = integrators.OMEGA * seconds
     miss = x - integrators.X0 * math.cos(turn)
     return math.hypot(miss, v / integrators.OMEGA + integrators.X0 * math.sin(turn))
@@ -88,7 +88,7 @@ def measure_order(points):
 ORBIT_PULL = (2 * math.pi) ** 2 * 100.0**3  # px³/s²: half axis 100 px, 1 s a round
 NEAREST, FASTEST = 50.0, 2 * math.pi * 100.0 * math.sqrt(3)  # px, px/s: e = 0.5
 ENERGY_ROUNDS, ENERGY_CALLS = 300, 400  # rounds of the orbit, and evaluations in each
-CALLS = {"rk4": 4}  # evaluations in a step, where they are more than 1
+CALLS = {"rk4": 4}  # evaluations in a step, if more than 1
 
 
 def find_energy_peaks(method, rounds=ENERGY_ROUNDS):
@@ -116,7 +116,7 @@ def find_energy_peaks(method, rounds=ENERGY_ROUNDS):
 
 
 def study_energy(methods=METHODS):
-    """Measure whether the energy error of an orbit stays bounded: no larger in the last round."""
+    """Measure whether the energy error of an orbit is no larger in the last round."""
     found = []
     for method in methods:
         peaks = find_energy_peaks(method)

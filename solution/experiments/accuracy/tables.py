@@ -1,7 +1,7 @@
-"""The results of accuracy.py as tables, and as lines that the handouts rest on.
+"""The results of accuracy.py as tables, and as lines that support claims of the handouts.
 
 A line has a name and one number, or a word. A range is two lines, least and most. A quick run has
-the lines of a full one that it measured.
+some lines of a full one.
 """
 
 from ..table import Table, as_range, number, span
@@ -40,7 +40,7 @@ def make_lines(results):
 
 
 def list_errors(title, error, runs):
-    """Return the lines of single runs: those that Question.name gives to their settings."""
+    """Return the lines of single runs, with names by Question.name."""
     return {f"{title}, {run['setting']}: {error}": run["error"] for run in runs if run["setting"]}
 
 
@@ -64,7 +64,7 @@ def tabulate_budgets(budgets):
 
 
 def say_reached(cell):
-    """Say an error, and its range where the repeats differ."""
+    """Say an error, with its range if the repeats differ."""
     fast, middle, slow = (say_error(pick["error"]) for pick in cell["picks"])
     return middle if fast == slow else f"{middle} ({fast} to {slow})"
 
@@ -77,7 +77,7 @@ def say_error(error):
 
 
 def list_budgets(scene):
-    """List the range of each cell of the table, and the settings that it comes from."""
+    """List the range of each cell of the table, and its settings."""
     lines, title, error = {}, scene["title"], scene["error"]
     for engine, cells in scene["within"].items():
         for cell in cells:
@@ -106,7 +106,7 @@ def tabulate_orders(smooth):
 
 
 def say_order(order):
-    """Return the measured order, and how many times the calls a tenth of the error takes."""
+    """Return the measured order, and the factor of calls for a tenth of the error."""
     if order is None:
         return ["not reached", "-"]
     return [f"{order:.2f}", f"{10 ** (1 / order):.2g}x" if order > LEAST_ORDER else "-"]
@@ -149,7 +149,7 @@ def say_dial(dial):
 
 
 def say_verdict(verdict):
-    """Say the factor of work for a digit, or why there is none."""
+    """Say the factor of work for one more digit, or why there is none."""
     factor = verdict["digit"]
     if not factor:
         return verdict["says"]
@@ -157,7 +157,7 @@ def say_verdict(verdict):
 
 
 def list_dials(study):
-    """List the error and the work of each run, and what each dial does."""
+    """List the error and the work of each run, and the effect of each dial."""
     lines, title, error = {}, study["title"], study["error"]
     for dial in study["dials"]:
         lines |= list_errors(title, error, dial["runs"])
@@ -183,7 +183,7 @@ def tabulate_piles(piles):
 
 
 def name_run(run):
-    """Name an engine, and its substeps where it is made for them."""
+    """Name an engine, with its substeps if it has them."""
     name = name_engine(run["engine"])
     return f"{name}, {plural(run['substeps'], 'substep')}" if run["engine"] in SUBSTEPPED else name
 

@@ -11,7 +11,7 @@ OF_ONE = {pygame.K_TAB, pygame.K_1, pygame.K_2, pygame.K_3, pygame.K_4}  # keys 
 
 
 class Comparison:
-    """The shows of a scene: the first is the one that the panel tells of."""
+    """The shows of a scene; the panel describes the first."""
 
     def __init__(self, scene="lab", engine="stable"):
         self.shows = [Show(scene, engine)]
@@ -28,7 +28,7 @@ class Comparison:
             show.advance(seconds)
 
     def press(self, key, shift=False):
-        """Do what a key is for, in every engine that is shown."""
+        """Press a key in every engine that is shown."""
         if key == pygame.K_v:
             self.put_beside()
         elif key == pygame.K_x:
@@ -43,7 +43,7 @@ class Comparison:
                 show.press(key, shift)
 
     def put_beside(self):
-        """Show one engine more, up to three; after that, the first one alone."""
+        """Show one more engine, up to three; then the first one alone again."""
         shown = [show.engine_name for show in self.shows]
         others = [name for name in ENGINES if name not in shown]
         if len(self.shows) == MOST or not others:
@@ -57,7 +57,7 @@ class Comparison:
         self.begin_together()
 
     def begin_together(self):
-        """Start the scene again in all engines, each of them another one."""
+        """Start the scene again, in a different engine in each show."""
         if len(self.shows) == 1:
             return
         shown = [self.first.engine_name]
@@ -70,7 +70,7 @@ class Comparison:
             show.start()
 
     def take(self, show, at):
-        """Pick up the ball there, by what one of the shows has there, or drop a new one."""
+        """Pick up the ball at a position in one of the shows, or drop a new one."""
         if not self.hand.take(show.engine, at):
             for each in self.shows:
                 each.drop(new_ball(at))

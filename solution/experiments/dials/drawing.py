@@ -1,6 +1,6 @@
 """Draw the window with dials: a panel on the left, the scene in each engine beside it.
 
-Whatever a key does can be clicked: while it draws, a picture notes which key each place stands for.
+Each key also has a button: while it draws, a picture notes the key of each area.
 """
 
 import math
@@ -99,8 +99,8 @@ class Camera:
 def room(scene):
     """Return the part of a scene to show: (left, top, right, bottom) in its own px.
 
-    All balls, where rods let them swing, and of each block the nearest part. Without gravity
-    balls fly further.
+    It has all balls, their swings on rods, and the nearest part of each block. Without gravity it
+    is larger, as balls fly further.
     """
     balls = [body for body in scene.bodies if isinstance(body, Ball)]
     boxes = [(*(Vector2(b.pos) - half(b)), *(Vector2(b.pos) + half(b))) for b in balls]
@@ -129,7 +129,7 @@ def union(boxes):
 
 
 def swing(scene):
-    """Return the box in which a ball on rods can swing: beside and below the static end."""
+    """Return the box in which a ball on rods can swing, beside and below the static end."""
     pegs = [i for rod in scene.rods for i in rod if scene.bodies[i].mass == 0]
     if not pegs:
         return union(
@@ -160,9 +160,9 @@ class Picture:
         return self.sides[0].camera
 
     def draw(self, show, timed=True, beside=(), contacts=False, strips=False):
-        """Draw one frame: a show, and those of other engines beside it.
+        """Draw one frame: a show, with other engines beside it.
 
-        timed: with the times that steps take, which differ from run to run.
+        timed adds the times of steps, which differ from run to run.
         """
         before, self.drawn = self.drawn, time.perf_counter()
         self.frame += 0.05 * (self.drawn - before - self.frame)
@@ -244,7 +244,7 @@ class Picture:
             pygame.draw.circle(self.screen, TOUCH, place, 3)
 
     def draw_name(self, side):
-        """Write the engine's name above its view, with the figures that differ most."""
+        """Write the engine's name above its view, with the figures that engines differ in most."""
         show = side.show
         found = show.figures
         words = f"{show.engine_name}   overlap {found.overlap:.2f} px"
@@ -289,7 +289,7 @@ class Picture:
     def draw_panel(self, show, timed):
         """Draw dials, figures, effects and notes, from the top down.
 
-        Returns how far down (px) it came.
+        Return the lower end (px).
         """
         y = LEFT
         rate = [("frames", f"{1 / self.frame:.0f} per second")] if timed else []

@@ -1,28 +1,27 @@
 """The hand of a person at the window: it picks up balls, throws them, and drops new ones.
 
-All engines that are shown get the same: one ball of the scene is pulled to one place, whatever it
-does in each.
+In all engines that are shown, the same ball of the scene is pulled to the same position.
 """
 
 import math
 
 from ..scenes import Ball
 
-CATCH_UP = 0.06  # s in which a ball comes to the hand
+CATCH_UP = 0.06  # s until a ball reaches the hand
 FASTEST = 1500.0  # px/s, so that no ball is pulled through a wall in one step
-NEAR = 8.0  # px beyond the rim at which a ball is still taken
+NEAR = 8.0  # px beyond its rim within which a ball is taken
 NEW = {"radius": 15.0, "mass": 2.25, "restitution": 0.4, "friction": 0.6}
 
 
 class Hand:
-    """Where the hand is in the scene, and which ball it holds, by its place in the list."""
+    """The hand's position in the scene, and the index of the ball that it holds."""
 
     def __init__(self):
         self.held = None
         self.at = (0.0, 0.0)
 
     def take(self, engine, at):
-        """Take the moving ball that is nearest, if one is near. Returns whether it holds one."""
+        """Take the nearest moving ball, if one is near. Return whether it holds one."""
         self.at, bodies = at, engine.scene.bodies
         reach = {}
         for i in engine.scene.moving():

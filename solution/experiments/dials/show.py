@@ -1,4 +1,4 @@
-"""A scene in an engine, with its dials and figures: what the window shows, without a window.
+"""A scene in an engine, with dials and figures: the contents of the window, without it.
 
 Dials (passes, substeps, step) turn while the scene runs on; another engine, scene or effect starts
 it again.
@@ -21,11 +21,11 @@ from ..scenes import NAMED, NEED_CONTACTS, Ball
 MAX_FRAME = MAX_STEPS * STEP  # s, the most time one frame may add
 MEASURE_EVERY = 6  # frames
 STEPS = (1 / 30, 1 / 60, 1 / 120, 1 / 240, 1 / 480)  # s
-RATES = (0.1, 0.25, 0.5, 1)  # of the simulation's time to ours
+RATES = (0.1, 0.25, 0.5, 1)  # simulated seconds per real second
 MOST = 128  # passes or substeps
 MOST_BALLS = 120
-KEPT = 200  # measurements that are remembered
-SHARE = 0.05  # of a new time in the smoothed one
+KEPT = 200  # measurements kept
+SHARE = 0.05  # weight of a new time in the smoothed one
 
 EFFECT_KEYS = {
     "C": "Contacts",
@@ -37,7 +37,7 @@ EFFECT_KEYS = {
     "U": "Bullets",
     "Z": "Sleep",
 }
-CANNOT = {  # what each builder in engines/ leaves out
+CANNOT = {  # effects that each builder in engines/ leaves out
     "lesson": ("Springs", "Bullets", "Sleep"),
     "stable": (),
     "pymunk": ("Bullets", "Sleep"),
@@ -77,12 +77,12 @@ class Show:
         self.passes = {"lesson": ITERATIONS, "pymunk": PASSES, "box2d": BOX2D_PASSES}
         self.substeps = {"lesson": 1, "stable": SUBSTEPS, "pymunk": 1, "box2d": 1}
         self.dt = STEP  # s
-        self.rate = 1  # s of the simulation in a second of ours
+        self.rate = 1  # simulated seconds per real second
 
     # ------------------------------------------------------------ starting
 
     def start(self, note=""):
-        """Build the scene anew, with the effects chosen; say what this engine leaves out."""
+        """Build the scene anew with the chosen effects; say which ones this engine lacks."""
         on = self.effects_on()
         scene = replace(
             self.scene,
@@ -105,14 +105,14 @@ class Show:
         self.measure()
 
     def begin_measuring(self):
-        """Measure energy from now on; called again whenever a person adds some."""
+        """Measure energy from now on; called again when a person adds energy."""
         self.begun_with = energy(self.engine, self.dt)
         self.lowest = self.depths()
         self.begun_at = sum(self.lowest)
         self.motion = self.begun_with + self.begun_at
 
     def complaint(self):
-        """Return the stable engine's complaint about an effect that is needed and switched off."""
+        """Return the stable engine's complaint about a needed effect that is switched off."""
         called_for = [f"calls for {name}()" for name in self.scene.effects]
         for sentence in Stable(self.engine.scene).complaints:
             if any(words in sentence for words in called_for):
@@ -126,14 +126,14 @@ class Show:
         return settings
 
     def effects_on(self):
-        """Return the effects chosen that this engine can do, without those that lack contacts."""
+        """Return the chosen effects that this engine has, unless they lack Contacts."""
         can = [name for name in self.chosen if name not in CANNOT[self.engine_name]]
         return tuple(n for n in can if n not in NEED_CONTACTS or "Contacts" in can)
 
     # ------------------------------------------------------------ time
 
     def advance(self, seconds):
-        """Run the whole steps that one frame owes, and measure now and then."""
+        """Run the whole steps due in one frame, and measure now and then."""
         if not self.paused:
             seconds = min(seconds, MAX_FRAME) * self.rate
             steps, self.owed = divmod(self.owed + seconds, self.dt)
@@ -182,7 +182,7 @@ class Show:
     def drift(self):
         """Return the energy gained since the start, in % of what the scene had, or None.
 
-        It had its motion, its springs, and the height that its balls have fallen so far.
+        That counts motion, springs, and the height that its balls have fallen so far.
         """
         had = self.motion + sum(self.lowest) - self.begun_at
         if had < 1e-9:
@@ -212,7 +212,7 @@ class Show:
         self.choose_engine(names[(names.index(self.engine_name) + 1) % len(names)])
 
     def choose_scene(self, way):
-        """Choose the scene `way` places further in the list, with its own effects."""
+        """Choose the scene `way` further in the list, with its own effects."""
         names = list(NAMED)
         self.scene_name = names[(names.index(self.scene_name) + way) % len(names)]
         self.scene = NAMED[self.scene_name]()
@@ -264,7 +264,7 @@ class Show:
         self.measure()
 
     def toggle(self, effect):
-        """Declare an effect or not, and start again; say so where it would change nothing."""
+        """Switch an effect and start again; say so if it would change nothing."""
         name = self.engine_name
         if effect in CANNOT[name]:
             self.note = f"{name} has no {effect.lower()} here."
@@ -312,7 +312,7 @@ class Show:
         self.start()
 
     def press(self, key, shift=False):
-        """Do what a key is for."""
+        """Do what this key does."""
         letter = chr(key).upper() if key < 128 else ""  # pygame's keys of letters are their codes
         if key in KEYS:
             KEYS[key](self)

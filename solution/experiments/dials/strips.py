@@ -9,7 +9,7 @@ INK, DIM, LINE = (225, 228, 235), (150, 156, 170), (110, 175, 235)
 
 
 def kinds(show):
-    """Return each strip's name, unit, reading, and the least value that fills it."""
+    """Return each strip's name, unit, reading, and the least full scale."""
     kinds = [("energy", "%", lambda figures: figures.drift, 1.0)]
     if show.engine.scene.rods:
         kinds.append(("rod error", "px", lambda figures: figures.rod_error, 0.1))

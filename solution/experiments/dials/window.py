@@ -1,7 +1,7 @@
 """The window with dials: `python -m experiments.dials [--scene NAME] [--engine NAME]`.
 
-Any scene in any engine, or in up to three at once. What is shown is in show.py and comparison.py,
-how it looks in drawing.py, what hands do in hand.py.
+Any scene in any engine, or in up to three at once. show.py and comparison.py hold the
+contents, drawing.py the look, hand.py the mouse.
 """
 
 import argparse
@@ -50,7 +50,7 @@ def read_options(arguments):
 
 
 def handle(event, comparison, picture):
-    """Do what an event asks for; returns whether the window stays open."""
+    """Handle an event; return whether the window stays open."""
     if event.type == pygame.KEYDOWN and event.key == pygame.K_ESCAPE:
         return False
     if event.type == pygame.KEYDOWN:

@@ -1,7 +1,7 @@
 """One builder per engine: each makes a scene, and answers to the names in builder.py.
 
-ENGINES are those of the window and of accuracy.py. contestants.py lists those of the leaderboard,
-box2d.py and npm.py have the ones that must be installed.
+The window and accuracy.py use ENGINES, the leaderboard the list in contestants.py. The engines of
+box2d.py and npm.py must be installed.
 """
 
 from .box2d import Box2D, Box2d

@@ -16,13 +16,13 @@ except ImportError:
 
 PASSES = 8  # what Box2D 2.3 advises
 ANY_SPEED = 1e9  # m/s; Box2D v3 would cut speeds at 400
-PX_PER_M = 20.0  # Box2D reckons in metres, and is made for sizes of 0.1 to 10 m
-POSITION_SHARE = 3 / 8  # of Box2D's passes: it advises 8 for velocities and 3 for positions
-NO_COLLISIONS = -1  # a group of Box2D's in which nothing collides
+PX_PER_M = 20.0  # Box2D works in metres, and is made for sizes of 0.1 to 10 m
+POSITION_SHARE = 3 / 8  # of Box2D's passes: 8 for velocities and 3 for positions are advised
+NO_COLLISIONS = -1  # a group of Box2D in which nothing collides
 
 
 def spring_as_oscillator(scene, s):
-    """Return the frequency (Hz) and the damping ratio of the two bodies on a spring."""
+    """Return the frequency (Hz) and the damping ratio of two bodies on a spring."""
     bodies = (scene.bodies[i] for i in (s.a, s.b))
     inverse = sum(1 / body.mass for body in bodies if isinstance(body, Ball) and body.mass)
     omega = math.sqrt(s.stiffness * inverse)
@@ -72,7 +72,7 @@ class InMetres(Builder):
         self.tie(self.bodies[a], self.bodies[b], *self.metres(length))
 
     def spring(self, s):
-        """Add a spring by its frequency and its damping ratio, as Box2D has them."""
+        """Add a spring by Box2D's values: its frequency and its damping ratio."""
         oscillator = spring_as_oscillator(self.scene, s)
         self.tie(self.bodies[s.a], self.bodies[s.b], *self.metres(s.length), *oscillator)
 
@@ -80,8 +80,8 @@ class InMetres(Builder):
 class Box2d(InMetres):
     """The same scene in Box2D 2.3.
 
-    Its friction is that of the other engines. It takes the larger of two restitutions, which is the
-    same where both surfaces are alike. It moves no body by more than 2 m, here 40 px, in a step.
+    Its friction is that of the other engines. It takes the larger of two restitutions, which agrees
+    if both surfaces are alike. It moves no body by more than 2 m, here 40 px, in a step.
     """
 
     name = "box2d"
@@ -130,7 +130,7 @@ class Box2d(InMetres):
         found = []
         for contact in self.world.contacts:
             if contact.touching:
-                manifold = contact.worldManifold  # a copy: its parts end with it
+                manifold = contact.worldManifold  # a copy, which must outlive its parts
                 x, y, *_ = self.state(manifold.points[0], (0, 0), 0, 0)
                 found.append(Touch(x, y, *manifold.normal, None))
         return found

@@ -11,7 +11,7 @@ from collections import namedtuple
 
 from ..scenes import Ball
 
-SUBSTEPS = 4  # in a step of 1/120 s, of the stable engine
+SUBSTEPS = 4  # of the stable engine, in a step of 1/120 s
 
 State = namedtuple("State", "x y vx vy angle omega")
 # A contact: its point, the unit normal towards the second body, and the impulse (kg px/s) of the

@@ -8,16 +8,16 @@ from ..scenes import Ball
 from .builder import Builder, State, Touch, is_moving
 
 PASSES = 10  # its own choice
-SLEEPY = 0.5  # s of rest until a body sleeps; without it, none does
+SLEEPY = 0.5  # s of rest until a body sleeps; by default none does
 STATIC = pymunk.Body.STATIC
 
 
 class Pymunk(Builder):
     """The same scene in pymunk.
 
-    pymunk multiplies what two surfaces have; the other engines take the root of the product of
-    their friction and the smaller restitution. So each surface gets the root of its own: the same
-    friction for any pair, and the same restitution where both surfaces are alike.
+    pymunk multiplies both frictions and both restitutions; the other engines take the root of the
+    product of the frictions, and the smaller restitution. So each surface gets the root of its
+    value. Friction then always agrees, and restitution does if both surfaces are alike.
     """
 
     name = "pymunk"
@@ -28,7 +28,7 @@ class Pymunk(Builder):
         self.space.gravity = scene.gravity
         self.space.iterations = passes
         if slop is not None:
-            self.space.collision_slop = slop  # px, the overlap that it leaves alone
+            self.space.collision_slop = slop  # px, the overlap that it accepts
         if "Sleep" in scene.effects:
             self.space.sleep_time_threshold = SLEEPY
         self.space.damping = math.exp(-self.damping()[0])  # the share kept per second
@@ -62,7 +62,7 @@ class Pymunk(Builder):
         self.tie(pymunk.DampedSpring(*ends, s.length, s.stiffness, s.damping))
 
     def tie(self, joint):
-        """Add a joint. The two bodies that it ties do not collide."""
+        """Add a joint. Its two bodies do not collide."""
         joint.collide_bodies = False
         self.space.add(joint)
 

@@ -1,4 +1,4 @@
-"""The engines of the leaderboard: how each one is made, and what it is called there."""
+"""The engines of the leaderboard: how to make each one, and its name there."""
 
 from collections import namedtuple
 from functools import partial
@@ -10,11 +10,11 @@ from . import SUBSTEPS, Lesson, Pymunk, Stable
 from .box2d import Box2D, Box2d, Box2d3, pyb2d3
 from .npm import NODE, Planck, Rapier
 
-# make(scene, substeps) builds the scene. lacks: what it does not have. its_own: the substeps that
-# it takes where all others take the same number of them; None for that number.
+# make(scene, substeps) builds the scene. lacks: what it does not have. its_own: its substeps where
+# all others take the same number; None for that number.
 Contestant = namedtuple("Contestant", "name words make lacks its_own", defaults=((), None))
 
-SLOP = 0.01  # px, the overlap that pymunk is told to leave alone
+SLOP = 0.01  # px, the overlap that pymunk is told to accept
 RODS_PUSH = "rods that push"
 
 
@@ -27,7 +27,7 @@ def as_it_is(engine, scene, substeps):
 
 
 def list_contestants():
-    """Return those that are installed, and a sentence for each that is not."""
+    """Return the installed engines, and a sentence for each missing one."""
     found = [
         Contestant("lesson", "lesson's engine", partial(as_it_is, Lesson), ("Springs",)),
         Contestant("stable", "stable engine", partial(as_it_is, Stable)),

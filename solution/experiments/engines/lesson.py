@@ -1,4 +1,4 @@
-"""The lesson's engine: the one in this folder, yours."""
+"""The lesson's engine, which you complete in this folder."""
 
 from pygame import Vector2
 
@@ -10,7 +10,7 @@ from .builder import Builder, State, Touch
 
 
 class Lesson(Builder):
-    """The lesson's engine: the one in this folder, yours. It has no springs."""
+    """The lesson's engine, which you complete in this folder. It has no springs."""
 
     name = "lesson"
 

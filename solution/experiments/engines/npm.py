@@ -18,7 +18,7 @@ NODE_PROGRAM = Path(__file__).with_name("npm.cjs")
 
 
 class Node:
-    """A node process that runs engines of npm. It takes lines of JSON, and answers each."""
+    """A node process that runs engines of npm, and answers lines of JSON."""
 
     def __init__(self):
         program = ["node", str(NODE_PROGRAM)]
@@ -37,7 +37,7 @@ NODE = Node() if shutil.which("node") else None
 
 
 class InNode(Builder):
-    """A scene that runs in node. Its time is the one that node measures."""
+    """A scene that runs in node, which also measures its time."""
 
     def __init__(self, scene, substeps=SUBSTEPS):
         self.scene, self.substeps, self.seconds = scene, substeps, 0.0

@@ -7,7 +7,7 @@ from .builder import SUBSTEPS, Builder, State, Touch
 
 
 class Stable(Builder):
-    """The stable engine, with the effects the scene calls for."""
+    """The stable engine, with the effects of the scene."""
 
     name = "stable"
     package = stable_engine  # or its compiled copy: see compiled.py
@@ -17,7 +17,7 @@ class Stable(Builder):
         effects = [self.effect(name) for name in scene.effects]
         self.world = self.package.World(scene.gravity, substeps, effects, unit=scene.unit)
         self.fill()
-        self.said = self.world.check()  # called here, so that no step warns
+        self.said = self.world.check()  # with this call, no step warns
 
     @property
     def complaints(self):

@@ -45,13 +45,13 @@ def last_apex(trial, scene, seconds, height):
 
 
 def keeps_sideways(trial, scene):
-    """Return how much of its speed along the floor a bounce without friction takes."""
+    """Return the speed along the floor that a bounce without friction takes."""
     state, _ = rise_after_bounce(trial, scene)
     return abs(state.vx - scene.bodies[1].vel[0])
 
 
 def rough(trial, scene, vx, omega):
-    """Return how far (px/s) speed along the floor and at the rim are off."""
+    """Return the error (px/s) of the speeds along the floor and at the rim."""
     state, _ = rise_after_bounce(trial, scene)
     return max(abs(state.vx - vx), 10 * abs(state.omega - omega))
 
@@ -85,13 +85,13 @@ def between_walls(fast, half=50, effects=("Contacts", "Bounce")):
 
 
 def keeps_flying(trial, scene, seconds=5):
-    """Return how far (px/s) the speed is off; a ball that has got out is off by all of it."""
+    """Return the error (px/s) of the speed; a ball that has escaped is off by all of it."""
     state, fast = run_for(trial, scene, seconds).read(2), scene.bodies[2].vel[0]
     return abs(abs(state.vx) - fast) if abs(state.x) < 100 else fast
 
 
 def unfolded(trial, scene, seconds=2):
-    """Return how far (px) the ball is from where the flight to and fro has it."""
+    """Return the distance (px) of the ball from its exact flight to and fro."""
     state, fast = run_for(trial, scene, seconds).read(2), scene.bodies[2].vel[0]
     along = (fast * seconds + 90) % 360
     return abs(state.x - (along - 90 if along < 180 else 270 - along))

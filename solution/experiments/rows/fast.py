@@ -1,4 +1,4 @@
-"""Rows about fast balls: nothing solid is passed, and what misses is not touched."""
+"""Rows about fast balls: they pass nothing solid, and touch nothing that they miss."""
 
 from functools import partial
 
@@ -12,7 +12,7 @@ SMOOTH_BULLETS = ("Contacts", "Bounce", "Bullets")
 
 
 def volley(fast, thick=20.0, radius=10.0, bullet=True):
-    """Make bullets side by side, each from another height, above a ledge."""
+    """Make bullets side by side above a ledge, each at a different height."""
     ledge = Block((0, thick / 2), (40.0 * COUNT, thick / 2))
     places = [(40.0 * (i - COUNT / 2), -100 - 1.37 * i * fast / 2448) for i in range(COUNT)]
     balls = [Ball(place, radius, vel=(0, fast), bullet=bullet) for place in places]

@@ -1,6 +1,6 @@
-"""Rows once more in other units of length, and turned: no law knows a unit or a direction.
+"""Rows repeated in other units of length, and turned: laws know no unit or direction.
 
-A change is a complex number. It multiplies x + y i: 0.01 is another unit, i a quarter turn.
+A change is a complex number that multiplies x + y i: 0.01 is another unit, i a quarter turn.
 """
 
 from dataclasses import replace
@@ -36,7 +36,7 @@ TURNED = (
 
 
 class Other:
-    """An engine that runs a changed scene, and is read and thrown in px as the scene was meant."""
+    """An engine that runs a changed scene; its numbers are in px of the unchanged one."""
 
     def __init__(self, engine, scene, change):
         self.engine, self.scene, self.change = engine, scene, change
@@ -58,13 +58,13 @@ class Other:
 
 
 def times(vector, change):
-    """Return a vector of a changed scene."""
+    """Return a vector multiplied by a change."""
     number = complex(*vector) * change
     return number.real, number.imag
 
 
 def changed(scene, change):
-    """Return the scene as the change has it."""
+    """Return the changed scene."""
     unit, bodies = abs(change), []
     for b in scene.bodies:
         pos = times(b.pos, change)

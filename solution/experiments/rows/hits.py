@@ -35,7 +35,7 @@ def head_on(mass, e, fast=300.0):
 
 
 def after_head_on(trial, scene, seconds=1):
-    """Return how far (px/s) either velocity is off, of two balls that meet along x."""
+    """Return the larger error (px/s) of the velocities of two balls that met along x."""
     engine, (a, b) = run_for(trial, scene, seconds), scene.bodies
     common = (a.mass * a.vel[0] + b.mass * b.vel[0]) / (a.mass + b.mass)
     exact = [common + a.restitution * (common - ball.vel[0]) for ball in (a, b)]
@@ -43,7 +43,7 @@ def after_head_on(trial, scene, seconds=1):
 
 
 def oblique(offset, fast, mass=1.0, frame=(0.0, 0.0), turn=0.0, shift=0.0, **surface):
-    """Make a ball that meets another one off its middle, by offset widths, in a moving frame."""
+    """Make a ball that hits another one off its middle by `offset` widths, in a moving frame."""
     c, s = math.cos(turn), math.sin(turn)
 
     def put(x, y):
@@ -76,7 +76,7 @@ def oblique_exact(offset, fast, mass):
 
 
 def oblique_off(trial, scene, offset, fast, frame=(0.0, 0.0), turn=0.0):
-    """Return how far the worse velocity is off, as a share of the speed."""
+    """Return the larger error of both velocities, as a share of the speed."""
     engine = run_for(trial, scene, travel(scene))
     exact = oblique_exact(offset, fast, scene.bodies[1].mass)
     c, s = math.cos(turn), math.sin(turn)
@@ -96,7 +96,7 @@ def moments(scene, now):
 
 
 def moment_lost(trial, scene, which, scale, seconds=None):
-    """Return by how much a sum of moments changes, as a share of scale."""
+    """Return the largest change of these moments, as a share of scale."""
     engine = trial.build(scene)
     start = moments(scene, states(engine))
     run(engine, seconds or travel(scene))
@@ -113,7 +113,7 @@ def kinetic(scene, now):
 
 
 def energy_off(trial, scene, seconds, may_fall=False):
-    """Return by how much the energy of motion has changed in the end, as a share."""
+    """Return the change of the energy of motion in the end, as a share."""
     engine = trial.build(scene)
     start = kinetic(scene, states(engine))
     run(engine, seconds)
@@ -122,7 +122,7 @@ def energy_off(trial, scene, seconds, may_fall=False):
 
 
 def back_again(trial, scene, seconds):
-    """Return how far (px) any ball is from its start after as long with all velocities reversed."""
+    """Reverse all velocities halfway; return the largest distance (px) from the start."""
     engine = run_for(trial, scene, seconds)
     for i, state in enumerate(states(engine)):
         engine.throw(i, (-state.vx, -state.vy))
@@ -135,7 +135,7 @@ def back_again(trial, scene, seconds):
 
 
 def cradle_of(count, thrown, gap=0.0):
-    """Make Newton's cradle without strings, of which some balls are thrown."""
+    """Make Newton's cradle without strings, with some balls thrown."""
     scene = cradle(gap, count)
     for i in range(1, thrown):
         first = scene.bodies[0]
@@ -144,7 +144,7 @@ def cradle_of(count, thrown, gap=0.0):
 
 
 def cradle_off(trial, scene, thrown):
-    """Return how far (px/s) any ball is off: as many leave as came."""
+    """Return the largest error (px/s) of any ball: as many must leave as came."""
     engine = run_for(trial, scene, 1.5)
     count, fast = len(scene.bodies), scene.bodies[0].vel[0]
     exact = [fast if i >= count - thrown else 0.0 for i in range(count)]
@@ -152,7 +152,7 @@ def cradle_off(trial, scene, thrown):
 
 
 def into_valley(degrees, e=1.0, free_balls=False, fast=300.0):
-    """Make a ball that flies down between two others. Their normals are degrees off upright."""
+    """Make a ball that flies down between two others, with normals `degrees` off upright."""
     a = math.radians(degrees)
     surface = {"restitution": e, "friction": 0.0}
     sides = [
@@ -163,7 +163,7 @@ def into_valley(degrees, e=1.0, free_balls=False, fast=300.0):
 
 
 def around(count, fast=300.0, centre=True):
-    """Make balls that fly at the middle from all sides."""
+    """Make balls that fly to the middle from all sides."""
     balls = []
     for i in range(count):
         a = 2 * math.pi * i / count
@@ -173,7 +173,7 @@ def around(count, fast=300.0, centre=True):
 
 
 def comes_back(trial, scene):
-    """Return how far (px/s) any ball is from its reversed velocity."""
+    """Return the largest distance (px/s) of any ball from its reversed velocity."""
     engine = run_for(trial, scene, 0.8)
     first = len(scene.bodies) % 2  # with a ball in the middle
     return max(
@@ -193,7 +193,7 @@ def rack(rows, fast):
 
 
 def mirror_off(trial, scene, rows, fast):
-    """Return how far (px) any ball is from its twin's mirror image, 300 px of flight later."""
+    """Return the largest distance (px) of a ball from its mirror image, after 300 px of flight."""
     engine = run_for(trial, scene, 300 / fast)
     worst, first = abs(engine.read(0).y), 1
     for i in range(rows):
@@ -205,7 +205,7 @@ def mirror_off(trial, scene, rows, fast):
 
 
 def order_matters(trial, scene, seconds):
-    """Return how far (px) any body ends from its end in a scene added in another order."""
+    """Return the largest distance (px) of any body from its end if added in another order."""
     other, order = shuffled(scene)
     first, second = (run_for(trial, one, seconds) for one in (scene, other))
     return max(math.dist(first.read(i)[:2], second.read(j)[:2]) for j, i in enumerate(order))

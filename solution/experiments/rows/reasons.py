@@ -1,4 +1,4 @@
-"""Why the stable engine loses the rows that it loses, by how their titles begin."""
+"""Reasons for the rows that the stable engine loses, by how their titles begin."""
 
 SOFT = "Contacts are soft: they sink by a little that grows with the weight."
 REASONS = {

@@ -1,4 +1,4 @@
-"""Rows about what rests, what sleeps, bad starts, and steps that vary."""
+"""Rows about rest, sleep, bad starts, and steps that vary."""
 
 import math
 from dataclasses import replace
@@ -15,7 +15,7 @@ ASLEEP = (*TOUCH, "Sleep")
 
 
 def top_moves(trial, scene, seconds=10):
-    """Return how far (px) the last ball ever is above its start, or below it in the end."""
+    """Return the largest rise (px) of the last ball, or its sink in the end if larger."""
     engine, top = trial.build(scene), scene.moving()[-1]
     start = engine.read(top).y
     falls = watch(engine, seconds, lambda: engine.read(top).y - start)
@@ -34,7 +34,7 @@ def overlaps(trial, scene, seconds=3):
 
 
 def rises_in_steps(trial, scene, steps, seconds=5):
-    """Return how high (px) any ball ever rises above its start, in steps that vary."""
+    """Return the largest rise (px) of any ball above its start, in steps that vary."""
     engine, moving = trial.build(scene), scene.moving()
     starts = [engine.read(i).y for i in moving]
     rise = 0.0
@@ -71,7 +71,7 @@ def alternating(count):
 
 
 def in_corner(degrees):
-    """Make a ball at rest in a corner, by gravity that points into it."""
+    """Make a ball at rest in a corner, with gravity that points into it."""
     way = math.radians(degrees)
     walls = [Block((0, 50), (300, 50)), Block((60, -100), (50, 200))]
     return Scene([*walls, Ball((0, -10))], gravity=(G * math.cos(way), G * math.sin(way)))
@@ -90,7 +90,7 @@ def slow_slope(degrees):
 
 
 def wakes(trial, scene, fast, seconds, **exact):
-    """Let a scene rest for 3 s, throw its second body, and return how far (px) the last is off."""
+    """Rest for 3 s, throw the second body, and return the error (px) of the last one."""
     engine = run_for(trial, scene, 3)
     engine.throw(1, (fast, 0.0))
     run(engine, seconds)
@@ -125,7 +125,7 @@ def escapes(trial, scene, seconds=2):
 
 
 def bits_differ(trial, scene, seconds=1):
-    """Count the numbers that differ in any bit when the same run is done again."""
+    """Count the numbers that differ in any bit when the run is repeated."""
     first, second = (states(run_for(trial, scene, seconds)) for _ in range(2))
     return sum(a != b for a, b in zip(first, second, strict=True))
 

@@ -10,7 +10,7 @@ from .row import Bound, Row, late, law, off_after, run_for, seen
 
 
 def rolls_at(trial, scene, exact, seconds=2.0):
-    """Return how far (px/s) the ball's speed, and that of its rim, are off."""
+    """Return the larger error (px/s) of the ball's speed and that of its rim."""
     i = len(scene.bodies) - 1
     state, radius = run_for(trial, scene, seconds).read(i), scene.bodies[i].radius
     return max(abs(state.vx - exact), abs(state.omega * radius - exact))
@@ -30,7 +30,7 @@ def uphill(degrees, fast):
 
 
 def hops(trial, scene):
-    """Return how high (px) the ball ever hops above the floor of boxes."""
+    """Return the highest hop (px) of the ball above the floor of boxes."""
     engine, i = trial.build(scene), len(scene.bodies) - 1
     ball = scene.bodies[i]
     seconds = min(3.0, 3000 / ball.vel[0])
@@ -45,7 +45,7 @@ def on_dome(mu):
 
 
 def leaves_dome(trial, scene, exact):
-    """Return how far its speed along x is off once it has left, as a share."""
+    """Return the error of its speed along x after it has left, as a share."""
     engine = trial.build(scene)
     for _ in range(round(5 / DT)):
         engine.step(DT)

@@ -1,6 +1,6 @@
-"""Define a row of the leaderboard: a scene, what physics says of it, and how far off is too far.
+"""Define a row of the leaderboard: a scene, what physics says of it, and a bound on the error.
 
-Every bound comes from physics or from what a person can see, never from what an engine reached.
+Every bound comes from physics or from what a person can see, never from an engine's results.
 Lengths in px, times in s, masses in kg, y down.
 """
 
@@ -13,20 +13,20 @@ from ..scenes import DT, G
 
 H = DT / 4  # s, a substep
 
-# How far off a figure may be, and why.
+# The largest error allowed, and why.
 Bound = namedtuple("Bound", "limit why")
 
 
 @dataclass
 class Row:
-    """A question of physics. measure(trial, scene) returns how far off (>= 0) an engine is."""
+    """A question of physics. measure(trial, scene) returns an engine's error, 0 or more."""
 
     title: str
     physics: str  # one sentence
     make: object  # () -> Scene
     measure: object
     bound: Bound
-    needs: tuple = ()  # what an engine may lack, besides effects
+    needs: tuple = ()  # features that an engine may lack, besides effects
     quick: bool = False  # whether the quick run has it
 
 
@@ -36,17 +36,17 @@ def law(scale):
 
 
 def late(speed):
-    """Return the bound of a place (px): the motion of one substep. Of a speed, give px/s²."""
+    """Return the bound of a position (px): its motion in a substep. For a speed, give px/s²."""
     return Bound(speed * H, "the change in one substep of 1/480 s")
 
 
 def seen(px=0.5):
-    """Return the bound of what should not move: half a pixel cannot be seen."""
+    """Return the bound of motion where none should be: half a pixel cannot be seen."""
     return Bound(px, "half a pixel cannot be seen")
 
 
 def still():
-    """Return the bound of the speed (px/s) of what rests: half a pixel in five seconds."""
+    """Return the bound of the speed (px/s) at rest: half a pixel in five seconds."""
     return Bound(0.1, "half a pixel in five seconds cannot be seen")
 
 
@@ -74,24 +74,24 @@ def never():
 
 
 def run_for(trial, scene, seconds):
-    """Return an engine that has run a scene for so long."""
+    """Return an engine that has run a scene for so many seconds."""
     engine = trial.build(scene)
     run(engine, seconds)
     return engine
 
 
 def off(state, exact):
-    """Return how far the worst of the named numbers of a state is off, such as {"vx": 300}."""
+    """Return the largest error of the named numbers of a state, such as {"vx": 300}."""
     return max(abs(getattr(state, name) - value) for name, value in exact.items())
 
 
 def off_after(trial, scene, seconds, **exact):
-    """Return how far the last body's worst number is off after so long."""
+    """Return the largest error of the last body's named numbers after so many seconds."""
     return off(run_for(trial, scene, seconds).read(len(scene.bodies) - 1), exact)
 
 
 def velocity_off_after(trial, scene, exact, seconds, i=1):
-    """Return how far (px/s) a body's velocity is off after so long."""
+    """Return the error (px/s) of a body's velocity after so many seconds."""
     return velocity_off(run_for(trial, scene, seconds).read(i), exact)
 
 
@@ -104,5 +104,5 @@ def share_off(value, exact):
 
 
 def fall_speed(height):
-    """Return the speed (px/s) of what fell from so high."""
+    """Return the speed (px/s) after a fall from this height (px)."""
     return math.sqrt(2 * G * height)

@@ -26,7 +26,7 @@ RODS = ("Rods",)
 TINY = "Newton's law, solved by the method of Runge and Kutta in steps of 1/960 s."
 KEPT = "Rods do no work: energy is kept."
 RIGID = "Rods keep their length."
-KNOWN = {}  # references by scene and time
+KNOWN = {}  # references, by scene and time
 PUSH = {"needs": ("rods that push",)}
 
 
@@ -45,18 +45,18 @@ def energy_off(trial, scene, seconds, scale, each=4):
 
 
 def ever_stretches(trial, scene, seconds):
-    """Return the most (px) that any rod is ever off its length."""
+    """Return the largest error (px) of any rod's length."""
     engine = trial.build(scene)
     return max(watch(engine, seconds, lambda: worst_stretch(engine)))
 
 
 def hangs(trial, scene, seconds=10):
-    """Return by how much (px) all rods together are off their length in the end."""
+    """Return the sum (px) of all rods' errors of length in the end."""
     return sum(stretches(run_for(trial, scene, seconds)))
 
 
 def period_off(trial, scene, exact, seconds=20):
-    """Return how far the mean period is off, as a share."""
+    """Return the error of the mean period, as a share."""
     engine, x, passages = trial.build(scene), scene.bodies[1].pos[0], []
     for i in range(round(seconds / DT)):
         engine.step(DT)
@@ -69,13 +69,13 @@ def period_off(trial, scene, exact, seconds=20):
 
 
 def stays(trial, scene, seconds=5):
-    """Return how far (px) any body is from its start in the end."""
+    """Return the largest distance (px) of any body from its start in the end."""
     engine = run_for(trial, scene, seconds)
     return max(math.dist(s[:2], b.pos) for s, b in zip(states(engine), scene.bodies, strict=True))
 
 
 def centre_off(trial, scene, seconds=1):
-    """Return how far (px) the centre of mass of free balls is from its parabola."""
+    """Return the distance (px) of free balls' centre of mass from its parabola."""
     masses = [b.mass for b in scene.bodies]
 
     def centre(vectors):
@@ -110,7 +110,7 @@ def double(mass=1.0, degrees=90.0):
 
 
 def looping(share=1.1):
-    """Make a pendulum at its lowest place, with more speed than a full circle takes."""
+    """Make a pendulum at its lowest position, with more speed than a full circle takes."""
     bob = Ball((0, 140), vel=(share * math.sqrt(5 * G * 140), 0))
     return Scene([Ball((0, 0), mass=0), bob], RODS, [(0, 1)])
 
@@ -149,7 +149,7 @@ def bridge(links, weight):
 
 
 def roof(mass):
-    """Make a weight that two rods hold up between two feet that do not move."""
+    """Make a weight that two rods hold up between two static feet."""
     return Scene(
         [Ball((-60, 0), mass=0), Ball((60, 0), mass=0), Ball((0, -80), mass=mass)],
         RODS,
@@ -186,7 +186,7 @@ def spring_chain(count, stiffness, damping, at_rest):
 
 
 def hangs_low(trial, scene, seconds=20):
-    """Return how far the stretch of a chain of springs is off, as a share."""
+    """Return the error of the stretch of a chain of springs, as a share."""
     count = len(scene.springs)
     stretch = run_for(trial, scene, seconds).read(count).y - 20 * count
     return share_off(stretch, count * (count + 1) / 2 * G / scene.springs[0].stiffness)
@@ -199,7 +199,7 @@ def damped(damping, stiffness=100.0):
 
 
 def swing_off(trial, scene, seconds=20, ever=False):
-    """Return how far the swing of the last two seconds is off the first one, as a share.
+    """Return how much the swing of the last two seconds differs from the first, as a share.
 
     With ever, return how much larger any swing is.
     """
@@ -217,7 +217,7 @@ def ellipse(fast):
 
 
 def loose_pair(mass, turn=0.0):
-    """Make two balls on a stretched spring, with nothing to hold them."""
+    """Make two free balls on a stretched spring."""
     balls = [Ball((0, 0), vel=(0, -turn * mass)), Ball((150, 0), mass=mass, vel=(0, turn))]
     return Scene(balls, ("Springs",), springs=[Spring(0, 1, 400.0, length=100)], gravity=(0, 0))
 
@@ -233,7 +233,7 @@ def mode(number, count=5, stiffness=400.0):
 
 
 def bars(count):
-    """Return the energy (kg px²/s²) that swinging chains of rods of 20 px can turn to speed."""
+    """Return the energy (kg px²/s²) that a chain of rods of 20 px loses by swinging down."""
     return sum(G * 20 * i for i in range(1, count + 1))
 
 

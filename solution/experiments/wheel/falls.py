@@ -1,4 +1,4 @@
-"""Drop a ball with the installed package stable_compiled: a wheel must be able to do that."""
+"""Drop a ball with the installed package stable_compiled, to test its wheel."""
 
 from stable_compiled import Body, Box, Circle, Contacts, Friction, World, world
 
