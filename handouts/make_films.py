@@ -160,7 +160,7 @@ def clipped(value, low, size):
 
 
 def still_of_tower(data):
-    """Draw the towers of three engines after their last shot."""
+    """Draw the towers of three engines at the end of their films."""
     svg = Svg(3 * WIDE + 4 * GAP, TALL + 2 * GAP + 40, "A tower of ten balls in three engines")
     for number, (engine, key) in enumerate(data["still"]):
         left, top = GAP + number * (WIDE + GAP), GAP + 20

@@ -212,7 +212,7 @@ class Member:
 
     @property
     def breach(self) -> Wrong | None:
-        """Return the entry of a member that breaks a promise of the lesson."""
+        """Return the entry of a member that breaks one of the lesson's promises."""
         return self.entry if isinstance(self.entry, Wrong) and self.entry.breaks else None
 
     @property
@@ -324,7 +324,7 @@ class Member:
         return f"must lose {', '.join(sorted(meant - lost))}" if meant > lost else ""
 
     def compare_name(self, result: Result) -> Literal["right", "wrong", "none"]:
-        """Return how the report names the mistake of a wrong member."""
+        """Compare the mistake that a report names with a wrong member's; empty if they agree."""
         names = {todo.misconception for todo in result.todos} - {None}
         if not names:
             return "none"
@@ -398,7 +398,7 @@ def list_sheets(kind: Kind) -> list[Path]:
 
 
 def list_submissions(kind: Literal["right", "hostile"]) -> Iterator[Member]:
-    """Yield the members that have a file or folder of their own, or only marks in bank.toml."""
+    """Yield the members with their own file or folder, or with marks in bank.toml alone."""
     names = {path.stem for path in (BANK / kind).glob("*")} | set(read_marks()[kind])
     for name in sorted(names):
         if not IS_TODO.fullmatch(name):

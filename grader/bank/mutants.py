@@ -57,7 +57,7 @@ class Mutant:
 
 @cache
 def mutants_of(todo: str) -> tuple[Mutant, ...]:
-    """Make every mutant of one TODO of the solution, each other code."""
+    """Make every mutant of one TODO of the solution, all with different code."""
     text, region = regions_of("solution")[todo]
     path = next(each.function or "" for each in load_rubric().todos if each.id == todo)
     function = find_function(statements(text), path.partition(":")[2])
@@ -121,7 +121,7 @@ def list_mutants(todos: Collection[str] = ()) -> list[Mutant]:
 
 
 class Equivalent(Struct, frozen=True, forbid_unknown_fields=True):
-    """Mutants that give the same results, up to rounding, for everything the contract allows.
+    """Mutants with the solution's results, up to rounding, for all inputs that the contract allows.
 
     They are listed one by one, by the lines that differ, or by operators and a piece of `now`.
     """
@@ -244,7 +244,7 @@ def load_quick_rubric() -> Rubric:
 
 
 def name_holds(submission: Path, todo: str, name: str) -> bool:
-    """Return whether the mistake's model also predicts the answers to other questions."""
+    """Return whether the named mistake's model also predicts answers to other questions."""
     answers = (grade_quickly(submission, frozenset({todo}), seed=seed)[1] for seed in OTHER_SEEDS)
     return all(foretells_answers(todo, name, each.get(todo, [])) for each in answers)
 

@@ -46,7 +46,7 @@ class Scope(Struct, frozen=True, forbid_unknown_fields=True):
         return [*getattr(self, kind, []), *fields]
 
     def fill_deed(self, kinds: str, template: str) -> Iterator[str]:
-        """Yield a deed for each name of these kinds, or for one body of each loop or list."""
+        """Yield an action for each name of these kinds, or for one body of each loop or list."""
         if kinds != "one of many":
             yield from (template.format(it=it) for k in kinds.split() for it in self.names(k))
             return
@@ -151,7 +151,7 @@ SLIPS: tuple[Slip, ...] = (
 
 
 class DeedAtReturn(ast.NodeTransformer):
-    """Put a deed before each return, with `answer` for what it returns."""
+    """Put an action before each return; `answer` stands for the returned value."""
 
     def __init__(self, deed: str) -> None:
         self.deed = deed
@@ -171,7 +171,7 @@ class DeedAtReturn(ast.NodeTransformer):
 
 
 def add_deed(code: str, deed: str, scope: Scope) -> Code:
-    """Do `deed` at the end of `code`, or in its loop if `deed` uses the loop's body."""
+    """Add `deed` to the end of `code`, or to its loop if `deed` uses the loop's body."""
     tree = ast.parse(code)
     if mentions(deed, scope.each) and not deed.startswith("for "):
         find_loop(tree, scope.each).body += parse_code(deed)
@@ -194,7 +194,7 @@ def find_loop(tree: ast.Module, name: str) -> ast.For:
 
 
 def skip_case(code: str, condition: str, scope: Scope) -> Code:
-    """Keep the starter's region where `condition` holds.
+    """Use the starter's region if `condition` holds.
 
     In a loop over bodies, if it is about one of them, skip that body.
     """
@@ -209,7 +209,7 @@ def skip_case(code: str, condition: str, scope: Scope) -> Code:
 
 
 def replace_number(code: str, read: str, value: str, scope: Scope) -> Code:
-    """Use `value` for the number `read`; a parameter is changed first of all."""
+    """Use `value` for the number `read`; a parameter is changed at the start."""
     if read in scope.parameters:
         return parse_code(f"{read} = {value}\n{code}")
     changed: Code = Replacer(read, value).visit(ast.parse(code)).body

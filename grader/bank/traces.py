@@ -23,7 +23,7 @@ OPEN_TO_ALL = ("/dev/shm", "/tmp", "/var/tmp")
 
 @dataclass
 class Traces:
-    """Filled in once the grade is over."""
+    """Leftovers, filled in once the grade is over."""
 
     leftovers: list[str] = field(default_factory=list)
 

@@ -211,7 +211,7 @@ def clamp(value: float, limit: float) -> float:
 
 @recorded.oracle()
 def friction(mu: Pair, k: float, closing: float, slip: float) -> float:
-    """Return the friction impulse on B in a step, along its slip, kg px/s; k in 1/kg."""
+    """Return the friction impulse on B along its slip in a step, kg px/s; k in 1/kg."""
     return clamp(-slip / k, math.sqrt(mu[0] * mu[1]) * max(closing / k, 0.0))
 
 
@@ -234,7 +234,7 @@ def semi_implicit_euler(x: float, v: float, dt: float, accel: Accel) -> State:
 
 @recorded.oracle()
 def velocity_verlet(x: float, v: float, dt: float, accel: Accel) -> State:
-    """Take half a kick, the whole way, half a kick."""
+    """Take half a kick (a change of velocity), the whole way, half a kick."""
     half_way = v + dt / 2 * accel(x)
     x += dt * half_way
     return x, half_way + dt / 2 * accel(x)

@@ -68,7 +68,7 @@ class Pace:
 
     @property
     def slack(self) -> float:
-        """Return the time that a program one frame behind may not know yet, ms."""
+        """Return the time that a program may not know yet if it is one frame behind, ms."""
         return sum(self.lengths[-len(SETTLE) :])
 
     def out_of_step(self, frames: int | None = None) -> int | None:
@@ -115,7 +115,7 @@ def pace(lab: Lab, frames: list[int], step_ms: float = 0.0) -> Pace:
 
 
 def beyond(waits: float, frame: int) -> int:
-    """Return the length of a frame (ms) for a program that itself waits this long.
+    """Return the length of a frame (ms) for a program that waits so many ms itself.
 
     Frames below the cap stay below it, and the order of lengths is preserved.
     """

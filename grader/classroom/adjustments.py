@@ -44,12 +44,12 @@ class Adjust(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True
 
     student: Words | Annotated[list[Words], Meta(min_length=1)]
     reason: Words
-    add: int | None = None  # points, to those that the grader found
+    add: int | None = None  # points, added to those of the grader
     points: Points | None = None  # the mark, for any or no result
     late: bool | None = None  # false: lateness is excused
     due: datetime | None = None  # an extension
     cap: Points | None = None  # the maximum
-    bonus: Points | None = None  # points besides the grader's bonus, counted like it
+    bonus: Points | None = None  # points added to the grader's bonus
     take: Words | None = None  # the work that counts: a name, or a path in the submission
 
     def __post_init__(self) -> None:
@@ -107,7 +107,7 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         return FinalPoints(final, tuple(filter(None, reasons)), self.find_due(found), by_hand)
 
     def apply_lateness(self, late: Late, found: Work, points: int, reasons: list[str]) -> int:
-        """Return the points that lateness leaves, and add the reason to `reasons`."""
+        """Return the points after the loss for lateness, and add the reason to `reasons`."""
         days = self.count_days_late(found)
         if not days:
             return points
@@ -157,7 +157,7 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         return []
 
     def add_zone(self, when: datetime) -> datetime:
-        """Return a moment with a zone; one without is in the school's own time."""
+        """Return a moment with a zone, by default the school's."""
         if when.tzinfo:
             return when
         due = self.late.due if self.late else None
@@ -171,13 +171,13 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def choices(self) -> list[tuple[str, str]]:
-        """Return students and the work that a person assigned to them."""
+        """Return students with the work that a person assigned to them."""
         return [(who, each.take) for each in self.adjust if each.take for who in each.students]
 
     def place_comments(self, found: Work, files: Mapping[str, bytes]) -> list[Remark]:
         """Return the comments on a student's work, each beside its line.
 
-        Raises Exceeded, Failed or Lost where searching its files reaches a limit.
+        Raises Exceeded, Failed or Lost if searching its files reaches a limit.
         """
         for name in (found.name, found.handed_in_by):
             about = [each for each in self.comment if is_same_student(each.student, name)]
@@ -250,7 +250,7 @@ def load_adjustments(path: Path | None, course: Course = FULL) -> Adjustments:
     return structs.replace(adjustments, late=adjustments.late.in_points(course.rubric.max_points))
 
 
-RULES = {  # by a part of msgspec's words
+RULES = {  # sentences by a part of msgspec's words
     "Expected `int` >= 0": "must be a whole number, 0 or more",
     "Expected `int": "must be a whole number",
     "%$'": 'must be points, or a share as "10%"',
@@ -259,7 +259,7 @@ RULES = {  # by a part of msgspec's words
 
 
 def name_value(words: str, document: dict[str, Any]) -> str:
-    """Return a complaint of msgspec with the key that it is about."""
+    """Return msgspec's message with the key that it is about."""
     found = re.fullmatch(r"(.*) - at `\$\.(late|(adjust|comment)\[(\d+)\])(?:\.(\w+))?.*`", words)
     if found is None:
         return words

@@ -41,14 +41,14 @@ class Outcome(Struct, frozen=True):
     reasons: list[str] = []  # of the adjustments
     late: bool = False
     handed_in: datetime | None = None
-    seconds: float = 0.0  # that grading took
+    seconds: float = 0.0  # s that grading took
     graded: datetime | None = None
     key: str = ""  # the hash of all that the result depends on
     content: str = ""  # the hash of the result's file
     bonus_by_hand: int = 0  # beside what was graded
     by_hand: bool = False  # a person set the final points
     due: datetime | None = None  # for this student
-    notes: list[str] = []  # on the files that were handed in
+    notes: list[str] = []  # notes on the files that were handed in
     broken: list[str] = []  # programs that cannot be imported, and why
     group: list[str] = []  # the other owners of this work
     handed_in_by: str = ""  # the one who handed in, if not this student
@@ -64,7 +64,7 @@ class Outcome(Struct, frozen=True):
 
     @property
     def order(self) -> tuple[object, str]:
-        """Return the key by which people sort students."""
+        """Return a key to sort students as people do."""
         return sort_key(self.full_name or self.name), self.name
 
     @property
@@ -74,7 +74,7 @@ class Outcome(Struct, frozen=True):
         return f"group with {' and '.join(self.group)}{by}" if self.group else ""
 
     def explain(self) -> str:
-        """Return the group, and the reasons why the points differ from the checks'."""
+        """Return the group, and the reasons for points other than the checks'."""
         return "; ".join(filter(None, [self.group_in_words, self.trouble, *self.reasons]))
 
     @property
@@ -250,7 +250,7 @@ def read_book(path: Path) -> Iterator[Outcome]:
 def make_table(outcomes: Iterable[Outcome], course: Course) -> str:
     """Return the class for a spreadsheet, without times of grading.
 
-    `points` count; `found` are those of the checks, before adjustments and of a maximum, `of`.
+    `points` count; `found` are the points of the checks before adjustments, out of `of`.
     """
     todos = [todo.id for todo in course.rubric.todos]
     titles = ["name", "student", "points", "before", "found", "of", "bonus", "handed in", "due"]

@@ -43,8 +43,8 @@ ADDRESS = re.compile(
     r"(?P<base>https://[^/\s@]+|http://(?:127\.0\.0\.1|localhost)(?::\d+)?)"
     r"/courses/(?P<course>\d+)/assignments/(?P<assignment>\d+)(?:[/?#]\S*)?"
 )
-WAITS = (2, 5, 15, 60)  # s until a limited request is repeated
-COMMENTS = ["submission_comments"]  # which Canvas leaves out unless told
+WAITS = (2, 5, 15, 60)  # s to wait before a limited request is repeated
+COMMENTS = ["submission_comments"]  # left out by Canvas unless requested
 PATIENCE = 60  # s to wait for an answer
 REASONS = {  # reasons of failed requests, the narrowest kind first
     refused.InvalidAccessToken: f"it does not accept the token in {TOKEN} (401): make a new one",
@@ -65,7 +65,7 @@ class Record(Struct):
     """The contents of canvas.json."""
 
     address: str
-    students: dict[str, list[str]] = {}  # marks by ids in Canvas; the last may not have arrived
+    students: dict[str, list[str]] = {}  # marks by ids in Canvas; the last one may not have arrived
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class Change:
     delivery: Delivery
     there: Any  # the submission in Canvas
     before: str  # the mark there
-    ours: list[str]  # the same, if it was sent by us
+    ours: list[str]  # the same, if we sent it
 
 
 @dataclass
@@ -117,7 +117,7 @@ class Plan:
         self.notes.append(f"{name}: skipped, {why}")
 
     def add(self, delivery: Delivery, there: Any, sent: list[str], over: bool) -> None:
-        """Compare a mark with that in Canvas; only `over` replaces one that a person entered."""
+        """Compare a mark with Canvas's; only with `over` is a person's mark replaced."""
         if there is None:
             return self.skip(delivery.name, f"Canvas has no student {delivery.user} for it")
         if getattr(there, "excused", False):
@@ -292,7 +292,7 @@ def is_throttled(error: BaseException) -> bool:
 
 
 def send_changes(plan: Plan, record: Record, path: Path) -> list[str]:
-    """Send all changes, and return the names sent; raises Stop where Canvas stops answering."""
+    """Send all changes, and return the names sent; raises Stop if Canvas stops answering."""
     sent: list[str] = []
     for each in plan.changes:
         delivery = each.delivery

@@ -99,7 +99,7 @@ def connect(address: str, options: Options) -> Iterator[Cluster]:
         )
     except (OSError, ValueError) as error:
         raise Stop(describe_silence(address, error)) from error
-    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # we say it in a sentence
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # Stop says it in a sentence
     with client:
         check_workers(client, address)
         yield Cluster(client, options)

@@ -15,7 +15,7 @@ from msgspec import Meta, Struct
 from grader.report.html import Remark
 
 AROUND = 2  # lines shown before and after the commented one
-LONGEST_LINE = 500  # letters of a line that are compared, kept and shown
+LONGEST_LINE = 500  # letters of a line to compare, keep and show
 
 Words = Annotated[str, Meta(pattern=r"\S")]
 
@@ -98,7 +98,7 @@ def list_above(lines: list[str]) -> list[str]:
 
 
 def write_comment(student: str, words: str, file: str, line: int, content: bytes) -> Comment:
-    """Return a comment on this line of a file as it is now."""
+    """Return a comment on the present text of this line."""
     lines = read_lines(content)
     above, below = list_above(lines[:line])[-1], list_above(lines[line - 1 :][::-1])[-1]
     return Comment(student, words, file, line, lines[line - 1].strip(), above, below)

@@ -1,4 +1,4 @@
-"""Change the file of decisions table by table; a person's notes between tables stay.
+"""Change the file of decisions table by table, and keep a person's notes between them.
 
 A table is identified by its values. Before writing, the whole new text is read back: it must have
 the old decisions and the change.
@@ -38,7 +38,7 @@ class Decision:
 
     @property
     def key(self) -> str:
-        """Return the words by which a form names this decision."""
+        """Return the name of this decision in a form."""
         return f"{self.kind} {sorted(self.values.items())!r}"
 
     @property

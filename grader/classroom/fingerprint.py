@@ -1,4 +1,4 @@
-"""Make the key of results: a hash of everything they depend on, the submission aside."""
+"""Make the key of results: a hash of everything they depend on except the submission."""
 
 import hashlib
 from pathlib import Path

@@ -26,7 +26,7 @@ MARKS = "marks.toml"
 HEAD = """\
 # What this class is. `grader class` reads it, and you may edit it. Paths count from this folder.
 """
-SIGNS = {  # a comment on each line, for people
+SIGNS = {  # a comment for each line
     "course": "what is asked; the kit's own course.toml if left out",
     "roster": "the class list, as the learning system exports it",
     "key": "its column that identifies students; found if left out",
@@ -178,7 +178,7 @@ class AskedTodos(Struct, frozen=True):
 
 
 def find_difference(results: Path, course: Course) -> str:
-    """Return how the results and a course differ, or an empty text."""
+    """Say how the results and a course differ; empty if they do not."""
     asked = {todo.id: todo.max_points for todo in course.rubric.todos}
     for path in sorted(results.glob("[!.]*.json")):
         try:

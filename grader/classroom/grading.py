@@ -25,18 +25,18 @@ from grader.judge.task import Options
 from grader.judge.wall.outer import Exceeded, Failed, Lost
 from grader.text import printable
 
-LONGEST = 300  # rows in a terminal; the file of the table has all
-LONGEST_PAGE = 2000  # rows of the page, which reads every result again
+LONGEST = 300  # rows in a terminal; the table's file has all
+LONGEST_PAGE = 2000  # students on the page, which reads every result again
 
 
 @dataclass(frozen=True)
 class ClassOptions:
     options: Options
-    out: Path | None = None  # the class folder's name and `-results`, beside it, if left out
+    out: Path | None = None  # by default beside the class folder, with its name and `-results`
     jobs: int = 0
-    adjust: Path | None = None  # adjustments.toml among the submissions, if left out
+    adjust: Path | None = None  # by default adjustments.toml among the submissions
     cluster: str = ""  # the address of a Dask scheduler
-    people: ClassList | None = None  # of roster.csv among the submissions, if left out
+    people: ClassList | None = None  # by default those of roster.csv among the submissions
     earlier: Sequence[Path] = ()  # classes of earlier years, to compare with
 
 

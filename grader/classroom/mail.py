@@ -23,7 +23,7 @@ from grader.text import clean, format_csv
 
 DRAFTS = "mail"  # the folder of drafts
 DIGEST = "X-Written"  # the digest of a draft as it was written
-ASKS = {  # the request, by a part of the reason; the first that fits
+ASKS = {  # the request by a part of the reason; the first match counts
     "encrypted": "Your archive has a password. Please send it again without one.",
     "more than one program": "Your submission holds two versions of one file: {reason}. "
     "Please send it again with the one that counts.",

@@ -24,8 +24,8 @@ from grader.judge.course import FULL, Course
 from grader.text import clean, format_csv
 
 USUAL_TOTAL = 100  # maximum of marks, if a course has none
-ENGINE = "engine"  # the part that the checks grade; it is also the notebook of that name
-SHEET = "questions"  # about the student's own program
+ENGINE = "engine"  # the part that the checks grade, and the name of its notebook
+SHEET = "questions"  # the part about the student's own program
 WITH_ID = re.compile(r" \(\d+\)$")  # of a title in Canvas
 
 
@@ -43,7 +43,7 @@ class Marking(Struct, frozen=True, forbid_unknown_fields=True):
 class Part:
     points: float
     max_points: float
-    waiting: bool = False  # for a person to grade it
+    waiting: bool = False  # for manual grading
     note: str = ""  # why these points
     handed_in: bool = True  # a person may set points for students who handed in nothing
 
@@ -123,7 +123,7 @@ class Marks:
     encoding: str = "utf-8"
     rows: list[MarkRow] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
-    unowned: list[str] = field(default_factory=list)  # students who may own work without an owner
+    unowned: list[str] = field(default_factory=list)  # possible owners of work without an owner
 
     @property
     def given(self) -> int:
@@ -174,8 +174,8 @@ def score_sheets(
 def make_marks(roster: Roster, key: str, scores: Scores) -> Marks:
     """Return the class list with a mark for each student.
 
-    A mark that needs manual review stays empty, unless `so_far`. A row that several results fit
-    also stays empty, so that no student gets another's mark or a wrong zero. While some work has no
+    A mark that needs manual review stays empty, unless `so_far`. Rows that several results fit
+    stay empty, so that no student gets another's mark or a wrong zero. While some work has no
     owner, rows without work stay empty too, unless `others_known`.
     """
     made, marking = Marks(), scores.marking
@@ -250,7 +250,7 @@ def read_total(roster: Roster, title: str, lms: Lms | None = None) -> float | No
     """Return the maximum in the gradebook; None if it has none."""
     try:
         total = (lms or find_system(roster)).find_total(roster, title)
-        return float(total.replace(",", ".")) if total else None  # as another country writes it
+        return float(total.replace(",", ".")) if total else None  # with a decimal comma
     except ValueError:
         return None
 

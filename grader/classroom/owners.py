@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from grader.intake.names import fold, split_login, strip_zeros
 from grader.intake.roster import KEYS, Roster, Row, list_full_names, read_number
 
-NUMBERED = re.compile(r"(?P<name>.+)_(?P<number>\d+(?:-\d+)?)")  # as exports name their files
+NUMBERED = re.compile(r"(?P<name>.+)_(?P<number>\d+(?:-\d+)?)")  # names of files in exports
 Labels = Callable[[Row], Iterable[str]]
 
 
@@ -20,9 +20,9 @@ class Owners:
     """Results by rows of a class list, and results with no owner or several possible ones."""
 
     rows: dict[int, list[str]] = field(default_factory=dict)  # names of results, by the row
-    doubts: dict[str, list[Row]] = field(default_factory=dict)  # of any of these rows
+    doubts: dict[str, list[Row]] = field(default_factory=dict)  # rows that may own a result
     strangers: list[str] = field(default_factory=list)
-    mates: dict[int, list[str]] = field(default_factory=dict)  # whose result is shared, by the row
+    mates: dict[int, list[str]] = field(default_factory=dict)  # whose result is shared
 
     @property
     def doubtful(self) -> list[Row]:

@@ -112,7 +112,7 @@ class Review:
     def find_reason(self, name: str) -> str:
         """Return the reason why this work needs manual review, or an empty text."""
         outcome = self.outcomes.get(name)
-        if outcome is None:  # it came after grading, or a person chose its owner
+        if outcome is None:  # it arrived after grading, or a person chose its owner
             return self.intake.troubles.get(name, "")
         if outcome.mark is None:
             return outcome.trouble
@@ -131,7 +131,7 @@ class Review:
         return [each for each in self.intake.works if each.name == name]
 
     def read_files(self, name: str) -> tuple[Contents, str]:
-        """Return a student's files, and whether they are as graded or as submitted."""
+        """Return a student's files, and whether they are those that were graded."""
         if name not in self.read:
             self.read[name] = self.unpack_files(name)
         return self.read[name]
@@ -229,7 +229,7 @@ def decide_points(review: Review, name: str, form: Form) -> None:
 
 
 def decide_work(review: Review, name: str, form: Form) -> None:
-    """Write which work counts, in the position of another answer to the same question."""
+    """Write which work counts, in place of an earlier answer."""
     path = form.get("path", "")
     paths = next((each for each in review.list_choices(name) if path in each), None)
     if paths is None:
@@ -239,7 +239,7 @@ def decide_work(review: Review, name: str, form: Form) -> None:
 
 
 def decide_owner(review: Review, name: str, form: Form) -> None:
-    """Write the owner of work whose name is not in the class list."""
+    """Write the owner of work that is under a name outside the class list."""
     student = form.get("student", "")
     if student not in review.people.names or name not in review.unlisted:
         raise Stop("choose a student of the class list")

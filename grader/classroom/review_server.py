@@ -87,7 +87,7 @@ def read_pairs(text: str) -> dict[str, str]:
 
 @contextmanager
 def open_review(known: ClassFolder) -> Iterator[ReviewServer]:
-    """Read a class as it came, and listen; raises Stop if it is not graded yet."""
+    """Read the submitted class, and listen; raises Stop if it is not graded yet."""
     known.find_results()
     people = known.list_people()
     people.chosen = []

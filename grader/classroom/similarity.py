@@ -38,7 +38,7 @@ from grader.text import format_csv, printable
 TEMPLATES = Path(__file__).with_name("templates")
 
 RUN = 14  # tokens: about two lines
-EXPECTED = 0.5  # of the smaller one's runs
+EXPECTED = 0.5  # share of the smaller one's runs
 FEWEST = 40  # own runs of a submission that is compared
 FEW, MANY = 8, 50  # a run counts if at most a quarter of the class has it, within these bounds
 MOST = 100  # pairs
@@ -47,7 +47,7 @@ CONTEXT = 2  # lines around shared ones
 MOST_SHOWN = 2000  # lines of a submission beside those of another
 COMPARING = Allowance("comparing the class", cpu=300)
 OPERATORS = sorted(token.EXACT_TOKEN_TYPES, key=len, reverse=True)
-TOKEN = re.compile(  # a text that does not end takes the rest of its line, or of the file
+TOKEN = re.compile(  # an unclosed text takes the rest of its line or file
     r"(?P<layout>#.*|\\?\s+)"
     r"|(?P<text>\w{0,2}(?:\"{3}(?s:.*?)(?:\"{3}|\Z)|'{3}(?s:.*?)(?:'{3}|\Z)"
     r"|\"(?:\\.|[^\"\\\n])*(?:\"|$)|'(?:\\.|[^'\\\n])*(?:'|$)))"
@@ -117,7 +117,7 @@ def collect_given_runs() -> frozenset[int]:
     return frozenset().union(*map(hash_runs, texts))
 
 
-@lru_cache(maxsize=512)  # most files of a class are those that were given
+@lru_cache(maxsize=512)  # most files of a class are handed-out ones
 def hash_runs(text: str) -> frozenset[int]:
     return frozenset(run for run, _, _ in list_runs(read_tokens(text)))
 

@@ -227,7 +227,7 @@ def marks_command(
 def read_scores(
     known: "ClassFolder", so_far: bool, others_known: bool
 ) -> "tuple[Scores, list[str]]":
-    """Return each student's parts, the rules to make marks of them, and notes on the results.
+    """Return each student's parts of the mark, the rules to combine them, and notes on results.
 
     Results cover the engine only, so the shares of notebooks do not count there.
     """

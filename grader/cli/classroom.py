@@ -1,4 +1,4 @@
-"""Define the commands for a course with nbgrader, for Gradescope, and for looking at a class.
+"""Define the commands for a course with nbgrader, for Gradescope, and for views of a class.
 
 Each command imports its own modules: together they would add a tenth of a second to the start of
 others.

@@ -126,7 +126,7 @@ def make_app(words: Sequence[str] = ()) -> typer.Typer:
 
 
 def make_dev_app(apps: Collection[typer.Typer]) -> typer.Typer:
-    """Return the commands that `--help` omits as a group."""
+    """Return the group of commands that `--help` omits."""
     maintainers = typer.Typer(help="For maintainers of the kit.", no_args_is_help=True)
     every = [each for app in apps for each in app.registered_commands]
     maintainers.registered_commands += [x for x in every if x.name not in FOR_INSTRUCTORS]

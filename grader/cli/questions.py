@@ -79,7 +79,7 @@ def make_sheets(making: "Making", path: Path, people: "ClassList") -> NoReturn:
 
 
 def end_with_sheets(making: "Making", made: "list[SheetResult]") -> NoReturn:
-    """Print the students with a sheet, and end with the status of the command."""
+    """Print how many students have a sheet, and end with the command's status."""
     print_notes([each.words for each in made])
     print_note(f"{plural(sum(each.sheet is not None for each in made), 'sheet')} in {making.out}")
     raise typer.Exit(0 if all(each.sheet for each in made) else 1)

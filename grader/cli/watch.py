@@ -66,7 +66,7 @@ class Watch:
         self.draw()
 
     def look(self) -> None:
-        """Check again what was saved since the last look."""
+        """Check files saved since the last look."""
         again = False
         while (now := read_sources(self.folder)) != self.latest or again:
             if changed := sorted(find_differences(self.latest, now)):

@@ -56,7 +56,7 @@ class Bounds:
     left_out: list[str] = field(default_factory=list)
 
     def take(self, name: str, length: int, spared: int = 0) -> bool:
-        """Take a file if it fits, with room for `spared` others after it."""
+        """Count a file if it fits and leaves room for `spared` others."""
         if self.files <= spared or length > self.bytes:
             self.left_out.append(name)
             return False
@@ -64,7 +64,7 @@ class Bounds:
         return True
 
     def take_archive(self, length: int) -> None:
-        """Take an archive as it was handed in; raises CannotTake if it is too large."""
+        """Count a handed-in archive as a file; raises CannotTake if it is too large."""
         if length > self.packed:
             most = f"the maximum for a submission is {MAX_ZIP >> 20} MB"
             raise CannotTake(f"the archive has {length >> 20} MB: {most}")
@@ -242,7 +242,7 @@ def name_members(archive: zipfile.ZipFile) -> list[tuple[PurePosixPath, zipfile.
 
 
 def decode_name(member: zipfile.ZipInfo) -> str:
-    """Return a member's name, in UTF-8 if it says so or can be, or else in DOS letters."""
+    """Return a member's name, decoded as UTF-8 if possible, or else from DOS letters."""
     name = member.filename
     if not member.flag_bits & 0x800:
         with suppress(UnicodeError):
@@ -251,7 +251,7 @@ def decode_name(member: zipfile.ZipInfo) -> str:
 
 
 def check_name(name: str) -> str:
-    """Return the name as every system takes it; raise CannotTake if it leaves its folder."""
+    """Return a name that every system accepts; raise CannotTake if it leaves its folder."""
     parts = [part for part in name.split("/") if part not in ("", ".")]
     if len(parts) > MAX_DEPTH:
         raise CannotTake(f"the archive has more than {MAX_DEPTH} folders in each other")

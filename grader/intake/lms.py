@@ -83,7 +83,7 @@ class Lms:
         return False
 
     def is_whole_export(self, folder: Path) -> bool:
-        """Return whether a folder among others is an export, not a submission with such a list."""
+        """Return whether a folder among submissions is an export, not itself a submission."""
         return False
 
     def read_export(self, folder: Path, people: ClassList, intake: Intake) -> Iterator[Work]:

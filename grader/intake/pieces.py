@@ -250,7 +250,7 @@ def is_package(folder: PurePosixPath, inside: list[PurePosixPath]) -> bool:
 def choose_piece(pieces: list[Piece], folder: Path, notes: list[str], matters: bool) -> Piece:
     """Return the candidate nearest to the top.
 
-    Of several at that depth, a person must choose if it `matters`; else the right name counts.
+    Among several at that depth, a person must choose if it `matters`; if not, the exact name wins.
     """
     nearest = min(len(piece.path.parts) for piece in pieces)
     first, *others = drop_backups([p for p in pieces if len(p.path.parts) == nearest], notes)
@@ -287,7 +287,7 @@ def is_backup(name: str) -> bool:
 def refuse_two(
     what: str, paths: list[PurePosixPath], choices: Iterable[PurePosixPath] = ()
 ) -> NoReturn:
-    """Raise ManyPrograms; a person chooses one of the paths, or of the `choices`."""
+    """Raise ManyPrograms, so that a person chooses one of the paths or `choices`."""
     at = sorted({path.parent.as_posix() for path in paths})
     places = ", ".join(at if len(at) == len(paths) else sorted(map(str, paths)))
     raise ManyPrograms(

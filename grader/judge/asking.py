@@ -11,9 +11,9 @@ from grader.judge.wall.connection import Answer, Connection
 from grader.protocol import Request, Returned, Value
 
 TOGETHER = 100  # questions in one message
-MAX_OBSERVATIONS = 400  # a shrinking counterexample makes many; the first ones are enough
-Judge = Callable[[Value], None]  # insists on the right answer
-Noted = tuple[str, tuple[Any, ...]]  # a question, to recognise known mistakes: about, inputs
+MAX_OBSERVATIONS = 400  # kept observations: shrinking a counterexample makes many
+Judge = Callable[[Value], None]  # fails the check if the answer is wrong
+Noted = tuple[str, tuple[Any, ...]]  # kind of question and inputs, to recognise known mistakes
 Result = TypeVar("Result")
 
 
@@ -39,8 +39,8 @@ class Asker(Decoder):
         super().__init__()
         self.connection = connection
         self.observations: list[Observation] = []
-        self.posted: list[Callable[[], None]] = []  # each waits for an answer and judges it
-        self.is_judging = False  # while one of them works, nothing may be asked
+        self.posted: list[Callable[[], None]] = []  # functions that wait for an answer and judge it
+        self.is_judging = False  # while an answer is judged, no question is sent
 
     @contextmanager
     def settled(self) -> Iterator[None]:
@@ -63,7 +63,7 @@ class Asker(Decoder):
         noted: Noted | None = None,
         then: Judge | None = None,
     ) -> Value:
-        """Return the answer as `read` reads it, or post the question and judge the answer later."""
+        """Return the answer, converted by `read`, or post the question and judge it later."""
         running, wait = self.running, self._post(request)
 
         def answer() -> Value:
@@ -120,7 +120,7 @@ class Asker(Decoder):
         return self._guard(lambda: self.connection.post(request, self.running))
 
     def _guard(self, act: Callable[[], Result]) -> Result:
-        """Return the result of an act, and remember the failure that it raises."""
+        """Return the result of an act; remember a failure that it raises."""
         try:
             return act()
         except (Broke, NotYet) as failure:

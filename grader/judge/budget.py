@@ -15,10 +15,10 @@ from dataclasses import dataclass, field, replace
 from grader.judge.wall.children import REST_SECONDS, Child
 from grader.judge.wall.connection import Connection
 
-TODO_CPU, SUBMISSION_CPU = 10.0, 40.0  # s; then each check has little
+TODO_CPU, SUBMISSION_CPU = 10.0, 40.0  # s of a TODO; then each of its checks gets little
 TODO_REST, SUBMISSION_REST = 8.0, 16.0  # s
-LITTLE_CPU, LITTLE_REST = 1, 0.25  # s; most checks need a tenth of this
-END_CPU, END_REST = 90.0, 32.0  # s; then no more checks run
+LITTLE_CPU, LITTLE_REST = 1, 0.25  # s, the little; most checks need a tenth of this
+END_CPU, END_REST = 90.0, 32.0  # s of a submission; then no more checks run
 WORDS_CPU, WORDS_REST = 20.0, 4.0  # s, for runs that only affect messages
 ONE_REST = 2.0  # s, of sleep of one process in these runs
 END_HEARD = 64 * 1024 * 1024  # bytes of answers; real ones send 3 to 5 MB
@@ -39,11 +39,11 @@ class Budget:
         return replace(self, cpu=self.cpu.copy(), rest=self.rest.copy())
 
     def allowance(self, todo: str) -> tuple[int, float, bool, str]:
-        """Return the limits that a check would have now."""
+        """Return the limits that a check would get now."""
         return self.cpu_for(todo, LITTLE_CPU + 1), self.rest_for(todo), self.has_more, self.cut
 
     def add(self, todo: str, before: "Budget", after: "Budget") -> None:
-        """Add the seconds that a check has used of its own copy."""
+        """Add the seconds that a check used of its copy."""
         self.cpu[todo] += after.cpu[todo] - before.cpu[todo]
         self.rest[todo] += after.rest[todo] - before.rest[todo]
         self.heard += after.heard - before.heard

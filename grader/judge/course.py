@@ -23,7 +23,7 @@ PLACE = CHECKS.parents[1] / "course.toml"  # in a checkout of the kit
 COURSE_FILE = "COURSE_FILE"  # the variable by which make passes a course to every command
 HANDED_OUT = CHECKS / "course.toml"  # in a student's copy, whose rubric has only its TODOs
 EXAMPLE = "2027-05-04T23:59:00+02:00"
-END_OF_DAY = time(23, 59, 59)  # the due time of a date without a time
+END_OF_DAY = time(23, 59, 59)  # due time of a date without a time
 ANYWHERE = timezone(timedelta(hours=-12), "anywhere on Earth")  # where a day ends last
 
 
@@ -47,7 +47,7 @@ class Late(Struct, frozen=True, forbid_unknown_fields=True):
     free_days: Count = 0  # late days without a loss, for each student
     cap: Count | Share | None = None  # the maximum of late work; a share of full marks
     closed_after: Count | None = None  # days, after which there are no points
-    due: datetime | None = None  # in decisions alone: a course has a line of its own for it
+    due: datetime | None = None  # in decisions only: a course has a separate line for it
 
     def loss(self, days: int, points: int) -> int:
         """Return the points that `days` late days cost; a share is rounded down."""
@@ -75,7 +75,7 @@ class Late(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def read_share(share: str) -> int:
-    """Return 10 for `10%`."""
+    """Read a percentage: return 10 for `10%`."""
     return int(share.removesuffix("%"))
 
 
@@ -93,7 +93,7 @@ class Asked(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def most_points(self) -> int:
-        """Return the points of a sheet with every question that may be on it."""
+        """Return the points of a sheet with all its questions."""
         counts: dict[Kind, int] = {"number": self.number, "film": self.film, "why": self.why}
         return sum(count * self.worth(kind) for kind, count in counts.items())
 
@@ -145,11 +145,11 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def as_rated(self) -> "Course":
-        """Return this course with the rubric's points, at least one per check."""
+        """Return this course with the rubric's points, at least 1 per check."""
         return structs.replace(self, points={})
 
     def count_bonus(self, bonus: int, points: int) -> int:
-        """Return how many points of a bonus count besides `points`."""
+        """Return the part of a bonus that counts, in addition to `points`."""
         if self.bonus == "fill up":
             return min(bonus, max(self.rubric.max_points - points, 0))
         return 0 if isinstance(self.bonus, str) else min(bonus, self.bonus)
@@ -209,7 +209,7 @@ def set_points(todo: Todo, points: int) -> Todo:
 def spread_points(points: int, weights: Sequence[int]) -> list[int]:
     """Return whole numbers that add up to `points`, by the largest remainder.
 
-    None is 0 unless there are fewer points than weights.
+    A share is 0 only if there are fewer points than weights.
     """
     total = sum(weights)
     shares = [points * weight // total for weight in weights]
@@ -252,7 +252,7 @@ def read_course(path: Path | None = None) -> Course:
 
 
 def instant(when: date, at: time) -> datetime:
-    """Return a date of a course with the time `at`, and in the last time zone, unless it has them.
+    """Complete a date with the time `at` and the last time zone, if it has none.
 
     So it does not depend on the zone of any machine.
     """
@@ -325,7 +325,7 @@ def fits(points: dict[str, Any], kind: type[Struct]) -> bool:
 
 
 def faults_before(document: dict[str, Any]) -> Iterator[str]:
-    """Yield faults of keys and TODOs, which types do not find, in the order to correct them."""
+    """Yield faults that types do not find, of keys and TODOs, in the order to correct them."""
     points, late = document.get("points"), document.get("late")
     for table, name in ((points, "points"), (late, "late")):
         known = Course.__struct_fields__ if name == "points" else ("due",)
@@ -336,7 +336,7 @@ def faults_before(document: dict[str, Any]) -> Iterator[str]:
 
 
 def faults_between(course: Course) -> Iterator[str]:
-    """Yield faults of values that do not fit each other."""
+    """Yield faults of values that contradict each other."""
     todos = [todo.id for todo in load_rubric().todos]
     if course.todos is not None:
         for each in course.todos:

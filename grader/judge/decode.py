@@ -8,7 +8,7 @@ from grader.judge.failures import Broke, NotYet
 from grader.protocol import BodyValue, ContactValue, Items, Ref, SpaceBody, SpaceValue, Value, Vec
 
 Pair = tuple[float, float]
-SHOWN = 4  # items of a list or tuple that are listed one by one
+SHOWN = 4  # a list or tuple of up to so many items is listed in full
 
 
 @dataclass(frozen=True)
@@ -26,9 +26,9 @@ class Decoder:
 
     def __init__(self) -> None:
         self.running = ""  # the experiment, for the line *We ran*
-        self.failure: NotYet | Broke | None = None  # the first, or the one that ended the check
-        self.names: dict[int, str] = {}  # of things, for the student
-        self.surveys = False  # the check continues after a failure, to ask everything
+        self.failure: NotYet | Broke | None = None  # the first one, or the one that ended the check
+        self.names: dict[int, str] = {}  # names of things, for the student
+        self.surveys = False  # whether the check continues after a failure, to ask everything
 
     def ran(self, text: str) -> None:
         """Name the experiment, for the line *We ran*."""
@@ -140,7 +140,7 @@ class Decoder:
 
 
 def which_is_none(items: list[Value]) -> str:
-    """Return `, of which the second is None`; empty if none is."""
+    """Name the item that is None: `, of which the second is None`; empty if there is none."""
     names = ("first", "second", "third", "fourth")
     none = [name for name, each in zip(names, items, strict=False) if each is None]
     return f", of which the {none[0]} is None" if none else ""

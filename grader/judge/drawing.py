@@ -17,10 +17,10 @@ from hypothesis import HealthCheck, Phase
 from hypothesis import strategies as st
 from hypothesis.configuration import set_hypothesis_home_dir
 
-EXAMPLES = 25  # per property that asks for no other number
-BASE = 100  # hypothesis takes no integer from a loaded module that is smaller
+EXAMPLES = 25  # examples per property, by default
+BASE = 100  # hypothesis takes only larger integers from loaded modules
 
-Example = Callable[..., None]  # a property with all that was drawn for it; takes a lab
+Example = Callable[..., None]  # a property with its drawn arguments; takes a lab
 Property = Callable[..., None]
 
 CACHE = Path(__file__).parents[2] / "build" / "hypothesis"  # saves 0.4 s in each process
@@ -48,7 +48,7 @@ def given(
 
 
 def settled(function: Property) -> Property:
-    """Let all answers be judged before an example ends."""
+    """Judge all answers before an example ends."""
 
     @wraps(function)
     def example(lab: Any, **drawn: Any) -> None:
@@ -70,7 +70,7 @@ def between(low: int, high: int) -> st.SearchStrategy[int]:
 
 @contextmanager
 def kept_examples(function: Any, seed: int | None) -> Iterator[list[Example]]:
-    """Collect the examples that a property draws by its name and seed; other checks draw none."""
+    """Collect the examples that a property draws, by its name and seed."""
     examples: list[Example] = []
     if not hasattr(function, "hypothesis"):
         yield examples
@@ -91,5 +91,5 @@ def kept_examples(function: Any, seed: int | None) -> Iterator[list[Example]]:
 
 
 def number_of(text: str) -> int:
-    """Return the same number for a text in every process."""
+    """Hash a text to a number that is the same in every process."""
     return int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "big")

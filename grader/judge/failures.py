@@ -35,7 +35,7 @@ class Broke(Exception):
     ) -> None:
         super().__init__(got)
         self.ran, self.got, self.raised = ran, got, raised
-        self.late = late  # its time was over; then `got` has no words of the submission
+        self.late = late  # whether its time was over; then `got` has no words of the submission
 
 
 @dataclass(frozen=True)
@@ -44,11 +44,11 @@ class Failing:
 
     todo: Todo
     check: Check
-    again: Callable[..., None]  # runs the example that failed, in a lab
+    again: Callable[..., None]  # runs the failed example in a lab
     pieces: list[Piece]  # of the reference
     secret: str | None = None  # see secret_of
 
 
 def secret_of(seed: int | None, todo: Todo, check: Check) -> str | None:
-    """Return the text that a check's numbers depend on; None for the usual ones."""
+    """Return the text from which a check's numbers are made; None for the usual numbers."""
     return None if seed is None else f"{seed} {todo.id} {check.id}"

@@ -1,4 +1,4 @@
-"""Hash the grader: results stay valid as long as the hash does.
+"""Hash the grader: results stay valid while the hash is the same.
 
 A file counts if points may depend on it: the checks, the judge, the worker and shared files.
 Reports and commands do not count.
@@ -14,7 +14,7 @@ DECIDING = (  # of grader/
     *("checks", "judge", "source", "worker"),
     *("errors.py", "protocol.py", "text.py"),
 )
-READ = (".py", ".toml", ".json", ".ini")  # by Python and by the checks
+READ = (".py", ".toml", ".json", ".ini")  # loaded by Python and by the checks
 LIBRARIES = ("hypothesis", "msgspec", "pygame-ce", "pymunk", "pytest")
 
 

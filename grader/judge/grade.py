@@ -133,7 +133,7 @@ class Grading(Task):
     def put_given_code_back(self) -> "Mapping[Key, GivenCause]":
         """Run failed checks with changed given code undone; return the changes that matter.
 
-        If a TODO's own check passes then, it counts as passed.
+        A TODO's own check that passes then counts as passed.
         """
         from grader.judge.explain.blame import CauseSearch, find_changes, undo
 
@@ -167,10 +167,10 @@ class Grading(Task):
         return search.causes
 
     def pass_spoilt_scenes(self, todo: Todo) -> list[CheckResult]:
-        """Return the results of a TODO; a scene that another TODO spoils passes if the rest does.
+        """Return the results of a TODO; scenes that others spoil pass if all other checks do.
 
-        Another TODO spoils a scene if it is wrong and no right version could replace it, as in a
-        program without its function. The rest are the checks that run no such TODO, and for the
+        A TODO spoils a scene if it is wrong and no right version could replace it, as in a
+        program without its function. The other checks run no such TODO, and for the
         whole program also need none.
         """
         results = [self.loop.outcomes[todo.id, each.id].result for each in todo.checks]
@@ -182,7 +182,7 @@ class Grading(Task):
         rest = [r for r, ids in zip(results, spoilt, strict=True) if not ids]
         guards = {check.id for check in todo.checks if check.guard}
         if {each.id for each in rest} <= guards or any(r.state != "passed" for r in rest):
-            return results  # nothing of its own is right
+            return results  # none of its own checks passes
         return [pass_for_others(*pair) for pair in zip(spoilt, results, strict=True)]
 
 
@@ -201,7 +201,7 @@ def make_todo_result(
 
 
 def keeps_points(todo: Todo, names: "Names") -> bool:
-    """Return whether a TODO's function has the handed-out signature and only its own code."""
+    """Return whether a TODO has a function of its own, with the handed-out signature."""
     return bool(todo.path) and todo.path not in names.changed(todo.module)
 
 

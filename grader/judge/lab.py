@@ -45,7 +45,7 @@ from grader.protocol import (
 
 STEP = 1 / 120  # s
 ROUNDED = 1e-6  # ms
-Opening = tuple[int, Event | None]  # frames to wait, and the event that ends the title
+Opening = tuple[int, Event | None]  # frames to wait, and an event to end the title
 Frame = Mapping[Thing, str]  # the fields that may change, by their owner
 NOTHING: Frame = {}
 OURS = 1_000_000  # the judge numbers objects from here on, the child below
@@ -56,26 +56,26 @@ class Lab(Asker):
 
     def __init__(
         self,
-        module: str,  # that the check imports
+        module: str,  # the program that the check imports
         open_child: Callable[[], Child],
         pieces: list[Piece],
         send: Send = ask_child,
-        secret: str | None = None,  # of an instructor who has a seed
+        secret: str | None = None,  # of the instructor, if there is one
     ) -> None:
         super().__init__(Connection(module, open_child, pieces, send))
         self.drawn = None if secret is None else random.Random(secret)
         self.factor = self.about(1.0)  # for all numbers of one kind in a check, such as masses
         self.module = module
-        # The first forbidden change. It fails a check that would pass otherwise: a wrong answer
+        # The first forbidden change. It fails a check that would otherwise pass: a wrong answer
         # comes first.
         self.overstepped: NotYet | None = None
-        self.trespass = ""  # the message about it, if an answer is wrong as well
+        self.trespass = ""  # the message about it, if an answer is also wrong
         self.unforeseen = False  # the check itself raised an error
         self.numbers = count(OURS)  # for objects that the judge makes
         self.remembers: list[str] = []  # names that kept a value; see Remembered
-        self.played = False  # the child has run a program
+        self.played = False  # whether the child has run a program
         self.notes: list[str] = []  # sentences for the report of a check that passes
-        self.opening: Opening | None = None  # of a program that begins with a title
+        self.opening: Opening | None = None  # opening of a program that begins with a title
 
     @property
     def ended(self) -> bool:
@@ -89,7 +89,7 @@ class Lab(Asker):
 
     @contextmanager
     def opened(self) -> Iterator["Lab"]:
-        """End the child afterwards."""
+        """Use the lab, and end its child afterwards."""
         try:
             yield self
         finally:
@@ -134,10 +134,10 @@ class Lab(Asker):
         """Call `name` of the TODO's module, or `module:name`.
 
         `changes` names the fields that the call may change, as in {a: "vel"}; NOTHING is for a
-        function that only answers. Without `changes` nothing is compared. A function called `twice`
-        must give the same answer. See `overstepped`. The state of the things that it may change
-        comes with the answer, and that of the things in `sees`. `marks` are fields to set in the
-        returned contact afterwards. An exception is an observation of what is `noted`.
+        function that changes none. Without `changes` nothing is compared. A function called `twice`
+        must give the same answer. See `overstepped`. The answer
+        brings the state of the things that it may change and of those in `sees`. `marks` are
+        fields to set in the returned contact. An exception becomes an observation of `noted`.
         """
         named = {key: plain(value) for key, value in kwargs.items()}
         values = [plain(each) for each in args]
@@ -232,9 +232,9 @@ class Lab(Asker):
         return f"the {name_fields(change.name)} of {self.names.get(change.ref, 'another object')}"
 
     def advance(self, world: Thing, accumulator: float, seconds: float) -> "Advance":
-        """Call the program's `advance` for a frame of some seconds, in which no step runs.
+        """Call the program's `advance` for a frame so short that no step runs.
 
-        So it must not change anything.
+        It must not change anything.
         """
         target, args = f"{self.module}:advance", [plain(world), accumulator, seconds]
         request = Call(target, args, framed=True, stepping=True)
@@ -247,7 +247,7 @@ class Lab(Asker):
         return Advance(rest, returned.steps, returned.dts, said)
 
     def work(self, thing: Thing, method: str, *args: Any) -> int:
-        """Return the number of the submission's lines that run in a call of a method."""
+        """Count the submission's lines that run in a call of a method."""
         arguments = [plain(each) for each in args]
         return self._returned(Call(f"#{thing.ref}.{method}", arguments, work=True)).lines
 
@@ -466,7 +466,7 @@ class Lab(Asker):
         return reply
 
     def deal(self, number: int) -> None:
-        """Add a number to the seeds of the submission's random generators from now on."""
+        """From now on, add a number to the seeds of the submission's random generators."""
         self.connection.deal = number
         self.start_anew()
 
@@ -491,7 +491,7 @@ def first_step(played: Played) -> int | None:
 
 
 def starts_at_once(played: Played) -> bool:
-    """Return whether the first step runs before a person would notice that nothing moves."""
+    """Return whether the first step runs before a person would notice a delay."""
     first = first_step(played)
     return first is not None and (first == 0 or played.clock[first - 1] <= IDLE)
 

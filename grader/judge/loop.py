@@ -20,7 +20,7 @@ from grader.judge.task import Task
 from grader.judge.verdict import make_result, refuse, word_failure
 from grader.source.flaws import Flaw
 
-IMPORT_CPU = 10  # s of processor time, to import a program
+IMPORT_CPU = 10  # s of processor time for importing a program
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class CheckLoop:
         self.helpers: list[Opener] = [each.open_child for each in beside]
         self.outcomes: dict[Key, Outcome] = {}
         self.unusable: dict[str, Broke | NotYet] = {}  # by module: why it cannot be imported
-        self.wrong_check = ""  # checks that the reference fails as well, and how
+        self.wrong_check = ""  # how the reference fails a check too; empty if it does not
         self.passed: PassedPrograms | None = None
         if options.trusted and not grading.surveys_all:
             self.passed = options.passed
@@ -90,7 +90,7 @@ class CheckLoop:
                 self.passed.add(key)
 
     def _judge(self, job: Job, known: bool, ahead: "Future[EarlyOutcome] | None") -> None:
-        """Judge a check, without running it if the program is `known` to have passed it."""
+        """Judge a check; skip the run if the program is `known` to have passed it."""
         result = self._find_blocked(job)
         if result is None and known:
             result = make_result(job, "passed")
@@ -124,7 +124,7 @@ class CheckLoop:
         return None
 
     def _flaw_of(self, job: Job) -> Flaw | None:
-        """Return the reason why Python refuses the code that a check is about."""
+        """Return the reason why Python refuses the code of a check's TODO."""
         if job.todo.function:
             return self.submission.flaws.get(job.todo.id)
         return self.submission.outside.get(job.module)
@@ -133,7 +133,7 @@ class CheckLoop:
 
     @contextmanager
     def _run_ahead(self, jobs: list[Job]) -> "Iterator[dict[Key, Future[EarlyOutcome]]]":
-        """Let helpers run checks from the last, while the loop starts from the first.
+        """Let helpers run checks from the last one back, while the loop starts from the first.
 
         Each has a copy of the budget. If the loop's budget turns out to differ, the check runs
         again: marks do not depend on how many run at a time.
@@ -188,7 +188,7 @@ class CheckLoop:
         return found
 
     def replace_answers(self, answers: Mapping[Key, list[Observation]]) -> None:
-        """Use other answers for some checks; other observations of their TODOs do not count."""
+        """Replace the answers of some checks; other observations of their TODOs do not count."""
         for key, some in answers.items():
             self.outcomes[key].answers = some
         for todo in {todo for todo, _ in answers}:
@@ -202,9 +202,9 @@ class CheckLoop:
 
     @property
     def replaceable(self) -> frozenset[str]:
-        """Return the TODOs that have failed: the whole runs with right versions of them.
+        """Return the failed TODOs: the whole runs with right versions of them.
 
-        Return none if all started TODOs have failed: such a program shows nothing of its own.
+        Return none if all started TODOs have failed: the program would have nothing of its own.
         """
         failed = {id for (id, _), each in self.outcomes.items() if each.result.state != "passed"}
         begun = [todo.id for todo in self.rubric.main_todos if self.submission.begun.get(todo.id)]

@@ -2,14 +2,14 @@
 
 import re
 
-NOISE = 1e-12  # of rounding; no check asks for smaller numbers
+NOISE = 1e-12  # maximum of rounding errors; no check asks for smaller numbers
 MAX_WHOLE = 12  # digits before the point
-MAX_DIGITS = 9  # digits, if they distinguish *Expected* from *Got*
+MAX_DIGITS = 9  # digits, enough to distinguish *Expected* from *Got*
 NUMBER = re.compile(r"(?<![\w.])-?\d+(?P<rest>\.\d+)?(?P<power>e[-+]?\d+)?(?![\w]|\.\d)")
 
 
 def shorten_both(expected: str, got: str) -> tuple[str, str]:
-    """Return *Expected* and *Got* with short numbers; if they differ, they still do."""
+    """Shorten the numbers of *Expected* and *Got*, but keep differing ones different."""
     for digits in (MAX_DIGITS, 17):
         short = shorten_numbers(expected, digits), shorten_numbers(got, digits)
         if short[0] != short[1] or expected == got:

@@ -1,7 +1,7 @@
 """Remember the programs that have passed all checks of a TODO, so that none runs twice.
 
-With the reference's code in the other TODOs, many submissions become the same program: one with
-only TODO 4 wrong runs the solution everywhere else. This is only for the user's own work and for
+With the reference's code in the other TODOs, many submissions become the same program: if only
+TODO 4 is wrong, all other checks run the solution. This is only for the user's own work and for
 the bank: another program could read its own files and behave differently.
 """
 

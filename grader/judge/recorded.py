@@ -1,4 +1,4 @@
-"""Look up recorded answers, which a student's copy of the checks has instead of closed forms.
+"""Look up recorded answers: a student's copy of the checks has them instead of closed forms.
 
 The code of some right answers would give away a TODO, and so would the code of known mistakes. A
 release calls both with all possible inputs of the checks, and writes the answers to `recorded.json`
@@ -15,14 +15,14 @@ from msgspec import Struct
 
 from grader.judge.rubric import CHECKS
 
-Answers = dict[str, Any]  # by the `key` of their inputs
+Answers = dict[str, Any]  # answers, by the `key` of their inputs
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-oracles: dict[str, tuple[Sequence[float], ...]] = {}  # name -> the values of each argument
+oracles: dict[str, tuple[Sequence[float], ...]] = {}  # oracle -> the values of each argument
 
 
 class RecordedMistake(Struct, frozen=True):
-    """A known mistake and its answers; without an answer it is undecided."""
+    """A known mistake and its answers; it is undecided about other questions."""
 
     todo: str
     id: str
@@ -87,7 +87,7 @@ def load_recorded() -> RecordedAnswers | None:
 
 
 def answer(name: str, *inputs: Any) -> Any:
-    """Return the recorded answer of an oracle; a student's copy calls this instead of it."""
+    """Return an oracle's recorded answer; a student's copy calls this instead of the oracle."""
     table = load_recorded()
     answers = table.oracles.get(name, {}) if table else {}
     if key(inputs) not in answers:

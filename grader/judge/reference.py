@@ -16,11 +16,11 @@ from grader.protocol import Piece
 from grader.source.definitions import Function, Program
 from grader.source.regions import python_files, read_source, shape_of
 
-Source = tuple[Path, str]  # a file, named from the tree's folder, and its text
+Source = tuple[Path, str]  # a file's path in the tree, and its text
 
 
 class Reference:
-    """A complete tree, read as text; empty without one, so that no TODO is isolated."""
+    """A complete tree, read as text; if empty, no TODO is isolated."""
 
     def __init__(self, folder: Path | None, rubric: Rubric) -> None:
         self.todos = rubric.todos
@@ -43,7 +43,7 @@ class Reference:
             self.pieces[todo.id], self.shapes[todo.id] = found[todo.function]
 
     def is_that_of(self, submission: Submission, todo: Todo) -> bool:
-        """Return whether a submission has the reference's code for a TODO; for the whole, all."""
+        """Return whether a submission has the reference's code for a TODO, or for the whole."""
         asked = [todo.id] if todo.function else [each.id for each in self.todos if each.function]
         mine = [submission.functions.get(id) for id in asked]
         return bool(self.shapes) and mine == [self.shapes.get(id) for id in asked]
@@ -57,11 +57,11 @@ class Reference:
         failed: frozenset[str] = frozenset(),
         differing: bool = True,
     ) -> list[Piece]:
-        """Return the right versions of other TODOs in `module` that the checks of a TODO get.
+        """Return the right versions of other TODOs in `module` for the checks of a TODO.
 
         A TODO gets those of all others. The whole gets those of TODOs that have `failed`, of bonus
-        tasks, and of given TODOs, which `rubric` omits. An unstarted bonus task does nothing, and
-        stays. `differing`: only those that the submission does not have in the same words.
+        tasks, and of given TODOs, which `rubric` omits. Unstarted bonus tasks do nothing, and
+        stay. `differing`: only versions whose text differs from the submission's.
         """
         asked = {each.id for each in rubric.todos}
 
@@ -85,7 +85,7 @@ class Reference:
 
 
 def drop_function(function: str, piece: Piece) -> Piece:
-    """Return a piece without this function, which the check tests.
+    """Return a piece of code without this function, which the check tests.
 
     A piece includes the functions that it calls, and a child can read everything sent to it.
     """

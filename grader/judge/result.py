@@ -12,11 +12,15 @@ State = Literal["passed", "not yet", "not started", "waiting", "error"]
 Kind = Literal["unit", "property", "scene"]
 
 MAX_JSON = 1_000_000  # bytes of a result; a hundred checks take 30 KB
-TEXT_LENGTHS = (2000, 500, 50)  # characters of each text; the first that makes a result fit
+TEXT_LENGTHS = (
+    2000,
+    500,
+    50,
+)  # characters of each text: the first with which the result fits
 TEXTS = ("ran", "expected", "got", "meaning")
 MAX_FILE = 255  # characters of a file's name
 
-FAILED: tuple[State, ...] = ("not yet", "error")  # it ran, and did not pass
+FAILED: tuple[State, ...] = ("not yet", "error")  # states of a check that ran and failed
 
 
 class Where(Struct, frozen=True, omit_defaults=True):
@@ -40,7 +44,7 @@ class CheckResult(Struct, frozen=True):
     meaning: str = ""
     where: Where | None = None
     replay: str | None = None
-    printed: str | UnsetType = UNSET  # by the submission; only in checks of the user's own work
+    printed: str | UnsetType = UNSET  # by the submission; only for the user's own work
 
     @property
     def failed(self) -> bool:
@@ -71,7 +75,7 @@ class TodoResult(Struct, frozen=True):
 
     @property
     def bonus(self) -> bool:
-        """Return whether its points are not part of the result's."""
+        """Return whether it is a bonus task, whose points count apart."""
         return is_bonus(self.id)
 
     @property
@@ -144,7 +148,7 @@ class Result(Struct, frozen=True):
 
 
 def state_of(checks: list[CheckResult]) -> State:
-    """Return "passed" if all checks are, else the most important of their states."""
+    """Return "passed" if all checks passed, otherwise their most important state."""
     states = {check.state for check in checks}
     order: list[State] = ["error", "not yet", "waiting", "not started"]
     for state in order:

@@ -15,20 +15,20 @@ class Check(Struct, frozen=True, forbid_unknown_fields=True):
     id: str  # the name of a function in the TODO's file of checks
     points: int
     kind: Kind
-    module: str = ""  # that it imports, if not the TODO's module
+    module: str = ""  # the program that it imports, if not the TODO's module
     guard: bool = False  # a stub may pass it too: it counts once another check of the TODO passes
     needs: list[str] = []  # TODOs that must pass first
     runs: list[str] = []  # other TODOs that its scene runs, which it does not test
-    cpu_seconds: int = 5  # budget of one child; the reference needs about a twentieth
-    hidden: bool = False  # not in the students' copy: it needs the right code
+    cpu_seconds: int = 5  # for one child; the reference needs about a twentieth
+    hidden: bool = False  # whether the students' copy lacks it, as it needs the right code
 
 
 class Todo(Struct, frozen=True, forbid_unknown_fields=True):
     id: str
     title: str
-    module: str  # that its checks import
-    function: str  # that contains the TODO, as module:name; empty for the whole
-    folder: str  # below checks/, with its checks and known mistakes
+    module: str  # the program that its checks import
+    function: str  # the function with the TODO, as module:name; empty for the whole
+    folder: str  # in checks/, with its checks and known mistakes
     checks: list[Check]
     hints: list[str] = []  # a question, the idea, nearly the code; the whole has none
     hidden_points: int = 0  # in a student's copy: the points of the checks that it lacks
@@ -49,7 +49,7 @@ class Todo(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def bonus(self) -> bool:
-        """Return whether full marks need none of its points."""
+        """Return whether it is a bonus task: full marks need none of its points."""
         return is_bonus(self.id)
 
     @property

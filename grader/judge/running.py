@@ -21,10 +21,10 @@ from grader.judge.verdict import last_lines, make_result, word_failure
 from grader.judge.wall.children import Child
 from grader.protocol import Piece
 
-DIGITS = re.compile(r"[-\d.e]+")  # differences between two examples of one question
+DIGITS = re.compile(r"[-\d.e]+")  # changes tried between two examples of one question
 COST = {"unit": 0, "scene": 1, "property": 2}  # kinds of checks, the longest last
 SURVEY_CPU = 2  # s of processor time, for a survey
-BRIEF = 1.0  # s of processor time: only a check that took less is surveyed
+BRIEF = 1.0  # s of processor time: only quicker checks are surveyed
 
 Opener = Callable[[int], Child]  # takes the budget in processor seconds
 
@@ -33,12 +33,12 @@ Opener = Callable[[int], Child]  # takes the budget in processor seconds
 class Conditions:
     """The conditions under which a check runs."""
 
-    isolated: bool = False  # the reference replaces the other TODOs
-    on_reference: bool = False  # the reference runs instead of the submission
-    surveys: bool = False  # the check continues after a failure, to ask everything
-    watched: bool = False  # the child notes which names keep a value from call to call
+    isolated: bool = False  # whether the reference replaces the other TODOs
+    on_reference: bool = False  # whether the reference runs instead of the submission
+    surveys: bool = False  # whether the check continues after a failure, to ask everything
+    watched: bool = False  # whether the child notes names that keep a value from call to call
     opener: Opener | None = None  # opens children of another tree
-    cpu_for_words: int = 0  # s; the run only affects messages, and has its own budget
+    cpu_for_words: int = 0  # s, the own budget of a run that only affects messages
 
 
 @dataclass
@@ -47,10 +47,10 @@ class Outcome:
 
     job: Job
     result: CheckResult
-    failed: bool = False  # it can run again, and it failed in its turn
-    observations: list[Observation] = field(default_factory=list)  # of the run that counts
-    answers: list[Observation] = field(default_factory=list)  # of the program as it is
-    fails_in: str | None = None  # the TODO it fails in first; empty for an unknown one
+    failed: bool = False  # set if it failed in its turn and can run again
+    observations: list[Observation] = field(default_factory=list)  # answers of the run that counts
+    answers: list[Observation] = field(default_factory=list)  # answers of the unchanged program
+    fails_in: str | None = None  # the TODO in which it fails first; empty if unknown
     lab: Lab | None = None  # of the failed run
     failing: Failing | None = None  # to run it once more for a replay
 
@@ -67,9 +67,9 @@ class Runner:
     def run(self, job: Job) -> Outcome:
         """Run a check with the reference's code in the other TODOs, then the unchanged program.
 
-        The words about a failure come from the program as it is. A submission could read a
-        reference that it was sent, and its answers could reveal it. A check that ran out of time
-        does not run again.
+        The words about a failure come from the unchanged program: a submission could read the
+        reference that it was sent, and reveal it in its answers. A check that ran out of time does
+        not run again.
         """
         lab, example = self._attempt(job, Conditions(isolated=True))
         alone = lab
@@ -136,9 +136,9 @@ class Runner:
     # ------------------------------------------------------------ properties
 
     def _attempt(self, job: Job, how: Conditions) -> tuple[Lab, Example]:
-        """Return a lab in which the check ran, and the example that ran last.
+        """Run a check; return its lab, and the example that ran last.
 
-        A property draws the same examples for every submission. So those that another submission
+        A property draws the same examples for every submission, so examples that another submission
         passed run first. Only if one fails, hypothesis searches for the simplest.
         """
         seed = self.grading.options.seed
@@ -161,7 +161,7 @@ class Runner:
     # ------------------------------------------------------------ once more
 
     def run_again(self, job: Job, opener: Opener) -> Lab:
-        """Run a check in other children; the observations are those of the program as it is."""
+        """Run a check in other children; return observations of the unchanged program."""
         with kept_examples(job.function, self.grading.options.seed):
             lab = self._ask(job, job.function, Conditions(isolated=True, opener=opener))
             if lab.connection.pieces:
@@ -170,7 +170,7 @@ class Runner:
             return lab
 
     def do_pass(self, outcomes: Iterable[Outcome], failed: Collection[str], opener: Opener) -> bool:
-        """Return whether checks of a TODO pass in other children, which have little time.
+        """Return whether checks of a TODO pass in other children, within little time.
 
         The checks in `failed`, by id, must pass, and those that passed before.
         """
@@ -193,7 +193,7 @@ class Runner:
     # ------------------------------------------------------------ one run
 
     def _ask(self, job: Job, example: Example, how: Conditions) -> Lab:
-        """Return a lab in which the check ran."""
+        """Run a check; return its lab."""
         secret = secret_of(self.grading.options.seed, job.todo, job.check)
         pieces = self.find_pieces(job.todo, job.module) if how.isolated else []
         lab = Lab(job.module, lambda: self._open_child(job, how), pieces, secret=secret)
@@ -242,7 +242,7 @@ class Runner:
         )
 
     def _todo_of(self, failure: NotYet | Broke) -> str:
-        """Return the TODO in whose function an error was raised; empty if that is unknown."""
+        """Return the TODO whose function raised an error; empty if unknown."""
         raised = failure.raised if isinstance(failure, Broke) else None
         names = [frame.function for frame in reversed(raised.frames)] if raised else []
         by_name = {todo.function_name: todo.id for todo in self.grading.rubric.todos}
@@ -250,7 +250,7 @@ class Runner:
 
 
 def choose_lab(first: Lab, alone: Lab) -> Lab:
-    """Return the lab to report, after its last example ran alone in another child.
+    """Run the last example alone in another child; return the lab to report.
 
     If the two differ, the answer depends on earlier questions, and its numbers mean nothing.
     """
@@ -268,9 +268,9 @@ def choose_lab(first: Lab, alone: Lab) -> Lab:
 
 
 def fails_elsewhere(isolated: NotYet | Broke, alone: NotYet | Broke) -> bool:
-    """Return whether a check fails before the question in which it fails when isolated.
+    """Return whether the program fails at an earlier question than the isolated TODO.
 
-    In the same question, an error from another function may come first.
+    At the same question, an error from another function may come first.
     """
     if DIGITS.sub("", isolated.ran) != DIGITS.sub("", alone.ran):
         return True

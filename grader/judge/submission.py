@@ -36,9 +36,9 @@ from grader.source.regions import (
 from grader.source.repair import OUTSIDE, HandedOut, Repairer
 
 MAX_FILES = 500
-MAX_SEEN = 20_000  # files and folders that are listed
-MAX_COPIES = 20  # files beside the programs that are read
-MAX_DEPTH = 40  # folders in each other
+MAX_SEEN = 20_000  # maximum of files and folders
+MAX_COPIES = 20  # maximum of files to read beside the programs
+MAX_DEPTH = 40  # maximum depth of folders
 ENDLESS = f"it has more than {MAX_SEEN} files and folders, or {MAX_DEPTH} folders in each other"
 FULL = {errno.ENOSPC, errno.EDQUOT}  # faults of our disk, and not of the submission
 COPY = "TODO {id} is written in {copy}, which no program runs: the code belongs in {file}."
@@ -85,13 +85,13 @@ class Submission:
     uses_numpy: bool = False
     flaws: dict[str, Flaw] = field(default_factory=dict)  # by TODO: its code is not Python
     outside: dict[str, Flaw] = field(default_factory=dict)  # by program: other code is not Python
-    starts: dict[str, Where] = field(default_factory=dict)  # file of each program's main
+    starts: dict[str, Where] = field(default_factory=dict)  # the file with each program's main
     program: Program = field(default_factory=lambda: Program({}))  # all of its Python files
     supplied: list[str] = field(default_factory=list)  # given files that it lacks
-    remarks: dict[str, str] = field(default_factory=dict)  # by TODO: why no code counts for it
+    remarks: dict[str, str] = field(default_factory=dict)  # by TODO: the reason why no code counts
 
     def holds(self, file: str) -> bool:
-        """Return whether it has a file of this name, which may come from a child."""
+        """Return whether it has a file of this name; the name may come from a child."""
         inside = PurePosixPath(file)
         safe = not inside.is_absolute() and ".." not in inside.parts and file.isprintable()
         with suppress(OSError):  # such as a name that is too long for any file
@@ -170,7 +170,7 @@ def supply_given(folder: Path) -> Iterator[str]:
         hidden = (folder / f"{package}.py").exists() and not own_package
         target = folder / name
         found = next(each for each in (target, *target.parents) if each.exists())
-        if not found.is_dir() or found == target:  # the file, or something else of its name
+        if not found.is_dir() or found == target:  # the file, or a folder of its name
             continue
         if "/" in name and (hidden or not (folder / package).is_dir()):
             continue
@@ -400,7 +400,7 @@ def note_remarks(
 def find_copies(
     submission: Submission, ids: set[str], stubs: dict[str, str], texts: dict[Path, str]
 ) -> dict[str, Path]:
-    """Return by TODO a file that no program loads, with other code than the stub."""
+    """Return by TODO a file that no program loads and whose code is not the stub."""
     program = submission.program
     modules = dict.fromkeys(todo.module for todo in load_rubric().todos)
     loaded = {program.paths[part] for module in modules for part in program.list_loaded(module)}
@@ -415,7 +415,7 @@ def find_copies(
 
 
 def first_code_line(region: Region) -> int:
-    """Return the number of a region's first line of code, or of its first line."""
+    """Return the number of a region's first line of code, or else of its first line."""
     code = (number for number, line in enumerate(region.lines) if not is_comment(line))
     return region.start + 2 + next(code, 0)
 

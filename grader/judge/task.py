@@ -1,4 +1,4 @@
-"""The task of a grade: its options, the submission, the reference, and ways to open children."""
+"""The task of a grade: its options, submission and reference, and ways to open children."""
 
 import os
 import tempfile
@@ -74,7 +74,7 @@ def shipped_reference() -> Path | None:
 
 @dataclass
 class Task:
-    """A submission, and all that it is graded with."""
+    """A submission, and everything needed to grade it."""
 
     options: Options
     rubric: Rubric

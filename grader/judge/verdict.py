@@ -12,11 +12,11 @@ from grader.judge.submission import Submission, load_given
 from grader.protocol import CodeLine, cut
 from grader.source.flaws import Flaw
 
-# An import of a name that a file of theirs does not define.
+# An import of a name that the student's file does not define.
 LACKING = re.compile(r"^ImportError: cannot import name .* from '[\w.]+' \((?P<file>[\w/]+\.py)\)")
 INSTEAD = "The handed-out code replaced it, so that the rest could be checked."
-MOST_UNREAD = 3  # files that are named as too long
-GIVEN_PRINTS = ("Fixed steps:", "Pendulum length", "Bodies:", "Box stack")  # as given code ends
+MOST_UNREAD = 3  # maximum of named files that are too long
+GIVEN_PRINTS = ("Fixed steps:", "Pendulum length", "Bodies:", "Box stack")  # endings of given code
 MOST_PRINTED, MAX_PRINTED = 3, 60  # printed lines that are shown, and letters of each
 
 
@@ -73,7 +73,7 @@ def is_given(todo: Todo, frame: CodeLine) -> bool:
 
 
 def last_lines(output: str) -> str:
-    """Return the last printed lines, on one line; the failure came last."""
+    """Return the last printed lines, which came before the failure, as one line."""
     lines = [line.strip() for line in output.splitlines() if line.strip()]
     lines = [cut(each, MAX_PRINTED) for each in lines if not each.startswith(GIVEN_PRINTS)]
     shown = " | ".join(lines[-MOST_PRINTED:])

@@ -17,7 +17,7 @@ MEANINGS: dict[State, str] = {
     "waiting": "something else must pass first; the line below it says what",
     "error": "the code raised an error, or gave no answer",
 }
-NAMES = 10  # columns up to the words of *Got* and the like
+NAMES = 10  # columns before the words of *Got* and other labels
 
 
 # ---------------------------------------------------------------- why a check failed
@@ -54,7 +54,7 @@ def add_task(todo: TodoResult, title: str) -> str:
 
 
 def task_of(todo: TodoResult) -> str:
-    """Return the words after a place to look at; the whole program is no TODO."""
+    """Return the words after a line to look at; the whole program is no TODO."""
     return "" if todo.id == "whole" else f", TODO {todo.id}"
 
 
@@ -75,7 +75,7 @@ def points_in_words(result: Result) -> str:
 
 
 def hidden_points_note(result: Result) -> str:
-    """Mention the points that a student's copy lacks checks for; empty if it lacks none."""
+    """Mention the points of checks that a student's copy lacks; empty if it lacks none."""
     here = {todo.id for todo in result.todos}
     points = sum(todo.hidden_points for todo in load_rubric().main_todos if todo.id in here)
     words = f"Your instructor runs more checks, for {plural(points, 'more point')}."

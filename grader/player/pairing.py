@@ -106,7 +106,7 @@ def make_scene(yours: Run, expected: Run, rows: Sequence[PairedRequest]) -> Scen
 
 
 def list_tolerances(speed: float) -> list[Tolerance]:
-    """Return what is visible, the same with other masses, and what rounding does not explain.
+    """Return tolerances for visible differences, for these with other masses, and for rounding.
 
     The effect of another mass is visible only later. `speed` is the highest of both runs, px/s.
     """

@@ -67,7 +67,7 @@ class Recorder:
     _is_full: bool = False
 
     def begin_scene(self, text: str) -> None:
-        """Begin another experiment, described by `text`."""
+        """Begin the scene of another experiment, described by `text`."""
         self.experiment = text
         self._new_scene = self._new_run = True
         self.translator.begin_scene()
@@ -233,7 +233,7 @@ def list_answers(reply: Reply) -> list[Value]:
 
 
 def draw_curve(request: Integrate, answers: list[Value]) -> list[Moment]:
-    """Return an integrator's x and v over the time, as the one body of the picture."""
+    """Draw an integrator's x and v over time: the curve is the picture's only body."""
     states = [Vec(request.x, request.v)]
     states += [each for each in answers[: request.steps] if isinstance(each, Vec)]
     return [

@@ -76,7 +76,7 @@ class Translator:
         self.makers.clear()
 
     def translate(self, request: Request, reply: Reply) -> list[str]:
-        """Return the code of a request; `recalled` is the code that must stand before it."""
+        """Return the code of a request; `recalled` is code that must come before it."""
         self.recalled = []
         code = self._translate(request, reply)
         made = list_refs(reply.value) if isinstance(reply, Returned) else []
@@ -141,7 +141,7 @@ class Translator:
     # ------------------------------------------------------------ names
 
     def name(self, ref: int) -> str:
-        """Return the name of an object; an object of an earlier scene is made again."""
+        """Return the name of an object; make objects of earlier scenes again."""
         if ref not in self.names and ref in self.makers:
             exchanges = self.makers.pop(ref)  # so that it cannot ask for itself
             for request, reply in exchanges:
@@ -313,7 +313,7 @@ def write_script(
 
 
 def end_with_answer(steps: Sequence[Step]) -> Sequence[Step]:
-    """Leave out what a check set after the last answer, which is the one that it judged."""
+    """Leave out changes that a check made after the last answer, the one it judged."""
     last = len(steps)
     while last and isinstance(steps[last - 1].request, Set) and steps[last - 1].silent:
         last -= 1
@@ -369,7 +369,7 @@ def print_form(code: str) -> str:
 
 
 def signature_of(request: Request) -> str:
-    """Describe a request without its numbers and objects, in which two runs may differ."""
+    """Describe a request without numbers and objects, since these may differ between runs."""
     match request:
         case Integrate(target):
             return f"integrate {target}"

@@ -53,7 +53,7 @@ class Change:
 
 
 def measure_rise(film: Film) -> float:
-    """Return the sum of the balls' visible rises; 1 is 100 px."""
+    """Return the sum of the balls' visible rises, in units of 100 px."""
     return sum(each for ball in film.loose for each in list_rises(film, ball) if each > SEEN) / 100
 
 
@@ -71,7 +71,7 @@ def list_rises(film: Film, ball: int) -> Iterator[float]:
 
 
 def measure_turning(film: Film) -> float:
-    """Return the sum of the balls' turns, in both directions; 1 is a turn."""
+    """Return the sum of the balls' turns in both directions, in whole turns."""
     angles = ([film.angle(row, ball) for row in range(len(film.rows))] for ball in film.loose)
     return sum(abs(b - a) for each in angles for a, b in pairwise(each)) / (2 * math.pi)
 

@@ -48,7 +48,7 @@ class SheetResult:
 
 @dataclass(frozen=True)
 class Making:
-    """The way sheets are made, and where they go."""
+    """Options for making sheets, and their folder."""
 
     out: Path
     options: Options

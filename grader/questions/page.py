@@ -22,7 +22,7 @@ def make_page(sheet: Sheet, title: str, kind: PageKind) -> str:
 
 
 def mark_up(text: str, tag: str = "p") -> Markup:
-    """Mark up a text: a paragraph for each line, and its code as code; all else is plain text."""
+    """Mark up a text: paragraphs for lines, and code for backticks; the rest is plain text."""
     paragraphs = [mark_up_code(clean_line(line)) for line in text.splitlines()]
     if not tag:
         return Markup(" ").join(paragraphs)

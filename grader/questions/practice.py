@@ -1,4 +1,4 @@
-"""Practise at home: a release has some numbers instead of the code that computes them.
+"""Practise at home: a release has recorded numbers instead of the code that computes them.
 
 The cases of *predict a number* are closed forms, some of which would give away a TODO. So a release
 draws some of each, computes the answers by closed form and by the solution, and writes them to

@@ -34,7 +34,7 @@ class CannotAsk(Exception):
 
 @dataclass(frozen=True)
 class Text:
-    """A function as it is in a file of a tree."""
+    """A function's source in a file of a tree."""
 
     file: str
     first: int  # its lines, counted from 1

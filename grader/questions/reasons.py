@@ -21,7 +21,7 @@ MOST_QUOTED = 160  # characters of a line
 
 
 class Reason(Struct, frozen=True, forbid_unknown_fields=True):
-    """A question about the first line that one of some patterns fits; see reasons.toml."""
+    """A question about the first line that matches one of its patterns; see reasons.toml."""
 
     name: str
     text: str

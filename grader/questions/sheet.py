@@ -80,7 +80,7 @@ def explain_refusal(error: Exception) -> str:
 
 
 def take_turns(makers: Iterable[Asks], program: Program) -> Iterator[Asks]:
-    """Yield makers whose TODOs are all right: the first of each slot, then the second of each.
+    """Yield makers whose TODOs are all right: the first of each slot, then each second one.
 
     A maker whose TODOs were already used comes after all others, so that a sheet repeats a TODO
     only if nothing else is left. No question is only about a given TODO.

@@ -114,7 +114,7 @@ def build(
     extra = [folders[each] for each in EXTRA]
     lock = strip_build_packages((KIT / "requirements.txt").read_text(encoding="utf-8"))
     content = hash_folders([copy, tree, *extra], lock)
-    version = f"{__version__}+r{content[:8]}"  # pip replaces the last one by it
+    version = f"{__version__}+r{content[:8]}"  # pip then installs this one
     wheel = build_wheel(copy, version, tree)
     requirements = f"{lock}./{wheel.name} --hash=sha256:{sha256(wheel.read_bytes())}\n"
     (tree / "requirements.txt").write_text(requirements, encoding="utf-8", newline="\n")
@@ -136,7 +136,7 @@ def build(
 def prove_built(
     built: Path, package: Path, tree: Path, course: Course = FULL, record: Record = record_anew
 ) -> None:
-    """Check what students get, unless the same bytes were checked before."""
+    """Check the student files, unless the same bytes were checked before."""
 
     def check() -> bytes:
         prove(package, tree, course)
@@ -159,7 +159,7 @@ def write_right_runs(copy: Path, course: Course, record: Record) -> None:
 
 
 def sort_files(course: Course) -> dict[str, dict[str, bytes]]:
-    """Return what students get, by archive, without pages, wheel and requirements."""
+    """Return the student files by archive, without pages, wheel and requirements."""
     notebooks = make_notebooks(KIT / "starter" / "notebooks", course)
     files = make_students_tree(KIT, course) | {f"notebooks/{n}": notebooks[n] for n in notebooks}
     found: dict[str, dict[str, bytes]] = {"lab": {}, "engines": {}, "ci": {}}

@@ -26,7 +26,7 @@ ROW = re.compile(rf"^\| \[?({TODO_ID})(?:\]\([^)]*\))? \|")
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([\w./-]+\.md)(?:#[\w-]*)?\)")
 WHAT = ("**What.** ", "**How.** ")  # paragraphs of a section that say what to do
 NOT_YET = "**Watch out.**"  # later parts follow
-PARTS = re.compile(r"(?m)^(?=- |\||python |```|\n)|(?<=\n\n)")  # of a page: items, rows, paragraphs
+PARTS = re.compile(r"(?m)^(?=- |\||python |```|\n)|(?<=\n\n)")  # items, rows, paragraphs
 
 pages = Environment(
     block_start_string="<!--%",
@@ -39,7 +39,7 @@ pages = Environment(
     lstrip_blocks=True,
     keep_trailing_newline=True,
     undefined=StrictUndefined,
-    autoescape=False,  # Markdown, written by ourselves
+    autoescape=False,  # Markdown of our own
 )
 
 

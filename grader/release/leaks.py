@@ -1,8 +1,8 @@
 """Look for the solution in everything that students get, inside archives as well.
 
-A secret is a statement of a TODO region as a list of tokens, where names chosen by students match
-any name. So it is found with other names and layout, in pages and notebooks. Statements that given
-code contains, or that are too short, are no secrets.
+A secret is a statement of a TODO region as a list of tokens, in which names that students choose
+match any name. So it is found under other names and layouts, in pages and notebooks. Statements
+that are in given code, or too short, are no secrets.
 """
 
 import ast
@@ -27,7 +27,7 @@ from grader.source.definitions import statements
 from grader.source.regions import python_files, read_source, regions_in, replace_regions
 
 WORD = re.compile(r"[^\W\d]\w*|\d+(?:\.\d+)?|\*\*|//|<=|>=|==|!=|[-+*/]=|\S")
-NAME = r"[^\W\d]\w*(?: \. [^\W\d]\w*)*"  # any name, also one with dots
+NAME = r"[^\W\d]\w*(?: \. [^\W\d]\w*)*"  # any name, also with dots
 TELLING, NAMELESS = 6, 8  # tokens; shorter code is no secret, without and with names
 FIXED = re.compile(r"\w+|[-+*/]=?|\*\*")  # tokens other than brackets
 LONG = 30  # characters of a line of a hidden check
@@ -38,9 +38,9 @@ MARKED = re.compile(r"### BEGIN (SOLUTION|HIDDEN TESTS)\n(.*?)### END \1", re.S)
 @dataclass(frozen=True)
 class Secret:
     what: str  # such as: TODO 4
-    text: str  # as it stands in the kit
-    pattern: re.Pattern[str]  # its pattern in a row of tokens
-    anchor: str  # the longest part that is in every copy
+    text: str  # its text in the kit
+    pattern: re.Pattern[str]  # its pattern in a Row
+    anchor: str  # the longest part that all copies share
 
     def find_in(self, row: "Row") -> Iterator[re.Match[str]]:
         return self.pattern.finditer(row.words) if self.anchor in row.words else iter(())
@@ -99,7 +99,7 @@ def read_texts(name: str, data: bytes) -> Iterator[tuple[str, str]]:
                 yield from read_texts(f"{name}/{each}", archive.read(each))
         return
     text = data.decode("utf-8", "replace").replace("\r\n", "\n")
-    if suffix in (".html", ".svg"):  # as it is, and as it is shown
+    if suffix in (".html", ".svg"):  # as written and as displayed
         yield name, html.unescape(re.sub(r"<[^>]*>", "", text))
     elif suffix in (".json", ".ipynb"):
         text = "\n".join(read_strings(json.loads(text)))
@@ -133,7 +133,10 @@ def find_secrets(kit: Path, course: Course = FULL) -> list[Secret]:
     found: dict[str, list[Secret]] = {}
     for known, searched in (
         (everything, find_notebook_secrets(solution / "notebooks", course)),
-        (programs, find_region_secrets(solution, asked)),  # added files must not contain any of it
+        (
+            programs,
+            find_region_secrets(solution, asked),
+        ),  # added files must contain none of it
     ):
         for candidates in searched:
             for each in candidates:
@@ -215,7 +218,7 @@ def find_notebook_secrets(folder: Path, course: Course) -> Iterator[list[Secret]
 def find_statement_secrets(
     what: str, source: str, scope: ast.FunctionDef | ast.Module, within: range
 ) -> Iterator[list[Secret]]:
-    """Yield the secrets of each statement: its value, itself, and itself with its own names."""
+    """Yield the secrets of each statement: its value, and itself with any names and its own."""
     chosen = find_chosen_names(scope)
     for node in ast.walk(scope):
         if isinstance(node, ast.stmt) and node.lineno in within:
@@ -281,7 +284,7 @@ def make_secret(what: str, text: str, chosen: set[str]) -> Secret:
 
 
 def find_hidden_secrets(rubric: Rubric) -> Iterator[Secret]:
-    """Yield the names of the hidden checks, and the lines only they use."""
+    """Yield the names of the hidden checks, and lines that only they use."""
     for name in list_hidden_checks(rubric):
         yield make_secret("a hidden check", name, set())
     whole = cut_checks(rubric, read_checks())

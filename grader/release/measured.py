@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 BALLS = (10, 40, 200)
-PIECES = (  # share of a step: cost of all effects that may run at once
+PIECES = (  # cost of all effects that may run at once, of a step
     "move only",
     "contacts",
     "friction",

@@ -15,9 +15,9 @@ from grader.release.notebooks import make_notebooks
 from grader.source.regions import regions_in
 
 INSTRUCTOR = KIT / "handouts" / "instructor"
-SHARE = re.compile(r"^(\w+) = \d+\n", re.M)  # of a notebook, in marks.toml
+SHARE = re.compile(r"^(\w+) = \d+\n", re.M)  # the share of a notebook in marks.toml
 SETTINGS = ("nbgrader_config.py", "marks.toml")
-MANIFEST = "MANIFEST.txt"  # of a release: a hash and a name on each line
+MANIFEST = "MANIFEST.txt"  # the manifest of a release: a hash and a name on each line
 
 
 def make_course(

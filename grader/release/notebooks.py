@@ -23,7 +23,7 @@ TASK = PLAIN | {"task": True}
 ENGINE, QUIZ = "engine.ipynb", "quiz.ipynb"
 SOLVED = KIT / "solution" / "notebooks"
 GIVEN = "# Given in this course.\n"
-PRACTICE = "practice-"  # plus a number: the questions of the page
+PRACTICE = "practice-"  # with a number added: the questions of the page
 QUESTION = re.compile(r"<!--% if asked\((.*?)\) %-->\n(.*?)\n<!--% endif %-->", re.S)
 
 INTRO = """\

@@ -22,9 +22,13 @@ from grader.source.regions import read_source
 
 STAGE = TEMPLATES / "stage.js"
 
-SHARED = ("touch", "laws", "stage", "films", "measured")  # of all movable figures
-MEASURED = ("accuracy.md", "hard-cases.md", "effects.md")  # come with the engines they measure
-START = "index.md"  # its links are in the order in which the pages are read
+SHARED = ("touch", "laws", "stage", "films", "measured")  # scripts of all movable figures
+MEASURED = (
+    "accuracy.md",
+    "hard-cases.md",
+    "effects.md",
+)  # handed out with the engines
+START = "index.md"  # the order of its links is the order of the pages
 FEWEST = 3  # sections of a page that begins with a list of them
 SITE_ONLY = re.compile(r"\A---\n.*?^---\n", re.M | re.S)  # front matter of a page for the site
 EMPTY: Mapping[str, str] = {}

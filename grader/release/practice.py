@@ -11,7 +11,7 @@ from grader.questions.question import Question
 from grader.questions.sheet import Asks, take_turns
 
 EACH = 12  # cases of a maker
-SEED = "practice at home"  # no sheet uses it: the seeds of sheets are numbers
+SEED = "practice at home"  # used by no sheet, since seeds of sheets are numbers
 
 
 def make_practice(course: Course) -> bytes:
@@ -24,7 +24,7 @@ def make_practice(course: Course) -> bytes:
 
 
 def draw_cases(maker: Asks, program: Program) -> Cases:
-    """Draw different questions of one maker."""
+    """Draw different questions of one kind, by its maker."""
     found: dict[str, Question] = {}
     for number in range(EACH):
         try:

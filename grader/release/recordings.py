@@ -23,7 +23,7 @@ RECORDING = (
     "release",
 )  # packages of the grader that a recording depends on
 
-Record = Callable[[str, Callable[[], bytes]], bytes]  # by the name of what is recorded
+Record = Callable[[str, Callable[[], bytes]], bytes]  # by the name of the recording
 
 
 def record_anew(what: str, make: Callable[[], bytes]) -> bytes:

@@ -51,7 +51,7 @@ NOT_FOR_STUDENTS = (
     "questions/templates/moodle.xml",
 )  # below the package
 PACKAGE = "grader.checks"
-PLUGIN = "pytest_plugin.py"  # for authors of checks; no check leads to it
+PLUGIN = "pytest_plugin.py"  # for authors of checks; no check needs it
 Tree = tuple[Path, frozenset[str]]  # a submission, and the TODOs to ask it about; empty for all
 
 
@@ -257,7 +257,7 @@ def observe(tree: Tree, rubric: Rubric, worker: Worker | None = None) -> list[Ob
 
 @contextmanager
 def note_oracles() -> Iterator[dict[str, Answers]]:
-    """Record the oracles' answers; call those with a list of inputs on all of it."""
+    """Record the oracles' answers; call oracles with listed inputs for all of these."""
     notes: dict[str, Answers] = {name: {} for name in oracles}
     usual = {name: getattr(exact, name) for name in oracles}
     for name, values in oracles.items():

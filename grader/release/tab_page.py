@@ -59,20 +59,20 @@ PLATFORMS = ("pyemscripten_2026_0_wasm32", "any")
 PYTHON = "3.14"
 AS_THEY_ARE = ("README.md", "style.css", "worker.js", "shared.js", "unpack.mjs")
 TEXTS = (".py", ".md")  # editable files
-UNUSED = re.compile(  # of the wheels; of cffi, pymunk loads the compiled part alone
+UNUSED = re.compile(  # unused parts of wheels; pymunk loads only the compiled part of cffi
     r"/tests?/|/testing/|pymunk/examples/|\.dist-info/(?!METADATA)|\.(pyi|c|h|pyc)$|"
     r"/cffi/|/hypothesis/extra/"
 )
 PREDICTION = re.compile(
     r"^\*\*Predict\.\*\*.*?^</details>\n", re.M | re.S
-)  # of films, not played here
+)  # parts of films, which are not played here
 TYPED = (  # commands of the lab sheet, and the page's buttons for them
     (re.compile(r"`make check TODO=\w+`"), "**Check**"),
     (re.compile(r"`make hint TODO=\w+`, or \[the hints\]\([^)]*\)"), "Press **Hint**"),
     (re.compile(r"`python \w+\.py` prints"), "**Run** prints"),
 )
 LATER = ("figures/", "lesson.html", "more.zip")  # loaded after the page is shown
-UNSERVED = ("index.html", "README.md")  # served as ./, and for those who serve the page
+UNSERVED = ("index.html", "README.md")  # the page itself, and a file for whoever serves it
 COMPILED_HERE = (".so", ".pyd", ".c", ".pyi")  # not for the page's Python
 FOR_CHECKS = ("kit/grader/checks/expected_runs.json", "kit/grader/checks/recorded.json")
 NOT_RUN = (  # handed-out files that no button runs
@@ -85,7 +85,7 @@ WITHOUT_USE = re.compile(  # need a network, a process or a terminal
     r"mailbox|netrc|pdb|pickletools|poplib|profile|pstats|pydoc|smtplib|socketserver|turtle|"
     r"webbrowser)\.py$"
 )
-SOLID = "all.zip"  # in an archive of the page: packed in one piece, which makes it a third smaller
+SOLID = "all.zip"  # archives in one piece, which makes them a third smaller
 PUBLISHED = tuple(f"{each}/site/" for each in ("lab.zip", f"lab.zip/{SOLID}", f"more.zip/{SOLID}"))
 LESSON = "lesson.md"
 ZIP = f"{NAME}-tab.zip"
@@ -159,7 +159,7 @@ def build_tab(
     sources.mkdir()
     write_lab(sources / "lab.zip", copy, files, cache, cffi)
     secrets = find_secrets(KIT, course)
-    look_for_own_leaks(sources, secrets)  # of what the page has compiled
+    look_for_own_leaks(sources, secrets)  # hashes of what the page has compiled
     write_sheet(site, copy, files, course, cffi is not None)
     pyodide = cache / "node_modules" / "pyodide"
     (site / "pyodide").mkdir()

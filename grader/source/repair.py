@@ -218,7 +218,7 @@ def lacks_given(text: str, chosen: Sequence[Patch], original: str | None) -> boo
 
 
 def move_into(patch: Patch, text: str, flaw: Flaw) -> Flaw:
-    """Return the flaw with a line of the replaced code: Python may notice it further down."""
+    """Move a flaw's line into the replaced code: Python may report it further down."""
     if patch.start < flaw.line <= patch.stop or not patch.todo:
         return flaw
     lines = text.splitlines()

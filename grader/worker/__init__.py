@@ -4,7 +4,7 @@ A child goes through these steps:
 
 1. Start. warm.py loads Python, pygame and pymunk once and forks a child per check, in milliseconds.
    Where there is no fork, spawned.py starts each child as a new process. Without processes, tab.py
-   keeps it in the judge's own, only for the user's own work.
+   keeps the child in the judge's process, only for the user's own work.
 2. Confine (confinement.py, root.py, filter.py): the child gives up its rights before it sees a line
    of the submission.
 3. Copy (copies.py): it gets its own copy of the submission.

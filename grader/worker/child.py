@@ -60,7 +60,7 @@ from grader.worker.session import Session
 from grader.worker.subject import Subject, refs_in
 from grader.worker.values import ContractError, describe
 
-pygame.sysfont.initsysfonts = lambda: None  # it would start fc-list; the default font serves
+pygame.sysfont.initsysfonts = lambda: None  # this would start fc-list; the default font is enough
 
 OBJECTS = (Ref, BodyValue, ContactValue, SpaceValue, SpaceBody)
 
@@ -70,8 +70,8 @@ decoder = msgspec.msgpack.Decoder(list[Asked])
 def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) -> None:
     """Answer until the judge closes the channel; `without` names layers to leave out.
 
-    The child gives up its rights before it imports the submission: later, the submission's top
-    level would have run with them.
+    The child gives up its rights before it imports the submission, whose top level would
+    otherwise run with them.
     """
     name = Path(setup.submission).name
     layers, setup = confine(setup, without)
@@ -85,7 +85,7 @@ def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) ->
     if setup.compiles:
         compile_all(setup)
         return  # this child never runs a line of the submission
-    os.chdir(folder)  # where a program is started
+    os.chdir(folder)  # the folder in which a program is started
     session = Session(folder, files, setup.bans)
     with suppress(ChannelClosed):
         while True:
@@ -194,7 +194,7 @@ def call(subject: Subject, request: Call) -> Returned:
 
 
 def trim_arguments(function: Any, args: list[Any]) -> list[Any]:
-    """Return as many arguments as a function takes: one that does not use dt may omit it."""
+    """Return as many arguments as a function takes: it may omit an unused dt."""
     code = getattr(function, "__code__", None)
     if code is None or code.co_flags & inspect.CO_VARARGS:
         return args
@@ -203,7 +203,7 @@ def trim_arguments(function: Any, args: list[Any]) -> list[Any]:
 
 def tidy_environment(scratch: str) -> None:
     """Set an environment that says nothing about the machine, and enter an empty folder."""
-    windows = ("SYSTEMROOT", "PATH") if os.name == "nt" else ()  # it finds its libraries by them
+    windows = ("SYSTEMROOT", "PATH") if os.name == "nt" else ()  # to find Python's libraries
     wanted = {"PATH": os.defpath}
     wanted |= {name: os.environ[name] for name in windows if name in os.environ}
     wanted |= ENVIRONMENT | dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), scratch)

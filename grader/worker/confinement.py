@@ -47,7 +47,13 @@ CLONE_NEWPID, CLONE_NEWNET, CLONE_NEWUTS = 0x20000000, 0x40000000, 0x04000000
 EXECUTE, WRITE_FILE, READ_FILE, READ_DIR = 1 << 0, 1 << 1, 1 << 2, 1 << 3
 READ_ONLY = EXECUTE | READ_FILE | READ_DIR
 EVERY_RIGHT = (1 << 16) - 1
-FILE_RIGHTS = {1: 13, 2: 14, 3: 15, 4: 15, 5: 16}  # their number in each version of Landlock
+FILE_RIGHTS = {
+    1: 13,
+    2: 14,
+    3: 15,
+    4: 15,
+    5: 16,
+}  # number of rights, by version of Landlock
 ON_FILES = (
     EXECUTE | WRITE_FILE | READ_FILE | 1 << 14 | 1 << 15
 )  # the rights that a rule on a plain file may have
@@ -73,7 +79,7 @@ class RulesetAttr(ctypes.Structure):
 class PathBeneathAttr(ctypes.Structure):
     """struct landlock_path_beneath_attr: the rights on one file or folder and all below it."""
 
-    _pack_, _layout_ = 1, "ms"  # Python 3.14 demands the second beside the first
+    _pack_, _layout_ = 1, "ms"  # Python 3.14 needs the second too
     _fields_ = [("allowed_access", ctypes.c_uint64), ("parent_fd", ctypes.c_int32)]
 
 
@@ -81,7 +87,7 @@ def isolate_server(keep: int, without: Collection[str] = ()) -> list[str]:
     """Cut the warm process off from the network and other processes; return the layers.
 
     Otherwise a submission could send the questions out, or signal and trace the judge. The call may
-    return in a child process, the first one of a PID namespace; its end ends all others in there.
+    return in a child process, the first of a PID namespace, whose end ends all others in there.
     The calling process then only waits for it. `keep`, the control socket, belongs to that child
     alone, so that the judge sees its end at once.
     """
@@ -110,8 +116,8 @@ def leave_network() -> bool:
 def shut_in_reader(source: str, folder: str, programs: Iterable[str]) -> list[str]:
     """Confine a process that reads one file for us; return the layers in force.
 
-    It may read that file, Python and its packages, write into one folder, and run these programs or
-    those in these folders. Without programs it starts no process.
+    It may read that file, Python and its packages, write into one folder, and run the given
+    programs or those in given folders. Without programs it starts no process.
     """
     if not sys.platform.startswith("linux"):
         return []
@@ -123,7 +129,7 @@ def shut_in_reader(source: str, folder: str, programs: Iterable[str]) -> list[st
     ]
     allowed += [(each, READ_ONLY) for each in programs]
     allowed += [(source, READ_FILE), (folder, EVERY_RIGHT), (os.devnull, READ_FILE | WRITE_FILE)]
-    allowed += [("/proc/meminfo", READ_FILE)]  # a reader of .7z adapts to the free memory
+    allowed += [("/proc/meminfo", READ_FILE)]  # a reader of .7z uses more if memory is free
     layers += restrict_to(allowed)
     return layers if programs else layers + refuse_system_calls()
 
@@ -188,7 +194,7 @@ def confine(setup: ChildSetup, without: Collection[str] = ()) -> tuple[list[str]
         if landlock:
             layers += restrict_with_landlock(setup)
         drop_capabilities()
-        # It ends with the process that forked it. A change of user undoes this, so it comes last.
+        # The child ends with its parent. A change of user would undo this, so it comes last.
         libc().prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
     return layers, setup
 
@@ -213,7 +219,7 @@ def become_own_user(setup: ChildSetup) -> list[str]:
     own = [setup.scratch] + [setup.bytecode] * setup.compiles
     reached = False
     with suppress(OSError):  # a container may lack the right or the user id
-        os.chmod(Path(setup.submission).parent, 0o711)  # may be passed through, not listed
+        os.chmod(Path(setup.submission).parent, 0o711)  # may be entered, not listed
         for folder in own:
             os.chown(folder, user, user)
         os.setgroups([])

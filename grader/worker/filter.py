@@ -40,7 +40,7 @@ def read_table(text: str) -> dict[str, Numbers]:
     }
 
 
-# These calls seem not to exist, so that the C library makes others. The arguments of clone3 and
+# These calls are reported as unknown, so the C library makes others. The arguments of clone3 and
 # openat2 lie in memory, where no filter sees them; statx returns the numbers of mounts, which count
 # for the whole machine.
 UNSEEN = read_table("""
@@ -187,7 +187,7 @@ def null(index: int) -> list[Instruction]:
 
 
 def one_of(values: Sequence[int], inside: int, outside: int) -> list[Instruction]:
-    """Return `inside` for each of these values, fewer than 256, and `outside` for the rest."""
+    """Do `inside` for these values, fewer than 256, and `outside` for all others."""
     end = len(values)
     tests = [(EQUAL, end - index, 0, value) for index, value in enumerate(values)]
     return tests + answer(outside) + answer(inside)

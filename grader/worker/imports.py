@@ -32,7 +32,7 @@ class ImportRule(MetaPathFinder):
     """Stands before all finders of modules and lets only allowed imports through."""
 
     def __init__(self, files: Iterable[str], bans: Iterable[str] = ()) -> None:
-        """Make the rule for a submission with these files, which may not import `bans` either."""
+        """Make the rule for a submission with these files; `bans` are forbidden in any case."""
         self.bans = frozenset(bans)
         modules = (path.removesuffix(".py").split("/") for path in files if path.endswith(".py"))
         self.own = {part for parts in modules for part in parts}

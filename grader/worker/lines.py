@@ -28,16 +28,16 @@ ENDS = {  # events of an audit hook
 }
 THREAD_STARTS = (_thread.start_new_thread, _thread.start_new)
 IMPORTING = "_frozen_importlib"
-ELSEWHERE = 0.005  # s of work in other threads at which we object
+ELSEWHERE = 0.005  # s of work in other threads that count as interference
 
 
 class LineCounter:
     """Counts lines inside a `with`, in every function but replacements and Python's importing.
 
-    Lines of a library count too: else a submission could hide its work in a file of that name.
+    Lines of a library count too, or a submission could hide its work in a file of that name.
     """
 
-    has_hook = False  # an audit hook is for good, so it is added when first needed
+    has_hook = False  # an audit hook cannot be removed, so it is added when first needed
 
     def __init__(self) -> None:
         self.counted = self.begun = self.over = 0

@@ -13,8 +13,8 @@ import pymunk
 
 PLAIN = {float, int, bool, type(None)}
 PAIRS = {pygame.Vector2, pymunk.Vec2d}
-MAX_DEPTH = 3  # lists in dicts in modules
-MAX_ENTRIES = 40  # of one list or dict
+MAX_DEPTH = 3  # levels, such as lists in dicts in modules
+MAX_ENTRIES = 40  # items of one list or dict
 
 
 class Memory:
@@ -29,7 +29,7 @@ class Memory:
         self.before = self.state()
 
     def state(self) -> dict[str, Any]:
-        """Return the data of each name; functions and classes count for their own file."""
+        """Return the data of each name; functions and classes belong to their own file."""
         found: dict[str, Any] = {}
         for module in self.modules.values():
             for name, value in vars(module).items():

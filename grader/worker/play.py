@@ -148,7 +148,7 @@ def play(session: Session, request: Play) -> Played:
     """Run a program on a scripted clock, and return what it did in each frame.
 
     It ends by the frame budget in LAB_FRAMES, which lab_runtime reads, or by the QUIT event after
-    the last frame. A program that runs on some frames later is stopped. The last entry of each list
+    the last frame. A program that runs some frames longer is stopped. The last entry of each list
     covers the time after the last frame.
     """
     subject, clock, recorder = session.subject, session.clock, session.recorder
@@ -178,7 +178,7 @@ def play(session: Session, request: Play) -> Played:
     try:
         start(subject, request.module, steps, len(request.frames))
     except SystemExit:
-        pass  # as good an end as any
+        pass  # a normal end
     except PlayOver:
         ended = "stopped"
     except Runaway:

@@ -44,8 +44,8 @@ MAX_SHAPES, MAX_CORNERS = 40, 12  # of one body, and of one shape
 class Recorder:
     """Records moments of the submission's bodies while it answers a request.
 
-    A submission may have made anything of its objects: those that cannot be described are left out,
-    and every list has an upper bound.
+    A submission may have broken its objects: objects that cannot be described are left out, and
+    every list has an upper bound.
     """
 
     def __init__(self, subject: Subject) -> None:
@@ -54,7 +54,7 @@ class Recorder:
         self.bodies: dict[int, Any] = {}  # by number
         self.numbers: dict[int, int] = {}  # by id(body); self.bodies keeps these alive
         self.hidden = 0  # objects of earlier scenes
-        self.given: list[int] = []  # numbers of the objects that requests of this scene name
+        self.given: list[int] = []  # numbers of the objects in this scene's requests
         self.world: Any = None  # of the running program, if any
         self.owner: type | None = None
         self._reset(None)
@@ -80,7 +80,7 @@ class Recorder:
         self.states = 0
 
     def expect(self, states: int) -> None:
-        """Set the number of states of a run, so that its moments cover all of it."""
+        """Set a run's number of states, so that the moments cover all of it."""
         self.total = states
         self.every = math.ceil(states / self.recording.most) if self.recording else 1
 
@@ -204,7 +204,7 @@ def lesson_shape(shape: Any) -> ShapeLook:
 
 
 def list_named(request: Request) -> list[int]:
-    """Return the numbers of the objects that a request names; they may be of earlier scenes."""
+    """Return the numbers of the objects in a request, also those of earlier scenes."""
     match request:
         case Call():
             return refs_in(request)

@@ -24,9 +24,9 @@ from grader.protocol import ChildSetup, Limits
 CLONE_NEWNS = 0x00020000
 MS_RDONLY, MS_NOSUID, MS_NODEV, MS_NOEXEC = 1 << 0, 1 << 1, 1 << 2, 1 << 3
 MS_REMOUNT, MS_BIND, MS_REC, MS_SLAVE = 1 << 5, 1 << 12, 1 << 14, 1 << 19
-LOCKED = MS_NOSUID | MS_NODEV | MS_NOEXEC  # a copy of a mount must have those of the mount
+LOCKED = MS_NOSUID | MS_NODEV | MS_NOEXEC  # the flags that a copy of a mount must keep
 MNT_DETACH = 2
-PR_CAPBSET_DROP, CAPABILITIES = 24, 64  # as many as a set of two words holds
+PR_CAPBSET_DROP, CAPABILITIES = 24, 64  # the size of a set of two words
 CAPABILITY_VERSION_3 = 0x20080522
 PIVOT_ROOT = {"x86_64": 155, "aarch64": 41}
 
@@ -95,7 +95,7 @@ class Root:
 
         Raises OSError; then nothing has changed unless one of the last two calls failed.
         """
-        mount(self.place, self.place, None, MS_BIND | MS_REC)  # one of this namespace's own
+        mount(self.place, self.place, None, MS_BIND | MS_REC)  # of this namespace
         own = self.place + self.top
         show(setup.submission, f"{own}/submission")
         show(setup.bytecode, f"{own}/bytecode", flags=0 if setup.compiles else MS_RDONLY)
@@ -114,7 +114,7 @@ class Root:
         )
 
 
-LAID_OUT: dict[tuple[Path, ...], Root] = {}  # by the paths in it
+LAID_OUT: dict[tuple[Path, ...], Root] = {}  # with the paths in it
 
 
 def shared_root(paths: tuple[Path, ...], links: tuple[Path, ...]) -> Root | None:

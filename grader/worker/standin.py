@@ -1,4 +1,4 @@
-"""Replace a function by another one, also where it is already imported or stored.
+"""Replace a function by another, also where it is already imported or stored.
 
 Imports, default arguments and tables of functions all hold a function. So no name is rebound: the
 function object itself gets other code, which calls the replacement.
@@ -35,7 +35,7 @@ def replace_function(original: FunctionType, replacement: Function) -> FunctionT
         replacement.__qualname__ = original.__qualname__
     original.__code__ = DETOUR.replace(
         co_name=original.__name__,
-        co_freevars=original.__code__.co_freevars,  # Python wants one per cell
+        co_freevars=original.__code__.co_freevars,  # Python needs one per cell
         co_consts=tuple(replacement if each == PLACEHOLDER else each for each in DETOUR.co_consts),
     )
     return before

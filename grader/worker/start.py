@@ -1,8 +1,8 @@
 """Start a program as the lab sheet says: run the code that Python runs as `__main__`.
 
 The module is already imported, with its TODOs swapped and its steps counted; a second import under
-another name would have neither. So a package runs its `__main__.py`. A single file runs its
-statements that ask for `__name__`, inside the imported module.
+another name would have neither. So a package runs its `__main__.py`. Of a single file,
+only statements that test `__name__` run, inside the imported module.
 """
 
 import ast

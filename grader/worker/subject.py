@@ -1,7 +1,7 @@
 """Hold the submission inside a child: import it, make and find its objects, describe them.
 
-Values from the judge are trusted. Values of the submission are rebuilt by values.py, in px, px/s,
-rad, rad/s, kg and kg px², and the judge decodes them strictly once more.
+Values from the judge are trusted. values.py rebuilds values of the submission, in px, px/s, rad,
+rad/s, kg and kg px², and the judge decodes them strictly once more.
 """
 
 import importlib
@@ -60,8 +60,8 @@ from grader.worker.values import (
     type_name,
 )
 
-MAX_ITEMS = 1000  # entries of a returned list
-REFERENCE = "<reference>"  # the file name of functions that stand in
+MAX_ITEMS = 1000  # maximum of entries in a returned list
+REFERENCE = "<reference>"  # the file name of replacements
 
 
 class Subject:
@@ -72,7 +72,7 @@ class Subject:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.objects: dict[int, Any] = {}  # by number, in the order of their numbering
+        self.objects: dict[int, Any] = {}  # objects by number, in order
         self.refs: dict[int, int] = {}  # numbers by id() of the object
         self.memory: Memory | None = None  # the state after the import
         self.counters: dict[type, Any] = {}  # count steps of worlds that must not run
@@ -385,7 +385,7 @@ class Subject:
             file = Path(str(error.filename)).relative_to(root).as_posix()
             text = cut((error.text or "").strip(), MAX_NAME)
             frames.append(CodeLine(cut(file, MAX_TEXT), error.lineno or 0, "", text))
-            error.filename = error.lineno = None  # or its text would name the line once more
+            error.filename = error.lineno = None  # otherwise its text would repeat the line
         try:
             message = cut(str(error).replace(root + os.sep, ""), MAX_TEXT)
         except Exception:

@@ -39,23 +39,23 @@ from grader.worker.imports import ALLOWED, LIBRARIES
 from grader.worker.scripted import ScriptedClock
 from grader.worker.session import Session
 
-# Gets the seconds that a request may take when it begins, and None when it ends. It raises
-# KeyboardInterrupt in a request that takes longer, again and again until that ends.
+# Called with the seconds of a request when it begins, and with None when it ends. It raises
+# KeyboardInterrupt in a request that takes longer, repeatedly until it ends.
 Watch = Callable[[float | None], None]
 
 OUT_OF_TIME = -24  # exit status of a process that used up its processor time: SIGXCPU
 LATE = 0.1  # s between the end of a child's time and the interrupt
 MISSING = object()
-now = time.process_time  # the real one: a child replaces it
+now = time.process_time  # the real one, which a child replaces
 step: Any = pymunk.Space.step
 
-OWN: list[tuple[Any, tuple[str, ...]]] = [  # what each child has for itself
+OWN: list[tuple[Any, tuple[str, ...]]] = [  # modules that each child has for itself
     (sys, ("path", "argv", "meta_path", "stdout", "stderr", "dont_write_bytecode")),
     (tempfile, ("tempdir",)),
     (os, ("_exit", "abort")),
     (random.Random, ("seed",)),
     *((owner, tuple(names)) for owner, names in ScriptedClock().replacements().items()),
-    (pymunk.Space, ("__init__",)),  # a replay watches it
+    (pymunk.Space, ("__init__",)),  # watched for replays
     (step, ("__code__", "__defaults__", "__kwdefaults__")),  # replaced to count steps
 ]
 SHARED: list[Any] = [  # modules and classes that are restored when a child ends
@@ -72,7 +72,7 @@ class Surroundings:
 
     folder: str
     random: tuple[Any, ...]
-    depth: int  # of calls, at most
+    depth: int  # maximum of calls
     values: list[tuple[Any, str, Any]]
     environment: dict[str, str]
 
@@ -83,7 +83,7 @@ class Surroundings:
         return cls(os.getcwd(), random.getstate(), depth, values, environment)
 
     def copy(self) -> "Surroundings":
-        """Return a copy with lists of its own."""
+        """Return a copy with its own lists."""
         values = [
             (owner, name, list(value) if isinstance(value, list) else value)
             for owner, name, value in self.values
@@ -130,7 +130,7 @@ class Tenant:
             self.session = Session(self.folder, files, setup.bans)
 
     def answer(self, asked: Asked) -> Answered:
-        """Answer a request as a process of its own would."""
+        """Answer a request as a separate process would."""
         with self.installed():
             return child.answer(self.session, asked)
 

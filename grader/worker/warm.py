@@ -26,8 +26,8 @@ from grader.worker.child import serve, tidy_environment
 from grader.worker.confinement import isolate_server, prepare, wipe_variables, write
 from grader.worker.imports import hide_modules, unhidden_modules
 
-YOUNG = 10_000  # new objects before a child collects garbage: most end before
-MOST_DESCRIPTORS = 4096  # more than this process ever has; some machines allow a billion
+YOUNG = 10_000  # new objects before a child collects garbage; most children end earlier
+MOST_DESCRIPTORS = 4096  # more than this process ever opens; some machines allow a billion
 
 decoder = msgspec.msgpack.Decoder(Open | End)
 

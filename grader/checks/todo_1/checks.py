@@ -26,7 +26,7 @@ SAID = "normal ({:.{n}f}, {:.{n}f}), depth {:.{n}f} px, point ({:.{n}f}, {:.{n}f
 def make_pair(
     lab: Lab, disc: Disc, rect: Rect, circle: Fields | None = None, box: Fields | None = None
 ) -> tuple[Thing, Thing]:
-    """Return a circle and a box, each with further fields, for the experiment that begins here."""
+    """Begin an experiment: return a circle and a box, each with further fields."""
     lab.ran(describe_question(disc, rect))
     return (
         lab.circle((disc.x, disc.y), disc.r, **(circle or {})),
@@ -145,7 +145,7 @@ def overlap_from_outside_points_into_the_box(lab: Lab) -> None:
 
 
 def near_round_numbers(off: float) -> Iterable[tuple[Disc, Rect]]:
-    """Yield faces and centres near each round position of the window, and such distances.
+    """Yield discs and boxes with faces and centres near round positions of the window.
 
     Code that rounds these numbers, or treats a small one as 0, gives another answer.
     """

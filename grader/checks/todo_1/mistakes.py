@@ -158,7 +158,7 @@ def measure_from_the_middle(touch: Touch, disc: Disc, rect: Rect) -> Touch:
 
 
 def find_in_box(change: Callable[[float, float, float, float], tuple[float, ...]]) -> Model:
-    """Return the model that uses a wrong box, made from x, y, hx and hy of the right one."""
+    """Return the model that uses a wrong box, computed from x, y, hx and hy of the right one."""
     return lambda disc, rect: find_contact(disc, Rect(*change(*rect)))
 
 

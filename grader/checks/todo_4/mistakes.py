@@ -38,7 +38,7 @@ def right_rule(total: float, wanted: float, limit: float) -> float:
 
 
 def with_both(limit_of: Limit, rule: Rule) -> Model:
-    """Return the friction of all passes with this limit, and this rule for the total."""
+    """Return the friction after all passes, with this limit and this rule for the total."""
 
     def model(mu: Pair, k: float, closing: float, slip: float) -> float:
         if not (mu[0] and mu[1]):

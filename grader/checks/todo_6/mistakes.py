@@ -93,7 +93,7 @@ kinds["frames"] = Kind(accumulate())
 
 
 def one_step_of(size: Callable[[int], int]) -> Callable[[Frames], Answer]:
-    """Return the model of one step in each frame, as long as `size(frame)`."""
+    """Return the model with one step of `size(frame)` in each frame."""
     return lambda frames: ([1 for _ in frames[:-1]], list_sizes([size(each) for each in frames]))
 
 
@@ -110,7 +110,7 @@ def count_towards_zero(held: Held) -> int:
 
 
 def count_seconds(held: Held) -> int:
-    """Count steps that take 1 s each out of the accumulator."""
+    """Count steps that each take 1 s from the accumulator."""
     count = 0
     while held > 0 and count_whole_steps(held):
         count, held = count + 1, held - SECOND

@@ -143,7 +143,7 @@ def parabola(x: float, v: float, dt: float, accel: Accel) -> float:
 def verlet_with(
     bend: Callable[[float, float], float], kick: Callable[[float, float, float], float]
 ) -> Step:
-    """Return the step in which x bends by bend(a, dt); v changes by kick(a, a at the end, dt)."""
+    """Return the step with x + v dt + bend(a, dt) and v + kick(a, a at the end, dt)."""
 
     def model(x: float, v: float, dt: float, accel: Accel) -> State:
         end = x + v * dt + bend(accel(x), dt)
@@ -164,7 +164,7 @@ right_bend, right_kick = partial(bend_by, 1.0), partial(kick_by, 1.0)
 
 
 def at_second(place: Callable[[float, float, float, float], float]) -> Step:
-    """Return the step whose second acceleration is that at place(x, v, dt, end)."""
+    """Return the step that takes its second acceleration at place(x, v, dt, end)."""
 
     def model(x: float, v: float, dt: float, accel: Accel) -> State:
         end = parabola(x, v, dt, accel)
@@ -404,7 +404,7 @@ REACHES = {0.0: "at the start", 0.5: "half-way", 1.0: "at the end of the step"}
 
 
 def list_other_sources() -> Iterator[tuple[str, str, str, Sources, Sources]]:
-    """Yield mistakes in one sample: a part of it, a name, the end of a sentence, and its sources.
+    """Yield mistakes in one sample: its part, a name, the end of a sentence, and its sources.
 
     The sources are those of the position, and those of the velocity.
     """

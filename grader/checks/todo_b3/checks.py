@@ -1,4 +1,4 @@
-"""TODO B3: near_pairs, which leaves out the pairs that are far apart.
+"""TODO B3: near_pairs, which leaves out pairs that are far apart.
 
 Any method and any order is accepted: the contacts must equal those of all pairs.
 """
@@ -222,7 +222,7 @@ def work(lab: Lab, balls: list[Disc]) -> int:
 
 
 def row(balls: int, down: float, x: float) -> list[Disc]:
-    """Return pairs of balls, each 60 px to the right of the one before, and one more ball."""
+    """Return pairs of balls, each 60 px right of the pair before, and one more ball."""
     pairs = [
         Disc(x + 60.0 * pair + 15.0 * which, down * pair + 6.0 * which, 8.5 + (pair + which) % 3)
         for pair in range(-balls // 4, balls // 4)

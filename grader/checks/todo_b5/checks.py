@@ -56,7 +56,7 @@ def a_body_is_drawn_on_its_way_through_the_step(lab: Lab) -> None:
 
 
 def want_all_shares(lab: Lab, body: Thing, before: Place, now: Place) -> None:
-    """Insist that `between` answers right for a body and does not change it."""
+    """Insist that `between` gives right answers for a body and does not change it."""
     asked = [share for share in SHARES for _ in range(2)]  # the window may ask twice
     answers: list[Place] = []
     for share in asked:

@@ -78,7 +78,7 @@ def want_a_flight(lab: Lab, each: Moment, after: Sequence[Moment], number: int) 
 
 
 def want_no_jump(lab: Lab, each: Moment, after: Sequence[Moment], number: int) -> None:
-    """Insist that a body is near this one's last position, and that neither is impossibly fast."""
+    """Insist that a body was near this position a step ago, at a possible speed."""
     slow = (other for other in find_near(each, after, PUSHED) if other.speed <= FASTEST)
     if each.speed > FASTEST or not any(slow):
         lab.want(
@@ -94,7 +94,7 @@ def say(each: Moment) -> str:
 
 
 def find_near(each: Moment, after: Sequence[Moment], within: float = NEAR) -> Iterator[Moment]:
-    """Yield the bodies that may be this one, a step earlier."""
+    """Yield the bodies of the step before that may be this one."""
     return (other for other in after if may_have_been(other, (each.x, each.y), within))
 
 

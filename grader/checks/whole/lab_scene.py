@@ -77,7 +77,7 @@ def first_radius(seed: int) -> int:
 
 
 def turning_as_a_disc(part: Part) -> Part:
-    """Add the moment of a full disc, if the engine computes it and not the student."""
+    """Add the moment of a full disc, if the engine and not the student computes it."""
     return part._replace(moment=part.mass * part.shape[0] ** 2 / 2) if part.mass else part
 
 

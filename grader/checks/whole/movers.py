@@ -69,12 +69,12 @@ class Mover:
 
     @property
     def turned_angle(self) -> float:
-        """Return by how much it turned, back and forth, rad."""
+        """Return the sum of its turns back and forth, rad."""
         return sum(abs(moment.omega) for moment in self.trail) * STEP
 
     @property
     def rise(self) -> float:
-        """Return how high it rose after it first came down on the floor, px; 0 if it never did."""
+        """Return its highest rise after it first reached the floor, px; 0 if it never did."""
         landed = next((n for n, m in enumerate(self.trail) if self.lies_near_floor(m)), None)
         if landed is None:
             return 0.0

@@ -46,7 +46,7 @@ class Disc:
         return [(x + reach * math.cos(turn), y + reach * math.sin(turn)) for turn in turns]
 
     def circles(self) -> Iterator[tuple[float, float, float]]:
-        """Yield circles (x, y, radius) that it, or its rod, may have coloured."""
+        """Yield circles (x, y, radius) that the disc or its rod may have coloured."""
         yield *self.place, self.radius + MARGIN
         if self.is_bob:
             (x, y), (along_x, along_y) = HOOK, self.place
@@ -132,7 +132,7 @@ def moments_of(played: Played, movers: Sequence[Mover], frame: int) -> list[list
 
 
 def want_discs_where_they_are(lab: Lab, picture: Picture, others: list[Picture]) -> None:
-    """Insist that all discs are shown in one of the steps that the picture may be of."""
+    """Insist that the picture shows all discs as in one of its possible steps."""
     shares = [[seen_share(disc, picture, others) for disc in discs] for discs in picture.moments]
     best = max(shares, key=sum)
     picture.discs = picture.moments[shares.index(best)]

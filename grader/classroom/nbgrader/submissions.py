@@ -133,7 +133,7 @@ def read_files(top: Path) -> dict[Path, bytes]:
 
 
 def grade_submitted(course: Path, options: Options, jobs: int, console: Console) -> list[str]:
-    """Grade every engine in `submitted` into a file in `results`; return the troubles."""
+    """Grade every engine in `submitted`, and write files into `results`; return the troubles."""
     found = sorted((course / "submitted").glob(f"*/{ASSIGNMENT}"))
     if not found:
         raise Stop(f"there is nothing in {course / 'submitted'}: collect submissions first")
@@ -141,7 +141,7 @@ def grade_submitted(course: Path, options: Options, jobs: int, console: Console)
     results = course / "results"
     for path in results.glob("*.json"):
         if path.stem not in {each.name for each in intake.found}:
-            path.unlink()  # none may outlive its submission
+            path.unlink()  # stale results must not outlive their submissions
     with Pool(options, jobs) as pool:
         run = grade_class(Run(intake, Book(results), make_key(options)), pool, console)
     return [f"{each.name}: {each.trouble}" for each in run.outcomes if each.trouble]

@@ -17,7 +17,7 @@ from grader.judge.wall.children import Child
 from grader.source.given import GivenChange, compare_files, compare_whole_file, undo_changes
 from grader.source.regions import read_source
 
-MOST_ALONE = 8  # changes to undo one by one, to find the one that matters
+MOST_ALONE = 8  # changes to undo one by one
 EXPERIMENTS = {"ITERATIONS"}
 MOST_RUNS = 60  # runs of checks with one change undone
 
@@ -33,7 +33,7 @@ class GivenCause:
 
     @property
     def is_all(self) -> bool:
-        """Return whether this explains all of a failure; missing code may have another name."""
+        """Return whether this explains a failure completely; missing code may just be renamed."""
         return self.mended and all(each.theirs for each in self.changes)
 
     @property
@@ -43,7 +43,7 @@ class GivenCause:
 
     @property
     def is_experiment(self) -> bool:
-        """Return whether only the passes of the solver differ, which the lesson suggests trying."""
+        """Return whether only the solver's passes differ: the lesson suggests trying that."""
         return all(each.name in EXPERIMENTS for each in self.changes)
 
     def place(self, check: CheckResult) -> Where:
@@ -67,7 +67,7 @@ def find_changes(
 ) -> list[GivenChange]:
     """Return how the given code of a submission differs from what was handed out.
 
-    `unusable` holds the imports that failed. A file in which one failed is compared as a whole:
+    `unusable` holds the imports that failed. Files with such an import are compared as a whole, as
     added code may be the reason.
     """
     folder, given = submission.folder, load_given()
@@ -93,22 +93,22 @@ class CauseSearch:
     """Runs the failed checks of a submission again, with changes of given code undone."""
 
     changes: Sequence[GivenChange]
-    open_with: Callable[[Sequence[GivenChange]], OpenChild]  # children with these undone
+    open_with: Callable[[Sequence[GivenChange]], OpenChild]  # with these undone
     again: Callable[[Key, OpenChild], Lab]
     is_over: Callable[[], bool] = lambda: False  # the submission has used up its time
-    runs: int = 0  # with one change undone
+    runs: int = 0  # runs with one change undone
     causes: dict[Key, GivenCause] = field(default_factory=dict)
     answers: dict[Key, list[Observation]] = field(default_factory=dict)  # with all changes undone
 
     def look_into(self, failed: Mapping[Key, CheckResult]) -> None:
-        """Undo all changes, and then each one alone for the checks that this makes differ."""
+        """Undo all changes; then undo each one alone for the checks whose results this changed."""
         differ: dict[Key, bool] = {}
         open_child = self.open_with(self.changes)
         for key, check in failed.items():
             if self.is_over():
                 break
             lab = self.again(key, open_child)
-            if not isinstance(lab.failure, Broke):  # else their own code needs what was undone
+            if not isinstance(lab.failure, Broke):  # otherwise their own code needs the change
                 self.answers[key] = lab.observations
             if makes_a_difference(lab, check):
                 differ[key] = lab.failure is None
@@ -119,7 +119,7 @@ class CauseSearch:
     def _find_one(
         self, failed: Mapping[Key, CheckResult], differ: Mapping[Key, bool]
     ) -> dict[Key, Sequence[GivenChange]]:
-        """Return, by check, the single change that makes the difference, where there is one.
+        """Return, by check, the single change that makes the difference, if one does.
 
         Of checks with the same error only the first runs; its change counts for all of them.
         """

@@ -1,7 +1,7 @@
 """Diagnose answers that no single known mistake explains: half done work, or two mistakes.
 
 A known mistake may show in some questions only, such as those from outside the box, and in some
-parts of the answer, such as the normal. The mistakes that are named must together give every number
+parts of the answer, such as the normal. The named mistakes must together predict every number
 of the answers. If two mistakes fit equally well, none is named.
 """
 
@@ -73,7 +73,7 @@ class Diagnosis:
         ]
 
     def describe(self, observations: Sequence[Observation]) -> str:
-        """Return the meaning of one check's answers; empty if nothing is found.
+        """Return the meaning of one check's answers; empty if none is found.
 
         The first wrong answer decides: the known mistakes that show in it are named, and the parts
         of it that they do not explain are narrowed down.
@@ -153,7 +153,7 @@ class Diagnosis:
         return list(found.items())
 
     def explain_group(self, where: str, numbers: list[int]) -> list[Finding]:
-        """Return the mistakes that together give every number of these answers, or none."""
+        """Return mistakes that together predict every number of these answers, or none."""
         found: list[Finding] = []
         covered: frozenset[str] = frozenset()
         wrong = [n for n in numbers if self.questions[n].wrong]
@@ -182,14 +182,14 @@ class Diagnosis:
         return found if self.is_complete(found, wrong, covered) else []
 
     def is_complete(self, found: list[Finding], wrong: list[int], covered: frozenset[str]) -> bool:
-        """Return whether findings give every number of the wrong answers that they decide."""
+        """Return whether findings predict every number of their wrong answers."""
         decided = [n for n in wrong if any(self.predict(each.mistake, n) for each in found)]
         return all(self.questions[n].wrong <= covered for n in decided)
 
     def find_changed(
         self, mistake: Mistake, numbers: list[int], covered: frozenset[str]
     ) -> frozenset[str]:
-        """Return the parts that a mistake changes; none if one of them differs from the answers.
+        """Return the parts that a mistake changes; none if the answers contradict it in one.
 
         Another mistake explains the parts in `covered`.
         """
@@ -216,7 +216,7 @@ class Diagnosis:
         return frozenset[str]().union(*(each.wrong for each in predicted if each is not None))
 
     def predict(self, mistake: Mistake, number: int) -> Question | None:
-        """Return a question with the answer of a mistake; None if it is undecided."""
+        """Return a question with a mistake's answer to it; None if the mistake has none."""
         if (mistake, number) not in self.predictions:
             each, found = self.questions[number], None
             if each.about == mistake.about:
@@ -229,7 +229,7 @@ class Diagnosis:
     def choose(
         self, fit: list[tuple[Mistake, frozenset[str]]], numbers: list[int]
     ) -> tuple[Mistake, frozenset[str]] | None:
-        """Choose the mistake that changes most; among equals, the one that fits all answers.
+        """Choose the mistake that changes most parts; among equals, one that fits all answers.
 
         If several still fit, no other mistake is named for the parts that they change.
         """
@@ -248,7 +248,7 @@ class Diagnosis:
         return None
 
     def is_denied(self, mistake: Mistake, changed: frozenset[str]) -> bool:
-        """Return whether a mistake would show in other questions as well, but does not."""
+        """Return whether other answers contradict a mistake."""
         for number, each in enumerate(self.questions):
             predicted = self.predict(mistake, number)
             if predicted is not None and any(
@@ -258,6 +258,6 @@ class Diagnosis:
         return False
 
     def shows_elsewhere(self, mistake: Mistake, numbers: list[int]) -> bool:
-        """Return whether a mistake would show outside of these questions too."""
+        """Return whether a mistake also changes answers to other questions."""
         outside = set(range(len(self.questions))).difference(numbers)
         return any(p is not None and p.wrong for p in (self.predict(mistake, n) for n in outside))

@@ -25,7 +25,7 @@ RAISED = re.compile(r"(?P<error>\w+(?:: .*)?) \(in (?P<file>.+?), line (?P<line>
 DEBUGGER = re.compile(r"\bbreakpoint\(|\bset_trace\(")
 LONGEST, MOST_KNOWN = 80, 500  # letters of a name, and names that it is compared with
 ENGINE, SCENE = "mini_engine/", "pymunk_scene.py"
-NEAR = 0.5  # likeness of two names, from which on one may be a typing error for the other
+NEAR = 0.5  # minimum similarity of two names for a typing error
 SHAPES = ("Circle", "Box")  # classes of body.shape
 FEW = 8  # attributes of a class that are listed
 IN_PLACE = ("append", "sort", "extend", "reverse", "update")  # methods that return None
@@ -298,7 +298,7 @@ def explain_zero(match: Match, error: Error) -> str:
     """Explain a division by 0 outside the TODO's region, which gave that value."""
     inside = (each for each in read_regions(error.text)[0] if each.id == error.todo)
     if any(each.start < error.line - 1 < each.stop for each in inside):
-        return ""  # the answers show more
+        return ""  # wrong answers show more
     for node in error.nodes():
         match node:
             case ast.AugAssign(op=ast.Div(), value=ast.Name(name)):
@@ -335,7 +335,7 @@ def explain_arguments(match: Match, error: Error) -> str:
 
 
 def explain_mixed(match: Match, error: Error) -> str:
-    """Explain a vector and a number in one operation; the first one shows what is needed."""
+    """Explain an operation on a vector and a number."""
     if "**" in match[0]:
         return "A vector has no power: square a number, such as a length or a cross product."
     return NUMBER_NEEDED if "first" in match.re.groupindex else DIRECTION_NEEDED
@@ -411,7 +411,7 @@ def attributes_of(node: ast.ClassDef) -> set[str]:
 
 @cache
 def given_attributes() -> dict[str, set[str]]:
-    """Return the attributes of each given class."""
+    """Return the attributes of each handed-out class."""
     return {
         node.name: attributes_of(node)
         for text in load_given().values()
@@ -422,7 +422,7 @@ def given_attributes() -> dict[str, set[str]]:
 
 @cache
 def given_arguments() -> dict[str, list[str]]:
-    """Return the arguments of each given function and method, by its name and with its class."""
+    """Return the arguments of each handed-out function and method, by name and by class."""
     found: dict[str, list[str]] = {}
     for text in load_given().values():
         for path, node in list_functions(statements(text)):
@@ -433,7 +433,7 @@ def given_arguments() -> dict[str, list[str]]:
 
 
 def given_home(name: str, but: str) -> str:
-    """Return the file of the engine that defines this function or constant, unless it is `but`."""
+    """Return the engine's file that defines this name, unless that is the file `but`."""
     for file, text in load_given().items():
         if file != but and file.startswith(ENGINE) and name in given_pieces(text):
             return "" if given_pieces(text)[name].owner else file

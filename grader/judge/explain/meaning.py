@@ -40,7 +40,7 @@ UNFIT = (
     "ZeroDivisionError",
     "ValueError: Can't normalize",
 )  # a case was reached that must not occur
-LONGEST = 110  # letters of the text beside a line
+LONGEST = 110  # letters of a quoted line
 NEARLY, NOTHING = 5e-5, 1e-9  # relative error of a rounded number; absolute error of 0
 NUMBER = re.compile(r"(?<![\w.^])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 FINISH = "TODO {ids} must be right before this can be checked: finish {it} first."
@@ -52,8 +52,8 @@ class BadLine:
 
     words: str
     where: Where
-    is_all: bool  # nothing else needs to be said
-    answers: bool = False  # the line returns every answer of the function
+    is_all: bool  # whether it is the only reason to name
+    answers: bool = False  # whether the function always returns at this line
 
 
 @dataclass(frozen=True)
@@ -62,10 +62,10 @@ class Evidence:
 
     todo: Todo
     mistake: Mistake | None = None
-    answers: Sequence[Observation] = ()  # to all its checks
+    answers: Sequence[Observation] = ()  # answers to all its checks
     bad_line: BadLine | None = None
     suspects: Mapping[str, Suspect] = field(default_factory=dict)  # by kind; see find_suspects
-    remark: str = ""  # why no code of the TODO counts
+    remark: str = ""  # the reason why no code of the TODO counts
 
     @cached_property
     def diagnosis(self) -> Diagnosis:
@@ -87,8 +87,8 @@ class Failure:
     trespass: str = ""  # forbidden changes, in words
     given_cause: GivenCause | None = None
     earlier: Sequence[str] = ()  # TODOs in which the program fails first
-    start: Where | None = None  # file with the program's main
-    hint: Callable[[], str] = lambda: ""  # about names, arguments and errors
+    start: Where | None = None  # the file with the program's main
+    hint: Callable[[], str] = lambda: ""  # words about names, arguments and errors
     mend: Mend | None = None
 
     @property
@@ -97,7 +97,7 @@ class Failure:
 
 
 def explain(failure: Failure) -> CheckResult:
-    """Return a failed check with its meaning and a place to look at."""
+    """Return a failed check with its meaning and a line to look at."""
     check, evidence = failure.check, failure.evidence
     meaning = next(filter(None, (each(failure) for each in EXPLAINERS)), check.meaning)
     where = check.where or failure.start
@@ -111,7 +111,7 @@ def explain(failure: Failure) -> CheckResult:
 
 
 def is_unexplained(failure: Failure) -> bool:
-    """Return whether no reason of a wrong answer is known."""
+    """Return whether no reason for a wrong answer is known."""
     check = failure.check
     if failure.evidence.mistake is not None:
         return False
@@ -125,7 +125,7 @@ def is_unexplained(failure: Failure) -> bool:
 def find_line(failure: Failure, meaning: str) -> int:
     """Return the line that our own words name; 0 if none does.
 
-    A line is never read out of a submission's words, which may name any.
+    Words of a submission are not searched: they may name any line.
     """
     if failure.mend is not None and failure.mend.in_words in meaning:
         return failure.mend.lines[0]
@@ -137,7 +137,7 @@ def find_line(failure: Failure, meaning: str) -> int:
 
 
 def blame_given_code(failure: Failure) -> str:
-    """Name the changed given code, and the next reason if it is not the only one."""
+    """Name changed given code, and the next explanation if it is not the only reason."""
     cause = failure.given_cause
     if cause is None:
         return ""
@@ -148,7 +148,7 @@ def blame_given_code(failure: Failure) -> str:
 
 
 def explain_after(explainer: "Explainer", failure: Failure) -> str:
-    """Return the first explanation by one of the explainers after this one."""
+    """Return the first explanation by the explainers after this one."""
     after = EXPLAINERS[EXPLAINERS.index(explainer) + 1 :]
     return next(filter(None, (each(failure) for each in after)), "")
 
@@ -156,7 +156,7 @@ def explain_after(explainer: "Explainer", failure: Failure) -> str:
 def name_leftover(failure: Failure) -> str:
     """Name lines of the starter, or a line that ends the function before the student's code.
 
-    Where some of the student's code runs, explain that first.
+    If some of the student's code runs, explain that first.
     """
     line = failure.evidence.bad_line
     if line is None or (line.answers and failure.trespass):  # it returns what this code changed
@@ -190,7 +190,7 @@ def explain_names(failure: Failure) -> str:
 
 
 def name_suspect(kind: str, is_all: bool = False) -> "Explainer":
-    """Name a suspect line in code that gives answers, after other reasons unless it `is_all`."""
+    """Name a suspect line; after other reasons, unless it explains everything (`is_all`)."""
 
     def name(failure: Failure) -> str:
         words = "" if failure.is_error else failure.evidence.suspect(kind)
@@ -202,7 +202,7 @@ def name_suspect(kind: str, is_all: bool = False) -> "Explainer":
 
 
 def name_kind(failure: Failure) -> str:
-    """Name an answer of the wrong kind, which known mistakes of other answers do not explain."""
+    """Name an answer of the wrong kind that no known mistake in other answers explains."""
     check = failure.check
     return check.meaning if check.meaning.endswith(f"; it is {check.got}.") else ""
 
@@ -221,7 +221,7 @@ def name_earlier_todos(failure: Failure) -> str:
 
 
 def name_trespass(failure: Failure) -> str:
-    """Name a forbidden change, which may be why an answer is wrong as well."""
+    """Name a forbidden change, which may also explain a wrong answer."""
     rule = failure.evidence.suspect("alias") or TRESPASS.format(name="It")
     return f"{failure.trespass}. {rule}" if failure.trespass else ""
 
@@ -230,7 +230,7 @@ def name_rounding(failure: Failure) -> str:
     """Name rounding if each number is right to some digits, but not to all."""
     check = failure.check
     right, ours = (list(map(float, NUMBER.findall(each))) for each in (check.expected, check.got))
-    right = right[: len(ours)]  # the rest may belong to the question
+    right = right[: len(ours)]  # other numbers may come from the question
     if right == ours or len(right) < len(ours) or check.state != "not yet":
         return ""
     if failure.evidence.diagnosis.findings:  # a known mistake comes near as well
@@ -241,13 +241,13 @@ def name_rounding(failure: Failure) -> str:
 
 
 def point_out_of_region(failure: Failure) -> str:
-    """Name code of the TODO outside its region, with what the answers show."""
+    """Name code of the TODO outside its region, and describe the answers."""
     words = failure.evidence.suspect("outside")
     return f"{words} {describe_answers(failure)}".strip() if words else ""
 
 
 def point_to_line(failure: Failure) -> str:
-    """Name the line in which one change mends all of the TODO, with what the answers show."""
+    """Name the line in which one change mends the whole TODO, and describe the answers."""
     if failure.mend is None:
         return ""
     first = describe_answers(failure).partition(". ")[0].removesuffix(".")
@@ -271,7 +271,7 @@ def name_rebound(failure: Failure) -> str:
 
 
 def repeat_remark(failure: Failure) -> str:
-    """Explain why there is no code; a missing program has none."""
+    """Repeat why there is no code; a missing program has none."""
     ran, remark = failure.check.ran, failure.evidence.remark
     program = ran.removeprefix("import ")
     if remark or failure.start is not None or program == ran:

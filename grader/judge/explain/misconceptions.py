@@ -31,7 +31,7 @@ class Mistake:
     meaning: str  # the sentence a student reads
     about: str  # the kind of question
     model: Model
-    apart: bool = True  # it may affect only one part of an answer
+    apart: bool = True  # whether it may affect a single part of an answer
 
 
 def no_traits(*inputs: Any) -> dict[str, str]:
@@ -65,8 +65,8 @@ def mistake(
     """Register a mistake by models of its answers; one of them must explain a submission's.
 
     Several TODOs are separated by spaces. If two mistakes explain the same answers, the first one
-    is named. With `apart` False, it is never in one part of an answer alone, even where its
-    kind of question allows that.
+    is named. With `apart` False, it never affects a single part of an answer, even if its kind of
+    question allows that.
     """
     for model in models:
         for todo in todos.split():
@@ -104,7 +104,7 @@ def register_recorded(table: RecordedAnswers, todo: str) -> None:
 
 
 def answer_from(answers: Answers) -> Model:
-    """Return the model that gives these answers, and is undecided about other questions."""
+    """Return the model that knows these answers, and is undecided about other questions."""
 
     def model(*inputs: Any) -> Any:
         try:
@@ -118,7 +118,7 @@ def answer_from(answers: Answers) -> Model:
 def name_mistake(todo: str, observations: Sequence[Observation]) -> Mistake | None:
     """Return the known mistake that explains every answer, or None.
 
-    A student's copy sees less, so it names one only if no other explains as much.
+    A student's copy knows fewer answers, so it names a mistake only if no other explains as many.
     """
     load_known(todo)
     if says_nothing(observations):
@@ -142,7 +142,7 @@ def says_nothing(observations: Sequence[Observation]) -> bool:
 
 
 def keep_simplest(ids: Collection[str]) -> list[str]:
-    """Drop the ids of two mistakes, `one+other`, if one of them is in the list by itself."""
+    """Drop combined ids, `one+other`, if one of the two is also in the list alone."""
     return [each for each in ids if "+" not in each or not set(each.split("+")) & set(ids)]
 
 

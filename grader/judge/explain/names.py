@@ -20,8 +20,8 @@ from grader.source.definitions import MAX_READ, list_functions, statements
 from grader.source.regions import python_files, read_source
 
 MOST = 1000  # functions of a program; the lesson's have sixty
-LONGEST = 80  # letters of a name that may be a new one for another
-SIMILAR = 0.6  # of two names, from which on one may replace the other
+LONGEST = 80  # letters that two names of the same thing must share
+SIMILAR = 0.6  # minimum similarity of two names of the same thing
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,7 @@ def read_bounded(paths: Iterable[Path]) -> Iterator[str]:
 def find_new_name(
     meant: Signature, module: str, theirs: Mapping[str, Signature], ours: Mapping[str, Signature]
 ) -> str:
-    """Return `World has no apply_damping; it has apply_damp: renamed?` if a name is similar."""
+    """Suggest a similar name: `World has no apply_damping; it has apply_damp: renamed?`."""
     new = [
         each
         for path, each in ours.items()
@@ -147,7 +147,7 @@ def measure_likeness(first: str, second: str) -> float:
 
 
 def compare_arguments(meant: Signature, found: Signature) -> str:
-    """Return a sentence about a function that takes other arguments than it is called with."""
+    """Return a sentence about a function whose arguments do not fit its calls."""
     if found.open or found.names == meant.names:
         return ""
     if sorted(found.names) == sorted(meant.names):

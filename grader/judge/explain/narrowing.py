@@ -20,11 +20,11 @@ from grader.judge.explain.misconceptions import (
 from grader.judge.lab import Observation
 from grader.judge.recorded import key
 
-WHOLE = "the answer"  # the part of an answer without parts, or of the wrong kind
+WHOLE = "the answer"  # the name of the whole answer as a part
 CASE = "_case"  # the trait that describes a question
 FEWEST = 2  # minimum of answers for a proof
-MOST = 3  # clauses of one kind in a sentence
-LONGEST = 150  # characters of these clauses
+MOST = 3  # maximum of clauses of one kind in a sentence
+LONGEST = 150  # maximum of characters of these clauses
 IS_WRONG = "is wrong"
 
 Numbers = list[tuple[float, float]]  # of the answer, and of the right one
@@ -42,7 +42,7 @@ class Question:
 
     @cached_property
     def misfit(self) -> str:
-        """Return how the answer differs in kind from the right one, in words; else empty."""
+        """Say how the answer differs in kind from the right one; empty if it does not."""
         if isinstance(self.answer, str):
             return f"the answer is {self.answer}"
         if self.answer is None and self.right is not None:
@@ -88,7 +88,7 @@ def read_questions(observations: Sequence[Observation]) -> Iterator[Question]:
 
 
 def split(about: str, answer: Any) -> dict[str, Any]:
-    """Return the parts of an answer; each is the whole answer if that is of another kind."""
+    """Split an answer into parts; an answer of another kind stays whole in each."""
     numbers, found = flatten(answer), {WHOLE: answer}
     for name, places in kinds[about].parts.items():
         has = places and len(numbers) > max(places)
@@ -125,7 +125,7 @@ class Narrowing:
 
     @property
     def is_local(self) -> bool:
-        """Return whether it separates questions with a wrong answer from others."""
+        """Return whether some trait separates questions with wrong answers from others."""
         return any(f" {each.where}".count(" where ") for each in self.wrong)
 
     @property
@@ -248,7 +248,7 @@ def find_majority(wrong: list[Question], others: list[Question], kinds: list[str
 
 
 def is_readable(clauses: Counter[Any], is_short: bool = True) -> bool:
-    """Return whether clauses make a readable sentence; a short one has few `and` and `or`."""
+    """Return whether clauses make a readable sentence: short, with few `and` and `or`."""
     if None in clauses or len(clauses) > MOST:
         return False
     words = join(clauses)
@@ -327,7 +327,7 @@ def find_factor(pairs: Numbers) -> float | None:
 
 
 def find_offset(vectors: list[tuple[list[float], list[float]]]) -> float:
-    """Find by how much a single number is always off; 0 if it varies."""
+    """Find the constant error of a single number; 0 if it varies."""
     offs = [ours[0] - theirs[0] for ours, theirs in vectors if len(ours) == len(theirs) == 1]
     if len(offs) < max(FEWEST, len(vectors)):
         return 0.0

@@ -19,14 +19,14 @@ from grader.source.regions import Region, regions_in, replace_regions
 
 MOST_TRIED = 150  # changes
 LONGEST, MOST_LETTERS = 80, 6000  # lines of a region, and letters; an answer has a dozen lines
-NAMED = re.compile(r"(?:id|attr|value)=(?:'\w*'|[\d.e+-]+)")  # in the output of ast.dump
+NAMED = re.compile(r"(?:id|attr|value)=(?:'\w*'|[\d.e+-]+)")  # as ast.dump writes it
 
 
 @dataclass(frozen=True)
 class Variant:
     """A region with one change."""
 
-    lines: tuple[int, ...]  # of the region, from 1; two if both of two similar lines are changed
+    lines: tuple[int, ...]  # numbers in the region, from 1; two if two similar lines are changed
     how: str  # in words
     code: str
 
@@ -75,7 +75,7 @@ def find_mend(
 
 
 def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
-    """Yield the region with one change; kinds of changes with few places come first.
+    """Yield the region with one change; rare kinds of changes come first.
 
     Yield none if Python refuses the region, or it is long. `names` are the function's parameters.
     """
@@ -111,13 +111,13 @@ def is_value(name: str) -> bool:
 def find_places(tree: ast.AST) -> Iterator[Place]:
     for place in walk_places(tree):
         loaded = isinstance(getattr(place.node, "ctx", ast.Load()), ast.Load)
-        in_text = isinstance(place.parent, ast.JoinedStr)  # whose parts cannot be replaced
+        in_text = isinstance(place.parent, ast.JoinedStr)  # nodes whose parts cannot be replaced
         if loaded and isinstance(place.node, ast.expr | ast.stmt) and not in_text:
             yield place
 
 
 def find_twins(tree: ast.AST) -> Iterator[tuple[Place, Place]]:
-    """Yield pairs of places in two statements that differ only in names and numbers."""
+    """Yield pairs of nodes at which two statements differ that are otherwise alike."""
     twins: dict[str, list[ast.stmt]] = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.Assign | ast.AugAssign):
@@ -153,7 +153,7 @@ def put_into(text: str, region: Region, code: str) -> str:
     return replace_regions(text, {region.id: tuple(new)})
 
 
-KINDS: tuple[tuple[str, Operator], ...] = (  # each with its words about the line
+KINDS: tuple[tuple[str, Operator], ...] = (  # kinds of changes, each with its words about the line
     ("With another operator in", make.change_arithmetic),
     ("With another comparison in", make.change_comparison),
     ("Without the statement that begins in", make.leave_out_statement),

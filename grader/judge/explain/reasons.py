@@ -56,7 +56,7 @@ class Reasons:
         return RegionCode(read_source(self.submission.folder / where.file), todo.id, todo.path)
 
     def _find_bad_lines(self) -> dict[str, BadLine]:
-        """Return by TODO a line of the stub, or one above code that never runs."""
+        """Return by TODO a leftover line of the stub, or a line above code that never runs."""
         first: dict[str, Outcome] = {}
         for key, outcome in self.loop.failed.items():
             if outcome.job.todo.function and key not in self.causes:
@@ -65,7 +65,7 @@ class Reasons:
         return {id: line for id, line in found if line}
 
     def _look_at(self, outcome: Outcome) -> BadLine | None:
-        """Return the line to remove; a run without a leftover shows whether that helps."""
+        """Return a line to remove; for a leftover, a run without it shows whether that helps."""
         todo = outcome.job.todo
         code = None if self.loop.budget.cut else self._read_region(todo)
         if code is None:
@@ -158,7 +158,7 @@ class Reasons:
         )
 
     def _own_names(self, todo: Todo, names: list[str]) -> list[str]:
-        """Return the names that kept a value and that the code of a TODO uses."""
+        """Return the names used by a TODO's code that kept a value from call to call."""
         if not names or not todo.function:
             return []
         used = self.submission.program.names_used(*todo.function.split(":"))
@@ -167,7 +167,7 @@ class Reasons:
     def _find_earlier(
         self, todo: Todo, outcomes: Mapping[str, Outcome], unfinished: set[str]
     ) -> dict[str, list[str]]:
-        """Return, by failed check, the other TODOs whose mistakes show before its own.
+        """Return, by failed check, the other TODOs whose mistakes make it fail first.
 
         A check of the whole also waits for TODOs that it needs and that no right version could
         replace.
@@ -202,7 +202,7 @@ class Reasons:
         """Add the line in which one change makes the unexplained checks pass, if it is found."""
         options = self.grading.options
         rule = TRESPASS.removeprefix("{name}")
-        # If it oversteps, no other line is the reason.
+        # A forbidden change needs no other reason.
         oversteps = any(rule in check.meaning for check in checks)
         if not options.trusted or not options.mends or oversteps:
             return failures
@@ -236,7 +236,7 @@ class Reasons:
 
 
 def wait_for(todos: list[str], check: CheckResult) -> CheckResult:
-    """Return a failed check without words about other TODOs, whose mistakes come first."""
+    """Return a failed check that waits for other TODOs, whose mistakes come first."""
     are = "is" if len(todos) == 1 else "are"
     got = f"your program fails before that: TODO {join_words(todos)} {are} not right yet"
     return structs.replace(check, expected="", got=got, meaning="")

@@ -52,8 +52,8 @@ from grader.protocol import (
 START_SECONDS = 60.0  # to start a child on the slowest machine
 WALL_FACTOR, WALL_EXTRA = 4, 20.0  # the last resort, s: CPU budget x factor + extra
 AHEAD = min(4, count_cores())  # processes that load while others work, without fork
-STOPPED_SECONDS = 2  # after which a stopped warm process counts as stopped by a child
-REST_SECONDS = 8.0  # the longest that a child may sleep in all
+STOPPED_SECONDS = 2  # s after which a stopped warm process counts as stopped by a child
+REST_SECONDS = 8.0  # s, the longest sleep of a child in all
 # Checks keep answers, which take up to thirty times their length in memory. Real children send at
 # most 1 MB in all.
 MAX_HEARD = 8 * 1024 * 1024  # bytes
@@ -85,23 +85,23 @@ class Child:
         self.cpu_seconds = cpu_seconds
         self.rest_seconds = REST_SECONDS
         self.cpu = 0.0  # s, of processor time that it used; known when it has ended
-        self.rested = 0.0  # s, in which it owed an answer and slept
-        self.waited = self.looked = 0.0  # s, spent on its answers: in all, and at the last look
-        self.began = seconds_in_queue(os.getpid())  # s, that the judge had queued when it began
+        self.rested = 0.0  # s of sleep while it owed an answer
+        self.waited = self.looked = 0.0  # s spent on its answers: in all, and until the last look
+        self.began = seconds_in_queue(os.getpid())  # s that the judge had queued before it began
         self.asked = self.sent = self.answered = 0  # questions
         self.posted: list[Asked] = []  # questions to be sent
         self.heard = 0  # bytes of its answers
-        self.first: list[Setup] = []  # to be done before the next request
-        self.seen: dict[int, Value] = {}  # states that came with the last answer, by object
-        self.over = ""  # reason why it does not answer any more
-        self.late = False  # it was ended because its time was over
+        self.first: list[Setup] = []  # changes to send before the next request
+        self.seen: dict[int, Value] = {}  # states from the last answer, by object
+        self.over = ""  # the reason why it no longer answers
+        self.late = False  # whether it was ended because its time was over
         try:
             self.ready = ready_decoder.decode(channel.receive(START_SECONDS))
         except (ChannelClosed, ChannelTimeout, *NOT_A_MESSAGE) as error:
             raise ChildEnded(f"the worker could not start a child: {error}") from error
 
     def ask(self, request: Request | Record) -> Answered:
-        """Return the answer to a request; raises ChildEnded, for anything else ends the child."""
+        """Return the answer to a request; raises ChildEnded, as any other error ends the child."""
         return self.answer_at_once(request) or self.answer(self.post(request))
 
     def answer_at_once(self, request: Request | Record) -> Answered | None:
@@ -196,11 +196,11 @@ class Child:
         raise ChannelTimeout
 
     def _look(self) -> None:
-        """Add up how long it has slept: the time for its answers without work and queueing."""
+        """Add up its sleep: the time for its answers minus work and queueing."""
         busy = busy_seconds(self.worker.pid_of(self))
         if busy is None:  # it has ended
             return
-        # While the judge waits for a processor, an answer waits for the judge.
+        # While the judge queues for a processor, an answer waits for the judge.
         ours = seconds_in_queue(os.getpid()) - self.began
         self.rested, self.looked = max(self.rested, self.waited - busy - ours), self.waited
 
@@ -214,7 +214,7 @@ class Child:
             self._give_up("the child was ended", gone=False)
 
     def finish(self) -> None:
-        """Wait for a child that gets no request, as long as its time lasts."""
+        """Wait for a child without requests to end, within its time."""
         with suppress(ChannelClosed, ChannelTimeout, *NOT_A_MESSAGE):
             self.channel.receive(self.wall_seconds)
         self.end()
@@ -264,7 +264,7 @@ def list_waits(pid: int) -> Iterator[float]:
 class Worker(Protocol):
     """A source of children."""
 
-    layers: list[str]  # of isolation around all children, beside those that each child names
+    layers: list[str]  # layers of isolation around all children, beside those that each child names
 
     def helpers(self, count: int) -> Sequence["Worker"]:
         """Return at most `count` other workers, which open children at the same time."""
@@ -312,14 +312,14 @@ class WarmWorker:
     def _use(self, started: Started) -> None:
         """Talk to the first server of a process; helpers talk to the others."""
         self.process, (ours, *others) = started
-        self.pid = self.process.pid  # of the server, once it is known
+        self.pid = self.process.pid  # process number of the server, once known
         self.control = Channel(ours)
         self.loading = True
-        self.layers: list[str] = []  # around all children, once one was opened
+        self.layers: list[str] = []  # layers around all children, once one was opened
         self.beside += [WarmWorker(self.without, 1, Started(self.process, [o])) for o in others]
 
     def helpers(self, count: int) -> Sequence["WarmWorker"]:
-        """Return other workers, which are reused for the next grade and closed with this one."""
+        """Return helpers, which also serve the next grade and close with this worker."""
         while len(self.beside) < count:
             self.beside.append(WarmWorker(self.without))
         return self.beside[:count]
@@ -428,7 +428,7 @@ class SpawnWorker:
         self._start_ahead()
 
     def helpers(self, count: int) -> Sequence["SpawnWorker"]:
-        """Return none: processes start ahead as it is."""
+        """Return none: processes start ahead anyway."""
         return ()
 
     def _start_ahead(self) -> None:
@@ -490,7 +490,7 @@ class SpawnWorker:
 
 
 def reaped_seconds() -> float:
-    """Return the processor time of all our processes that have ended; 0 if it is unknown."""
+    """Return the processor time of all our ended processes; 0 if unknown."""
     try:
         import resource
     except ImportError:

@@ -33,7 +33,7 @@ def ask_child(child: Child, request: Request) -> Answered:
 
 @dataclass
 class Connection:
-    """Asks a child, which it opens and lets import the submission when first needed.
+    """Asks a child; at the first need, it opens the child, which imports the submission.
 
     All requests and answers pass through `send`; a replay puts a recorder there. `ran` describes
     the experiment that a request belongs to, and becomes the line *We ran* of a failure.
@@ -41,16 +41,16 @@ class Connection:
 
     module: str  # to import
     open_child: Callable[[], Child]
-    pieces: list[Piece]  # of the reference, which replace functions of the submission
+    pieces: list[Piece]  # pieces of the reference that replace functions of the submission
     send: Send = ask_child
     output: str = ""
     child: Child | None = None
     cpu: float = 0.0  # s, of processor time that its children used
     rested: float = 0.0  # s, for which they slept
     heard: int = 0  # bytes of their answers
-    over: NotYet | Broke | None = None  # reason why no more requests are possible
-    watched: bool = False  # the child notes which names keep a value from call to call
-    deal: int = 0  # added to the seeds that the submission gives its random generators
+    over: NotYet | Broke | None = None  # the reason why no more requests are possible
+    watched: bool = False  # whether the child notes names that keep a value from call to call
+    deal: int = 0  # added to the seeds of the submission's random generators
 
     def ask(self, request: Request, ran: str) -> Answer:
         """Return the answer; raises NotYet or Broke if the submission gave none."""
@@ -60,13 +60,13 @@ class Connection:
     def answer_at_once(self, request: Request, ran: str) -> Answer | None:
         """Return the answer to a request that needs no message of its own, or None."""
         child = self.child or self.begin(ran)
-        if self.send is not ask_child:  # a recorder has each request answered
+        if self.send is not ask_child:  # a recorder needs an answer to each request
             return self._ask(child, request, ran)
         answered = self._try(lambda: child.answer_at_once(request), ran)
         return None if answered is None else self._read(answered, ran)
 
     def post(self, request: Request, ran: str) -> Callable[[], Answer]:
-        """Ask together with later questions; return a function that waits for the answer."""
+        """Post a question to send with later ones; return a function that waits for the answer."""
         child = self.child or self.begin(ran)
         if self.send is not ask_child:
             reply = self._ask(child, request, ran)
@@ -100,7 +100,7 @@ class Connection:
         return [name for name in names if name.replace(".", "").isidentifier()]
 
     def restart(self) -> None:
-        """End a child that still answers; the next request opens another one."""
+        """End the child; the next request opens another one."""
         if self.over is None:
             self.end()
 

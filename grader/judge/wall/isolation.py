@@ -8,17 +8,17 @@ from typing import Literal
 
 Isolation = Literal["auto", "strict", "none"]
 
-LAYERS = {  # by what they confine; one of them is enough
+LAYERS = {  # layers by what they confine; one of each is enough
     "files": {"own-root", "landlock-files"},
     "network": {"system-calls", "network-namespace", "landlock-tcp"},
     "other processes": {"system-calls", "pid-namespace", "landlock-scope", "own-user"},
 }
 STRICT = ("files", "network")  # required by --isolation=strict
 
-# These keep a submission from writing files that are not its own. A user of its own can read what
-# every account can, so that is not enough for `strict`.
+# These keep a submission from writing foreign files. A separate user can still read what every
+# account can, which is not enough for `strict`.
 KEEPS_FILES = LAYERS["files"] | {"own-user"}
-ONE_PROCESS = "one-process"  # no layer: submission and grader share a process
+ONE_PROCESS = "one-process"  # without layers: submission and grader share a process
 
 
 def find_refusal(isolation: Isolation, layers: list[str], trusted: bool) -> str:
@@ -53,7 +53,7 @@ def list_unconfined(layers: list[str]) -> list[str]:
 
 
 def load_everything() -> None:
-    """Import all of the grader before a submission runs, which could rewrite its files.
+    """Import all of the grader before a submission runs and could rewrite its files.
 
     Modules whose packages are not installed, such as Dask, are skipped.
     """

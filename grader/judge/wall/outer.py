@@ -42,9 +42,9 @@ except ImportError:  # Windows
 MEGABYTE = 1024 * 1024
 READING_CPU, GRADING_CPU = 15.0, 105.0  # s of processor time; both together make two minutes
 MOST_MEMORY = 1024  # MB, of all processes of a submission; twice as much of addresses
-MOST_SECONDS = 1800.0  # s on the clock: the last resort, where nothing else ends it
+MOST_SECONDS = 1800.0  # s on the clock: the last resort
 LOOK_SECONDS = 0.5
-TOGETHER = 50  # pieces of work in one process, if none fails
+TOGETHER = 50  # pieces of work in one process, unless one fails
 SECONDS_TO_END = 5.0  # s that a process has to clean up
 WATCHES_FORKS = sys.platform.startswith("linux")  # elsewhere files are read without limits
 TICKS = os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 100
@@ -106,7 +106,7 @@ reply_decoder = msgspec.msgpack.Decoder(Answer | Refusal)
 
 
 class Watch:
-    """Measures a process and all that it started, and compares them with an allowance."""
+    """Measures a process with all that it started, and compares it with an allowance."""
 
     def __init__(self, pid: int, allowance: Allowance) -> None:
         self.pid, self.allowance = pid, allowance
@@ -164,7 +164,7 @@ def read_family(pid: int) -> Iterator[tuple[int, tuple[float, int]]]:
 def add_shares(family: Family) -> int:
     """Return the bytes of these processes; a shared page counts once.
 
-    This takes the kernel longer. If it is not possible, each page counts as often as it is used.
+    This takes the kernel longer. If it is impossible, each page counts as often as it is used.
     """
     total = 0
     for pid, (_, memory) in family.items():
@@ -305,7 +305,7 @@ def read_reply(
 
 
 class WatchedProcess:
-    """A process for many calls, whose results such as a warm process can be used again.
+    """A process for many calls, which keeps results such as a warm process.
 
     It restarts after a call that reached a limit. Its temporary files are removed with it.
     """
@@ -317,7 +317,7 @@ class WatchedProcess:
 
     def start(self) -> "subprocess.Popen[bytes]":
         place = self.stack.enter_context(work_folder())
-        place.chmod(0o711)  # a child that is a user of its own passes through
+        place.chmod(0o711)  # open to a child with a separate user
         process = subprocess.Popen(
             command("grader.judge.wall.outer", str(place)),
             stdin=subprocess.PIPE,

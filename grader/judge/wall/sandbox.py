@@ -38,8 +38,8 @@ class Sandbox:
     isolation: Isolation
     hidden: list[str]  # folders that children cannot reach
     loads: list[str] = field(default_factory=list)  # libraries that are slow to load, by name
-    trusted: bool = False  # the user's own work
-    layers: list[str] = field(default_factory=list)  # of isolation around the last child
+    trusted: bool = False  # whether it is the user's own work
+    layers: list[str] = field(default_factory=list)  # layers of isolation around the last child
     bans: list[str] = field(default_factory=list)  # modules that children may not import, by name
     shown: list[str] = field(default_factory=list)  # folders that children need not copy
     programs: list[str] = field(default_factory=list)  # modules that checks import
@@ -74,7 +74,7 @@ class Sandbox:
     def changed(self, texts: Mapping[str, str]) -> "Sandbox":
         """Return the sandbox of a copy of the tree, in which some files have another text.
 
-        Both share compiled files. A changed file gets a time over a second later, since Python
+        Both share compiled files. A changed file gets a time more than a second later, since Python
         compares whole seconds.
         """
         tree = Path(tempfile.mkdtemp(dir=self.work)) / "tree"
@@ -104,10 +104,9 @@ class Sandbox:
         return self.work / "bytecode"
 
     def compile(self) -> None:
-        """Compile the files in a child that never runs the submission; other children only read.
+        """Compile the files, once, in a child that never runs the submission.
 
-        Does nothing if that is done. The modes forbid writing too, for machines without a layer
-        that confines files.
+        File modes keep other children from writing them on machines where no layer confines files.
         """
         if self.bytecode.exists():
             return

@@ -24,7 +24,7 @@ runpy.run_module({module!r}, run_name="__main__")
 
 
 def command(module: str, *args: str) -> list[str]:
-    """Return Python in isolated mode: it reads no folder of a submission and no variable."""
+    """Return a command for isolated Python, which reads no variable and no submission's folder."""
     return [sys.executable, "-I", "-c", program(module, *args)]
 
 
@@ -51,7 +51,7 @@ def start_clean(
 ) -> Started:
     """Start Python with the other ends of channels, and nothing of the judge in its arguments.
 
-    A child finds the arguments and variables of its process in memory. So the program comes by
+    A child can read its process's arguments and variables in memory, so the program comes by
     standard input. `out`: where it prints, as in Popen.
     """
     pairs = [socket.socketpair() for _ in range(channels)]
@@ -84,7 +84,7 @@ def clean_environment() -> dict[str, str]:
 # ---------------------------------------------------------------- the warm process
 
 WARM = "grader.worker.warm"
-waiting: dict[int, Started] = {}  # warm processes that no worker has taken yet, by their servers
+waiting: dict[int, Started] = {}  # warm processes without a worker yet, by their number of servers
 
 
 def start_ahead(servers: int) -> None:

@@ -1,9 +1,9 @@
 """Compile what the page loads: by the page's own Python, when the page is made.
 
-lab.pyc.zip, beside /parts/lab.zip, holds the compiled files that the page loads. For
-python_stdlib.zip, booted.pyc.zip holds the modules that Python loads at its start, and
-loaded.pyc.zip those that the page loads later. Docstrings that are titles of checks stay. The page
-does not check whether a file is newer.
+lab.pyc.zip holds the compiled files of /parts/lab.zip that the page loads. Of python_stdlib.zip,
+booted.pyc.zip holds the modules that Python loads at its start, and loaded.pyc.zip those that the
+page loads later. Docstrings that are titles of checks stay. The page does not check whether a file
+is newer.
 """
 
 import ast

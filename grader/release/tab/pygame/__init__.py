@@ -1,11 +1,11 @@
-"""pygame for a page: what the lab uses of pygame-ce, in Python, without a window of its own.
+"""pygame for a page: the parts of pygame-ce that the lab uses, in Python, without a window.
 
-The page puts it before all else on `sys.path` of its Python, which runs in a web worker. It sets:
+The page puts it first on `sys.path` of its Python, which runs in a web worker. It sets:
 
 - `pygame.display.state.sink = show`: `show(surface)` is called for each picture. `surface.ops` is
   the list of its draw commands, `surface.size` its (width, height) in px. None shows nothing.
 - `pygame.Clock.wait_hook = rest`: `rest(fps, last)` rests until 1/fps seconds after `last`, a time
-  of `perf_counter` in s, or not at all where fps is 0. Meanwhile it posts what events have come,
+  of `perf_counter` in s, or not at all where fps is 0. Meanwhile it posts new events,
   with `pygame.event.post(pygame.event.Event(type, {name: value}))`. It is called by `tick`, by
   `pygame.time.wait` and `delay`, and by `flip` in programs without a Clock.
 - `pygame.event.wait_hook = rest_a_frame`: called without arguments while `wait` has no event.

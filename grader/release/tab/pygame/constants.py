@@ -1,4 +1,4 @@
-"""The numbers of keys, events and flags, as pygame-ce has them."""
+"""The numbers of keys, events and flags in pygame-ce."""
 
 NOEVENT, QUIT, KEYDOWN, KEYUP, TEXTEDITING, TEXTINPUT = 0, 256, 768, 769, 770, 771
 MOUSEMOTION, MOUSEBUTTONDOWN, MOUSEBUTTONUP, MOUSEWHEEL = 1024, 1025, 1026, 1027

@@ -8,7 +8,7 @@ from .state import need_window
 from .surface import Surface, read_size
 from .time import rest
 
-DESKTOP = (1024, 768)  # px, what set_mode takes where no size is given
+DESKTOP = (1024, 768)  # px, the default of set_mode
 
 
 def init():

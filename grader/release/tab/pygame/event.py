@@ -5,8 +5,8 @@ from .errors import error
 from .naming import Named, full_name
 from .state import State, need_window
 
-pump_hook = None  # the page's: called by get, poll, peek and pump; posts what has come
-wait_hook = None  # the page's: called while wait has nothing; rests a frame and posts what came
+pump_hook = None  # the page's: called by get, poll, peek and pump; posts new events
+wait_hook = None  # the page's: called while wait has no event; rests a frame and posts new events
 MOST = 65_535  # events in the queue
 
 queue = []

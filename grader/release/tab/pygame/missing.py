@@ -1,4 +1,4 @@
-"""Names and modules that pygame-ce has and the pygame of this page has not."""
+"""Names and modules of pygame-ce that the page's pygame lacks."""
 
 import sys
 from functools import partial

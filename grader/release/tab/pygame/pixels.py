@@ -1,7 +1,7 @@
-"""Pixels of draw commands, for what asks for a colour: get_at, photos and checksums of a window.
+"""Pixels of draw commands, where colours are needed: get_at, photos and checksums of a window.
 
 The page draws on a canvas and hands no pixels back, so they are computed here, row by row. Shapes
-cover the pixels that pygame-ce's cover, but for a few at slanted edges. Letters become bars.
+cover the same pixels as in pygame-ce, except a few at slanted edges. Letters become bars.
 """
 
 from math import floor, hypot, sqrt
@@ -16,7 +16,7 @@ class Pixels:
     def __init__(self, width, height):
         self.width, self.height = width, height
         self.bytes = bytearray(4 * width * height)
-        self.at = (0, 0)  # where commands have their (0, 0)
+        self.at = (0, 0)  # position of the commands' (0, 0)
         self.clip = (0, 0, width, height)  # left, top, right, bottom
 
     def paint(self, commands):

@@ -25,7 +25,7 @@ def read_rect(*values):
 
 
 def read_rect_of(thing):
-    """Return the `rect` of a thing."""
+    """Return the `rect` of an object."""
     if not hasattr(thing, "rect"):
         raise TypeError(STYLE)
     return thing.rect
@@ -41,7 +41,7 @@ def to_int(value):
 
 
 def side(get, put):
-    """Return an attribute that moves or sizes a rectangle; both functions take it as `r`."""
+    """Make an attribute that moves or sizes a rectangle, which both functions take as `r`."""
 
     def set_to(r, value):
         put(r, *map(to_int, value)) if hasattr(value, "__getitem__") else put(r, to_int(value))
@@ -80,7 +80,7 @@ class Rect(metaclass=Named):
     centery = side(lambda r: r._y + half(r._h), lambda r, y: r._place(r._x, y - half(r._h)))
 
     def corner(one, two):
-        """Return an attribute of two others."""
+        """Make an attribute from two others."""
 
         def put(r, x, y):
             setattr(r, one, x)

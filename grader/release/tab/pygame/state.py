@@ -6,7 +6,7 @@ NOT_STARTED = "video system not initialized"
 
 
 class State:
-    """Hold what the modules share. The page sets `sink`."""
+    """State that the modules share. The page sets `sink`."""
 
     on = False  # between pygame.init and pygame.quit
     fonts = False

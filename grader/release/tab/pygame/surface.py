@@ -1,4 +1,4 @@
-"""Surface: a list of draw commands, see the package's docstring for what they are."""
+"""Surface: a list of draw commands, which the package's docstring explains."""
 
 from functools import partial
 
@@ -36,7 +36,7 @@ class Surface(metaclass=Named):
         self._into, self._clip = self.ops, None
         if not self._flags:
             self.fill((0, 0, 0))
-        self._drawn = None, 0  # pixels, and how many commands they are of
+        self._drawn = None, 0  # pixels, and the number of commands in them
 
     def __repr__(self):
         return f"<Surface({self._width}x{self._height}x32)>"

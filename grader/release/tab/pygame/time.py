@@ -7,7 +7,7 @@ from .naming import Named
 from .state import State
 
 START = time.perf_counter()
-LAST = 10  # ticks that get_fps looks back
+LAST = 10  # ticks that get_fps counts
 
 
 class Clock(metaclass=Named):

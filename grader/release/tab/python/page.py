@@ -23,9 +23,9 @@ import pygame
 LAB = Path("/lab")
 HANDED_OUT = Path("/handed-out")
 MOST_OUTPUT = 20_000  # characters that a program may print in a run
-MOST_BYTES = 20_000_000  # of a zip that is brought in
+MOST_BYTES = 20_000_000  # bytes of a zip to bring in
 COLUMNS = range(40, 81)
-LACKED = {  # the page's message, by Python's
+LACKED = {  # the page's message, by Python's message
     "named 'numpy'": "numpy is not in this page. Use Python's own numbers, or work on a computer.",
     "can't start new thread": "This page has no threads. Do without them, or work on a computer.",
 }
@@ -271,7 +271,7 @@ USUAL = 0.05  # s that the loop of measure_pace takes on a usual processor
 
 
 def hand_in():
-    """Pack the work; return the zip and a text about it."""
+    """Pack the work to hand in; return the zip and a text about it."""
     from grader.cli.hand_in import list_warnings, pack_tree, write_receipt
     from grader.judge.course import read_course
 
