@@ -160,7 +160,7 @@ def read_stub_sources(starter: dict[str, str]) -> dict[str, str]:
 
 def read_given_sources(starter: dict[str, str]) -> dict[str, str]:
     """Return the given files: to supply missing ones, and to see what was changed."""
-    programs = {todo.module for todo in load_rubric().todos}
+    programs = load_rubric().modules
     return {
         name: text
         for name, text in starter.items()

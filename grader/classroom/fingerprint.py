@@ -25,7 +25,7 @@ def pack_reference(folder: Path | None) -> Package | None:
     """Return the programs of the reference that the rubric names."""
     if folder is None:
         return None
-    modules = {todo.module for todo in load_rubric().todos}
+    modules = load_rubric().modules
     files = [
         (path.relative_to(folder).as_posix(), path.read_bytes())
         for path in python_files(folder)

@@ -87,7 +87,7 @@ class Watch:
 
     def find_trouble(self, file: str) -> str:
         """Return why Python cannot read a file of the programs; empty if it can."""
-        modules = {todo.module for todo in load_rubric().todos}
+        modules = load_rubric().modules
         if module_of(Path(file)) not in modules:
             return ""
         flaw = find_flaw(self.latest.get(file, ""))

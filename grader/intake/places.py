@@ -57,4 +57,4 @@ def has_program(folder: Path) -> bool:
 
 
 def list_modules() -> frozenset[str]:
-    return frozenset(todo.module for todo in load_rubric().todos)
+    return frozenset(load_rubric().modules)

@@ -17,7 +17,7 @@ from grader.judge.reference import Reference
 from grader.judge.result import MAX_FILE, CheckResult, Result, TodoResult, state_of
 from grader.judge.rubric import Rubric, Todo, load_rubric
 from grader.judge.submission import attempt, take_in
-from grader.judge.task import DEFAULT_OPTIONS, Options, Task, load_stubs, sandbox_for
+from grader.judge.task import DEFAULT_OPTIONS, Options, Task, sandbox_for
 from grader.judge.wall.children import Child, Worker, start_worker
 from grader.judge.wall.isolation import load_everything
 from grader.judge.wall.workplace import work_folder
@@ -56,7 +56,7 @@ def grading(
     rubric = rubric or options.course.rubric
     reference = Reference(options.reference, load_rubric())
     with work_folder() as work:
-        submission = take_in(path, work / "submission", load_rubric(), load_stubs())
+        submission = take_in(path, work / "submission")
         used = worker or start_worker(options.spawn, count=options.jobs)
         try:
             sandbox = sandbox_for(submission, work, used, options)
@@ -72,7 +72,7 @@ def open_tree(tree: Path) -> Iterator[Callable[[int], Child]]:
     with work_folder() as work:
         worker = start_worker()
         try:
-            taken_in = take_in(tree, work / "tree", load_rubric(), {})
+            taken_in = take_in(tree, work / "tree")
             yield sandbox_for(taken_in, work, worker, Options(trusted=True)).open_child
         finally:
             worker.close()

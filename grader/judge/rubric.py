@@ -66,6 +66,11 @@ class Rubric(Struct, frozen=True, forbid_unknown_fields=True):
         return [todo for todo in self.todos if not todo.bonus]
 
     @property
+    def modules(self) -> list[str]:
+        """Return the programs that its TODOs are in."""
+        return list(dict.fromkeys(todo.module for todo in self.todos))
+
+    @property
     def max_points(self) -> int:
         return sum(todo.max_points for todo in self.main_todos)
 

@@ -19,7 +19,7 @@ import msgspec
 from grader.errors import Stop
 from grader.judge.plain import copy_plain, open_plain, size_of
 from grader.judge.result import Where
-from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
+from grader.judge.rubric import CHECKS, Todo, load_rubric
 from grader.protocol import MAX_UPLOAD
 from grader.source.definitions import MAX_READ, Function, Program, source_of
 from grader.source.flaws import Flaw, find_bad_bytes, find_flaw
@@ -99,7 +99,7 @@ class Submission:
         return False
 
 
-def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Submission:
+def take_in(path: Path, copy: Path) -> Submission:
     """Copy a submission within bounds, make the copy read-only, and find the TODOs in it."""
     if not path.exists():
         raise CannotGrade(f"there is no submission at {path}: name a folder or a Python file")
@@ -113,7 +113,7 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
         copy_tree(path, submission)
     use_printed_names(copy)
     submission.supplied = list(supply_given(copy))
-    find_todos(submission, rubric, stubs)
+    find_todos(submission)
     for each in [copy, *copy.rglob("*")]:
         each.chmod(0o555 if each.is_dir() else 0o444)
     return submission
@@ -144,13 +144,13 @@ def copy_tree(path: Path, submission: Submission) -> None:
 
 def weight(inside: PurePath) -> tuple[bool, bool, int, PurePath]:
     """Return a sort key that puts the lab's own files before all others."""
-    of_lab = inside.parts[0].removesuffix(".py") in {todo.module for todo in load_rubric().todos}
+    of_lab = inside.parts[0].removesuffix(".py") in load_rubric().modules
     return not of_lab, inside.suffix != ".py", len(inside.parts), inside
 
 
 def use_printed_names(folder: Path) -> None:
     """Copy NAME_starter.py, the name that the lesson prints, to NAME.py if there is no NAME."""
-    for name in {todo.module for todo in load_rubric().todos}:
+    for name in load_rubric().modules:
         printed, own = folder / f"{name}_starter.py", folder / f"{name}.py"
         if printed.is_file() and not own.exists() and not (folder / name).exists():
             shutil.copyfile(printed, own)
@@ -161,7 +161,7 @@ def supply_given(folder: Path) -> Iterator[str]:
 
     A package is completed if a part of it was handed in. A missing program stays missing.
     """
-    programs = {f"{todo.module}.py" for todo in load_rubric().todos}
+    programs = {f"{module}.py" for module in load_rubric().modules}
     for name, text in load_given().items():
         if name in programs:
             continue
@@ -233,14 +233,15 @@ def may_be_entered(folder: os.DirEntry[str]) -> bool:
     return is_own and not os.path.lexists(os.path.join(folder.path, "pyvenv.cfg"))
 
 
-def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) -> None:
+def find_todos(submission: Submission) -> None:
     """Find the position of each TODO, and whether its code differs from the stub."""
+    rubric = load_rubric()
     texts = {
         path.relative_to(submission.folder): read_source(path)
         for path in python_files(submission.folder)
     }
     program = submission.program = repair_programs(submission, texts)
-    loaded = program.list_files(todo.module for todo in load_rubric().todos)
+    loaded = program.list_files(rubric.modules)
     submission.uses_numpy = any("numpy" in texts[path] for path in loaded)
     for todo in rubric.todos:
         if not todo.function:
@@ -248,10 +249,10 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
         found = program.definition(todo.function.partition(":")[0], todo.path)
         if found is not None:
             inside = program.paths[found.module]
-            note_place(submission, todo, stubs, inside, texts[inside], found.function)
+            note_place(submission, todo, inside, texts[inside], found.function)
         submission.begun.setdefault(todo.id, not todo.bonus)  # older programs have no bonus tasks
-    note_remarks(submission, rubric, stubs, texts)
-    for module in dict.fromkeys(todo.module for todo in rubric.todos):
+    note_remarks(submission, texts)
+    for module in rubric.modules:
         main = program.definition(module, "main")
         if main is not None:
             file = program.paths[main.module].as_posix()
@@ -277,7 +278,7 @@ def repair_programs(submission: Submission, texts: dict[Path, str]) -> Program:
     Changes `texts` and the copy, and notes the TODOs whose code was replaced.
     """
     repairer, repaired_once = Repairer(handed_out()), set[Path]()
-    modules = dict.fromkeys(todo.module for todo in load_rubric().todos)
+    modules = load_rubric().modules
     started = [*modules, *(f"{module}.__main__" for module in modules)]
     while True:
         program = Program(texts)
@@ -324,6 +325,12 @@ def handed_out() -> HandedOut:
     return HandedOut(load_given(), stubs, functions)
 
 
+@cache
+def load_stubs() -> dict[str, str]:
+    """Return the shapes of the stubs' regions, and of the functions around them."""
+    return {name: shape_of(source) for name, source in handed_out().stubs.items()}
+
+
 def describe_unread(path: Path, folder: Path) -> str:
     size = math.ceil(path.stat().st_size / 1024)
     return (
@@ -333,12 +340,7 @@ def describe_unread(path: Path, folder: Path) -> str:
 
 
 def note_place(
-    submission: Submission,
-    todo: Todo,
-    stubs: dict[str, str],
-    inside: Path,
-    text: str,
-    function: Function | None,
+    submission: Submission, todo: Todo, inside: Path, text: str, function: Function | None
 ) -> None:
     """Note the position of a TODO: its region or, without markers, its function.
 
@@ -353,12 +355,12 @@ def note_place(
     file = inside.as_posix()
     if region is not None:
         submission.where[todo.id] = Where(file, first_code_line(region))
-        submission.begun[todo.id] = region.shape != stubs.get(todo.id)
+        submission.begun[todo.id] = region.shape != load_stubs()[todo.id]
         if not submission.begun[todo.id] and function is not None:
             note_misplaced(submission, todo, file, text, function)
     elif function is not None:
         submission.where[todo.id] = Where(file, function.lineno)
-        submission.begun[todo.id] = submission.functions[todo.id] != stubs.get(f"def {todo.id}")
+        submission.begun[todo.id] = submission.functions[todo.id] != load_stubs()[f"def {todo.id}"]
 
 
 def note_misplaced(
@@ -375,18 +377,16 @@ def note_misplaced(
         )
 
 
-def note_remarks(
-    submission: Submission, rubric: Rubric, stubs: dict[str, str], texts: dict[Path, str]
-) -> None:
+def note_remarks(submission: Submission, texts: dict[Path, str]) -> None:
     """Note other reasons why a TODO has no code: it is in a copy, or its file is missing."""
     lacking = [
         todo
-        for todo in rubric.todos
+        for todo in load_rubric().todos
         if todo.function
         and todo.id not in submission.remarks
         and (todo.id not in submission.functions or not submission.begun[todo.id])
     ]
-    copies = find_copies(submission, {todo.id for todo in lacking}, stubs, texts)
+    copies = find_copies(submission, {todo.id for todo in lacking}, texts)
     for todo in lacking:
         found, where = copies.get(todo.id), submission.where.get(todo.id)
         if found is not None:
@@ -397,12 +397,10 @@ def note_remarks(
             submission.remarks[todo.id] = SUPPLIED.format(file=where.file)
 
 
-def find_copies(
-    submission: Submission, ids: set[str], stubs: dict[str, str], texts: dict[Path, str]
-) -> dict[str, Path]:
+def find_copies(submission: Submission, ids: set[str], texts: dict[Path, str]) -> dict[str, Path]:
     """Return by TODO a file that no program loads and whose code is not the stub."""
     program = submission.program
-    modules = dict.fromkeys(todo.module for todo in load_rubric().todos)
+    modules = load_rubric().modules
     loaded = {program.paths[part] for module in modules for part in program.list_loaded(module)}
     others = [path for path in texts if path not in loaded and not path.stem.endswith("_old")]
     with_regions = (path for path in others if ids and "# END TODO" in texts[path])
@@ -410,7 +408,7 @@ def find_copies(
         region.id: path
         for path in islice(with_regions, MAX_COPIES)
         for region in read_regions(texts[path])[0]
-        if region.id in ids and region.shape != stubs.get(region.id)
+        if region.id in ids and region.shape != load_stubs().get(region.id)
     }
 
 

@@ -4,7 +4,7 @@ import os
 import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,11 +14,10 @@ from grader.judge.passed import PassedPrograms
 from grader.judge.reference import Reference
 from grader.judge.result import CheckResult
 from grader.judge.rubric import Check, Rubric, Todo, load_rubric
-from grader.judge.submission import Submission, handed_out, plain_files, take_in
+from grader.judge.submission import Submission, plain_files, take_in
 from grader.judge.wall.children import Child, Worker
 from grader.judge.wall.isolation import Isolation
 from grader.judge.wall.sandbox import Sandbox
-from grader.source.regions import shape_of
 
 if TYPE_CHECKING:
     from grader.judge.explain.names import Names
@@ -114,7 +113,7 @@ class Task:
         """Return the reference, taken in like a submission."""
         assert self.options.reference is not None
         work = Path(tempfile.mkdtemp(dir=self.sandbox.work))  # an unguessable name
-        return take_in(self.options.reference, work / "tree", self.rubric, {})
+        return take_in(self.options.reference, work / "tree")
 
 
 def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) -> Sandbox:
@@ -129,7 +128,7 @@ def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) 
         loads=["numpy"] if tree.uses_numpy else [],
         trusted=options.trusted,
         shown=as_in_reference(tree.folder, options.reference),
-        programs=sorted({todo.module for todo in load_rubric().todos}),
+        programs=sorted(load_rubric().modules),
     )
 
 
@@ -140,7 +139,7 @@ def as_in_reference(tree: Path, reference: Path | None) -> list[str]:
     """
     if reference is None or os.name != "posix":  # Windows may not allow a link
         return []
-    programs = {todo.module for todo in load_rubric().todos}
+    programs = load_rubric().modules
     folders = [each.name for each in sorted(tree.iterdir()) if each.is_dir()]
     return [
         name
@@ -156,9 +155,3 @@ def has_same_files(folder: Path, other: Path) -> bool:
 
 def contents(folder: Path) -> dict[Path, bytes]:
     return {path.relative_to(folder): path.read_bytes() for path in plain_files(folder)}
-
-
-@cache
-def load_stubs() -> dict[str, str]:
-    """Return the shapes of the stubs' regions, and of the functions around them."""
-    return {name: shape_of(source) for name, source in handed_out().stubs.items()}

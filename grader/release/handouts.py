@@ -58,7 +58,7 @@ def cut_readme(text: str, course: Course) -> str:
     The file is plain Markdown without conditions: parts name the TODO or program they depend on.
     """
     given = {todo.id for todo in course.given_todos}
-    every = {todo.module for todo in load_rubric().todos} - set(course.modules)
+    every = set(load_rubric().modules) - set(course.modules)
     names = [*(f"TODO {id}" for id in given), *map(name_command, every), *map(name_program, every)]
     if not names:
         return text

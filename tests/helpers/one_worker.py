@@ -6,7 +6,6 @@ from pathlib import Path
 
 from grader.bank.verify import shared_worker
 from grader.judge.grade import take_in, work_folder
-from grader.judge.rubric import load_rubric
 from grader.judge.task import Options, sandbox_for
 from grader.judge.wall.children import Child
 
@@ -15,7 +14,7 @@ from grader.judge.wall.children import Child
 def child_opener(tree: Path) -> Iterator[Callable[[int], Child]]:
     """Yield a way to open children of a tree, as `grader.judge.grade.opened` does."""
     with work_folder() as work:
-        taken_in = take_in(tree, work / "tree", load_rubric(), {})
+        taken_in = take_in(tree, work / "tree")
         yield sandbox_for(taken_in, work, shared_worker(), Options(trusted=True)).open_child
 
 

@@ -30,7 +30,6 @@ from grader.intake.packing import read_package
 from grader.intake.roster import ClassList, Roster
 from grader.intake.systems import find_system, read_roster
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.judge.rubric import load_rubric
 from grader.judge.submission import MAX_FILES, CannotGrade, take_in
 
 SOURCE = "points = 7\n"
@@ -81,7 +80,7 @@ def test_what_may_not_be_read_is_for_a_person_and_not_nothing(tmp_path: Path, mo
     with pytest.raises(CannotTake, match=f"{what[4:]} cannot be read: Permission denied"):
         read_package(found)
     with pytest.raises(CannotGrade, match=f"{what[4:]} cannot be read: Permission denied"):
-        take_in(found.sources[0], tmp_path / "copy", load_rubric(), {})
+        take_in(found.sources[0], tmp_path / "copy")
 
 
 def shut(monkeypatch, path: Path) -> None:
@@ -110,7 +109,7 @@ def test_the_labs_own_files_come_first_however_many_others_there_are(tmp_path: P
         assert any("files: size limit reached" in note for note in package.notes)
     inner = many | {"zzz/work.zip": packed.as_zip(WORK)}
     assert dict(read_package(zipped(tmp_path, inner)).files)["integrators.py"] == SOURCE.encode()
-    submission = take_in(put(tmp_path / "plain", many | lab), tmp_path / "copy", load_rubric(), {})
+    submission = take_in(put(tmp_path / "plain", many | lab), tmp_path / "copy")
     assert (tmp_path / "copy" / "integrators.py").is_file() and submission.left_out
 
 

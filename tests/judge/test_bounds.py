@@ -18,7 +18,6 @@ from whole_bank import bank
 from grader.bank.verify import shared_worker
 from grader.judge.explain.names import LONGEST, MOST, Names
 from grader.judge.result import MAX_JSON, CheckResult, Result, TodoResult, Where
-from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, find_todos
 from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall.children import Child, ChildEnded
@@ -215,7 +214,7 @@ def test_files_are_read_up_to_a_sum(monkeypatch: pytest.MonkeyPatch):
 def test_a_file_that_is_too_long_is_named(tmp_path: Path):
     (tmp_path / "integrators.py").write_text("#" * (MAX_SOURCE + 1), encoding="utf-8")
     submission = Submission("x", tmp_path)
-    find_todos(submission, load_rubric(), {})
+    find_todos(submission)
     (said,) = submission.unread
     assert said.startswith("integrators.py has 129 KB and was not read")
 

@@ -10,8 +10,8 @@ import pytest
 from grader.bank.verify import shared_worker
 from grader.judge.grade import grade
 from grader.judge.rubric import load_rubric
-from grader.judge.submission import Submission, take_in
-from grader.judge.task import KIT, Options, load_stubs, shipped_reference
+from grader.judge.submission import Submission, load_stubs, take_in
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.source.flaws import find_bad_bytes, find_flaw
 from grader.source.regions import number_lines, read_source, regions_in
 from grader.source.repair import MAX_REPAIR, HandedOut, Repairer
@@ -23,7 +23,7 @@ Edit = tuple[str, str, str]  # a file, the old text and the new text
 
 
 def take(tree: Path, copy: Path) -> Submission:
-    return take_in(tree, copy, load_rubric(), load_stubs())
+    return take_in(tree, copy)
 
 
 def list_refused(tree: Path, copy: Path) -> tuple[set[str], set[str]]:

@@ -13,7 +13,7 @@ from grader.judge.passed import PassedPrograms, program_key
 from grader.judge.reference import Reference
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import take_in
-from grader.judge.task import KIT, Options, load_stubs, shipped_reference
+from grader.judge.task import KIT, Options, shipped_reference
 from grader.source.regions import replace_regions
 
 SOAK = pytest.mark.soak
@@ -32,7 +32,7 @@ def key_for(tree: Path, copy: Path) -> str:
     """Return the key of the program that the checks of TODO 2 run."""
     rubric = load_rubric()
     (todo,) = [each for each in rubric.todos if each.id == "2"]
-    submission = take_in(tree, copy, rubric, load_stubs())
+    submission = take_in(tree, copy)
     reference = Reference(shipped_reference(), rubric)
     right = reference.for_the_others(todo, todo.module, rubric, submission, differing=False)
     return program_key(todo, submission, right, None)

@@ -10,7 +10,6 @@ from grader.intake.found import CannotTake, Work
 from grader.intake.packing import open_found, pack
 from grader.judge import plain, submission
 from grader.judge.plain import open_plain, read_plain
-from grader.judge.rubric import load_rubric
 from grader.judge.submission import CannotGrade, take_in
 
 LINKS = pytest.mark.skipif(os.name == "nt", reason="links are for administrators there")
@@ -71,7 +70,7 @@ def test_a_link_put_in_after_the_look_is_not_taken_in(tree: Path, monkeypatch, w
 
     monkeypatch.setattr(submission, "plain_files", look)
     with pytest.raises(CannotGrade, match="cannot be read"):
-        take_in(tree, tree.parent / "copy", load_rubric(), {})
+        take_in(tree, tree.parent / "copy")
     copied = (path for path in (tree.parent / "copy").rglob("*") if path.is_file())
     assert all(path.read_text() != SECRET for path in copied)
 

@@ -8,9 +8,8 @@ from conftest import HandIn
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, take_in
-from grader.judge.task import KIT, load_stubs
+from grader.judge.task import KIT
 from grader.source.definitions import MAX_CALLED, MAX_HOPS, MAX_NAME, MAX_TRIED, Program, source_of
 from grader.source.regions import read_source
 
@@ -78,7 +77,7 @@ def test_names_in_a_circle_end_nowhere():
 
 
 def taken_in(folder: Path, tmp_path: Path) -> Submission:
-    return take_in(folder, tmp_path / "copy", load_rubric(), load_stubs())
+    return take_in(folder, tmp_path / "copy")
 
 
 @pytest.mark.parametrize(

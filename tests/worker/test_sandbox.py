@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 from grader.judge.grade import take_in, work_folder
-from grader.judge.rubric import load_rubric
 from grader.judge.task import Options, as_in_reference, sandbox_for
 from grader.judge.wall.children import start_worker
 from grader.protocol import Call, Import, Items, Raised, Returned
@@ -59,7 +58,7 @@ def test_an_unchanged_folder_is_read_only_and_all_else_is_the_childs_own(trees, 
     worker = start_worker(spawn)
     try:
         with work_folder() as work:
-            taken = take_in(submission, work / "submission", load_rubric(), {})
+            taken = take_in(submission, work / "submission")
             options = Options(reference=reference, trusted=True)
             child = sandbox_for(taken, work, worker, options).open_child(5)
 
@@ -84,7 +83,7 @@ def test_a_scratch_folder_serves_again_only_where_no_child_can_see_it(trees, wit
     worker = start_worker(without=without)
     try:
         with work_folder() as work:
-            taken = take_in(trees[0], work / "submission", load_rubric(), {})
+            taken = take_in(trees[0], work / "submission")
             sandbox = sandbox_for(taken, work, worker, Options(trusted=True))
             for _ in range(3):
                 child = sandbox.open_child(5)
