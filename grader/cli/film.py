@@ -6,7 +6,7 @@ from grader.judge.result import Result
 from grader.judge.task import Options
 from grader.judge.wall.children import Worker
 from grader.player.page import fill_template
-from grader.questions.films import make_film
+from grader.questions.films import AS_IT_IS, make_film
 from grader.questions.page import TEMPLATES
 from grader.questions.pictures import draw_film, find_bounds
 from grader.questions.program import open_program
@@ -21,7 +21,7 @@ def write_film(folder: Path, options: Options, worker: Worker, result: Result) -
     Raises the errors of its scene, and CannotAsk if the scene is too large for a film.
     """
     with open_program(folder, options, worker, result) as program:
-        film = make_film(program.own, {}, SCENE, seconds=SECONDS)
+        film = make_film(program.own, AS_IT_IS, SCENE, SECONDS)
     alt = f"The lab scene for {SECONDS:g} s"
     picture = draw_film(film, "your engine", alt, find_bounds([film]))
     page = fill_template(TEMPLATES / "film.html", "sheet.css", picture=picture, seconds=SECONDS)

@@ -48,9 +48,6 @@ class Change:
     sign: Callable[[Film], float]  # the sign that is largest in its film; negative: smallest
     restitution: float | None = None  # of all bodies of the scene
 
-    def film(self, tree: Tree, scene: int) -> Film:
-        return make_film(tree, self.texts(tree), scene, self.restitution)
-
 
 def measure_rise(film: Film) -> float:
     """Return the sum of the balls' visible rises, in units of 100 px."""
@@ -153,11 +150,8 @@ def make_question(program: Program, rng: random.Random, scene: int, points: int)
         raise CannotAsk("too few of the TODOs that films show are right")
     rng.shuffle(able)
     films = choose_changes(program, [AS_IT_IS, *able], scene)
-    if right := program.reference:
-        compare_with_reference(
-            {each.name: each.film(right, scene) for each in films},
-            {each.name: film for each, film in films.items()},
-        )
+    if program.reference:
+        compare_with_reference(films, program.reference, scene)
     shown = list(films)
     rng.shuffle(shown)
     options = sorted(films, key=(AS_IT_IS, *CHANGES).index)
@@ -191,7 +185,7 @@ def choose_changes(program: Program, able: list[Change], scene: int) -> dict[Cha
     films: dict[Change, Film] = {}
     for each in able:
         try:
-            film = each.film(program.own, scene)
+            film = make_film(program.own, each, scene)
         except (CannotAsk, NotYet, Broke):
             if each is AS_IT_IS:
                 raise
@@ -209,8 +203,8 @@ def can_tell_apart(films: Mapping[Change, Film]) -> bool:
     return all(
         is_clear(change.sign(film), change.sign(other))
         for change, film in films.items()
-        for name, other in films.items()
-        if change is not AS_IT_IS and name is not change
+        for another, other in films.items()
+        if change is not AS_IT_IS and another is not change
     )
 
 
@@ -220,30 +214,25 @@ def is_clear(most: float, other: float) -> bool:
     return most - other > 1 and more > CLEAR * less
 
 
-def compare_with_reference(right: Mapping[str, Film], films: Mapping[str, Film]) -> None:
+def compare_with_reference(films: Mapping[Change, Film], reference: Tree, scene: int) -> None:
     """Raise CannotAsk if a film is not most similar to the reference's film of the same change."""
-    for name, film in films.items():
-        if len(film.looks) != len(right[name].looks):
+    right = {each: make_film(reference, each, scene) for each in films}
+    for change, film in films.items():
+        if len(film.looks) != len(right[change].looks):
             raise CannotAsk("its scene has other bodies than that of the lesson")
         nearest = min(right, key=lambda other: measure_difference(film, right[other]))
-        if nearest != name:
-            raise CannotAsk(f"its film of {name} is not that of the reference")
+        if nearest is not change:
+            raise CannotAsk(f"its film of {change.name} is not that of the reference")
 
 
-def make_film(
-    tree: Tree,
-    texts: Mapping[str, str],
-    seed: int,
-    restitution: float | None = None,
-    seconds: float = SECONDS,
-) -> Film:
-    """Record the lab scene of a tree with changed files; `restitution` applies to all bodies."""
-    with tree.lab("mini_engine", texts) as lab:
+def make_film(tree: Tree, change: Change, seed: int, seconds: float = SECONDS) -> Film:
+    """Record the lab scene of a tree with one thing changed."""
+    with tree.lab("mini_engine", change.texts(tree)) as lab:
         scene = Scene(lab, seed)
-        if restitution is not None:
-            for thing, _ in scene.bodies:
-                lab.put(thing, restitution=restitution)
         bodies = [thing for thing, _ in scene.bodies]
+        if change.restitution is not None:
+            for thing in bodies:
+                lab.put(thing, restitution=change.restitution)
         joints = lab.items(lab.get(scene.world, "joints"), "the joints")
         if len(bodies) > MAX_BODIES or len(joints) > MAX_RODS:
             raise CannotAsk("its scene has more bodies or rods than a film shows")

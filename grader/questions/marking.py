@@ -5,9 +5,9 @@ An unreadable answer never counts as 0 silently: it has no points and a note wit
 
 import csv
 import io
-from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from pathlib import Path
 from typing import NamedTuple
 
@@ -67,11 +67,9 @@ class Marking:
 
     @property
     def totals(self) -> list[Total]:
-        """Return the points of each student who has a question."""
-        by_student: dict[str, list[Mark]] = defaultdict(list)
-        for each in self.marks:
-            by_student[each.student].append(each)
-        return [sum_points(marks) for marks in by_student.values()]
+        """Return the points of each student who has a question; marks are in their order."""
+        by_student = groupby(self.marks, key=lambda each: each.student)
+        return [sum_points(student, list(marks)) for student, marks in by_student]
 
 
 def mark_answers(table: Path, keys: Path) -> Marking:
@@ -160,18 +158,15 @@ def mark_question(student: str, number: int, question: Question, given: GivenAns
     """Mark one question; an empty answer has no points, and a note."""
     if given is None or not (given.answer or given.by_hand):
         return Mark(student, number, question, "", 0, "no answer")
-    mark = mark_by_hand if question.by_hand else mark_answer
-    points, note = mark(question, given)
-    return Mark(student, number, question, given.answer, points, note)
-
-
-def mark_by_hand(question: Question, given: GivenAnswer) -> tuple[int | None, str]:
-    if given.by_hand.isdecimal() and int(given.by_hand) <= question.points:
-        return int(given.by_hand), ""
-    return None, f"needs manual marking: 0 to {question.points} in the column {BY_HAND}"
+    return Mark(student, number, question, given.answer, *mark_answer(question, given))
 
 
 def mark_answer(question: Question, given: GivenAnswer) -> tuple[int | None, str]:
+    """Return the points, or None, and a note."""
+    if question.by_hand:
+        if given.by_hand.isdecimal() and int(given.by_hand) <= question.points:
+            return int(given.by_hand), ""
+        return None, f"needs manual marking: 0 to {question.points} in the column {BY_HAND}"
     try:
         points = grade_answer(question, given.answer)
     except Unreadable as error:
@@ -202,12 +197,11 @@ def write_points(marked: Marking, out: Path) -> tuple[Path, Path]:
     return answers, totals
 
 
-def sum_points(marks: Sequence[Mark]) -> Total:
+def sum_points(student: str, marks: Sequence[Mark]) -> Total:
     """Return the total of one student's marks."""
     points = sum(each.points or 0 for each in marks)
     waiting = sum(each.points is None for each in marks)
-    most = sum(each.question.points for each in marks)
-    return Total(marks[0].student, points, most, waiting)
+    return Total(student, points, sum(each.question.points for each in marks), waiting)
 
 
 def is_number(cell: str) -> bool:

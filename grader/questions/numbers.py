@@ -86,7 +86,10 @@ def make_question(each: Maker, found: Case, points: int) -> Question:
         )
     if any(abs(value - found.answer) <= 2 * tolerance for value, _ in found.wrong):
         raise Unsuited
-    wrong = [Wrong(digits(value), why) for value, why in drop_similar(found.wrong, tolerance)]
+    wrong: dict[float, Wrong] = {}  # the first of those that are too similar
+    for value, why in found.wrong:
+        if all(abs(value - other) > 2 * tolerance for other in wrong):
+            wrong[value] = Wrong(digits(value), why)
     within = (
         "" if found.whole else f" Answers within ±{digits(tolerance)} {found.unit} are accepted."
     )
@@ -99,18 +102,9 @@ def make_question(each: Maker, found: Case, points: int) -> Question:
         digits(found.answer),
         tolerance,
         found.unit,
-        tuple(wrong),
+        tuple(wrong.values()),
         found.why,
     )
-
-
-def drop_similar(wrong: Sequence[tuple[float, str]], tolerance: float) -> list[tuple[float, str]]:
-    """Keep the first of wrong answers that are too similar."""
-    kept: list[tuple[float, str]] = []
-    for value, why in wrong:
-        if all(abs(value - other) > 2 * tolerance for other, _ in kept):
-            kept.append((value, why))
-    return kept
 
 
 def round_up(value: float) -> float:

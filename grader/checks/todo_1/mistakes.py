@@ -222,46 +222,32 @@ def divide_by_square(disc: Disc, rect: Rect) -> Right:
 
 register("1", "order", [("the-box-comes-first", lambda disc, rect: (False, False))])
 MODELS: Models = (
-    ("normal-points-out-of-the-box", change_if(lambda disc, rect: True, turn_normal)),
-    ("inside-is-forgotten", if_inside(lambda disc, rect: None)),
+    ("normal-points-out-of-the-box", change_if(lambda d, box: True, turn_normal)),
+    ("inside-is-forgotten", if_inside(lambda d, box: None)),
     ("inside-normal-points-out", change_inside(turn_normal)),
     ("inside-has-no-case-of-its-own", change_inside(centre_with_normal(0.0, 1.0))),
     ("inside-has-no-case-of-its-own", change_inside(centre_with_normal(0.0, -1.0))),
     ("inside-has-no-case-of-its-own", change_inside(centre_with_normal(1.0, 0.0))),
     ("inside-has-no-case-of-its-own", change_inside(centre_with_normal(-1.0, 0.0))),
-    ("inside-depth-forgets-the-gap", change_inside(lambda t, disc, rect: t._replace(depth=disc.r))),
-    (
-        "inside-depth-is-the-gap",
-        change_inside(lambda t, disc, rect: t._replace(depth=t.depth - disc.r)),
-    ),
-    (
-        "inside-point-is-the-centre",
-        change_inside(lambda t, disc, rect: t._replace(px=disc.x, py=disc.y)),
-    ),
+    ("inside-depth-forgets-the-gap", change_inside(lambda t, d, box: t._replace(depth=d.r))),
+    ("inside-depth-is-the-gap", change_inside(lambda t, d, box: t._replace(depth=t.depth - d.r))),
+    ("inside-point-is-the-centre", change_inside(lambda t, d, box: t._replace(px=d.x, py=d.y))),
     ("inside-leaves-by-the-farthest-face", if_inside(find_farthest_face)),
-    (
-        "inside-always-leaves-by-the-top",
-        if_inside(lambda disc, rect: exact.ways_out(disc, rect)[2]),
-    ),
+    ("inside-always-leaves-by-the-top", if_inside(lambda d, box: exact.ways_out(d, box)[2])),
     ("edge-counts-as-outside", if_on_edge(raise_error("ZeroDivisionError"))),
     ("edge-counts-as-outside", if_on_edge(raise_error("ValueError"))),
     ("face-by-the-distance-from-the-middle", if_inside(find_face_by_offset)),
     ("face-by-share-of-the-half", if_inside(find_face_by_share)),
-    (
-        "depth-is-the-distance",
-        change_outside(lambda t, disc, rect: t._replace(depth=disc.r - t.depth)),
-    ),
+    ("depth-is-the-distance", change_outside(lambda t, d, box: t._replace(depth=d.r - t.depth))),
     (
         "normal-is-not-a-unit-vector",
-        change_outside(lambda t, disc, rect: t._replace(nx=t.px - disc.x, ny=t.py - disc.y)),
+        change_outside(lambda t, d, box: t._replace(nx=t.px - d.x, ny=t.py - d.y)),
     ),
     ("normal-points-at-the-centre-of-the-box", change_outside(point_at_the_middle)),
     ("corner-normal-along-an-axis", change_outside(point_along_an_axis)),
     (
         "point-lies-on-the-circle",
-        change_outside(
-            lambda t, disc, rect: t._replace(px=disc.x + t.nx * disc.r, py=disc.y + t.ny * disc.r)
-        ),
+        change_outside(lambda t, d, box: t._replace(px=d.x + t.nx * d.r, py=d.y + t.ny * d.r)),
     ),
     ("inside-normalises-zero", if_inside(raise_error("ValueError"))),  # of normalize()
     ("inside-normalises-zero", if_inside(raise_error("ZeroDivisionError"))),

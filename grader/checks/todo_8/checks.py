@@ -1,7 +1,7 @@
 """TODO 8a to 8c: three integrators, one step under any force and ten seconds on the spring."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import islice, pairwise
 from typing import NamedTuple
 
@@ -96,8 +96,8 @@ def want_step(
     return right
 
 
-def formula(force: Polynomial) -> str:
-    powers = zip(force, ("", "·x", "·x²", "·x³"), strict=True)
+def formula(force: Sequence[float]) -> str:
+    powers = zip(force, ("", "·x", "·x²", "·x³"), strict=False)
     return " ".join(f"{c:+g}{power}" for c, power in powers if c) or "0"
 
 

@@ -7,7 +7,8 @@ from itertools import product
 
 from grader.checks import exact
 from grader.checks.exact import Accel, State, polynomial
-from grader.checks.mistakes import Models, register
+from grader.checks.mistakes import Models, look_through, register
+from grader.checks.todo_8.checks import formula
 from grader.judge.explain.misconceptions import Kind, kinds, mistake
 
 SAMPLES = "samples of accel"
@@ -34,11 +35,6 @@ def describe_step(x: float, v: float, dt: float, force: Force) -> dict[str, str]
     }
 
 
-def formula(force: Force) -> str:
-    powers = zip(force, ("", "·x", "·x²", "·x³"), strict=False)
-    return " ".join(f"{c:+g}{power}" for c, power in powers if c) or "0"
-
-
 # ---------------------------------------------------------------- any method
 
 SPRING = polynomial((0.0, -((2 * math.pi) ** 2)))  # the lesson's
@@ -46,14 +42,6 @@ SPRING = polynomial((0.0, -((2 * math.pi) ** 2)))  # the lesson's
 
 def with_step(right: Step, seconds: float) -> Step:
     return lambda x, v, dt, a: right(x, v, seconds, a)
-
-
-def with_answers_swapped(right: Step) -> Step:
-    def swapped(x: float, v: float, dt: float, a: Accel) -> State:
-        x, v = right(x, v, dt, a)
-        return v, x
-
-    return swapped
 
 
 def list_common(right: Step) -> Iterator[tuple[str, str, Step]]:
@@ -64,17 +52,14 @@ def list_common(right: Step) -> Iterator[tuple[str, str, Step]]:
         words = f"Every step is taken to last 1/{rate} s; it lasts dt."
         yield f"step-of-1-{rate}", words, with_step(right, 1 / rate)
     words = "The pair is the wrong way round: return x first, then v."
-    yield "velocity-returned-first", words, with_answers_swapped(right)
+    yield "velocity-returned-first", words, lambda *step: right(*step)[::-1]
     words = "x is returned unchanged: it must move."
     yield "x-is-not-moved", words, lambda x, v, dt, a: (x, right(x, v, dt, a)[1])
     words = "v is returned unchanged: the acceleration must change it."
     yield "v-is-not-changed", words, lambda x, v, dt, a: (right(x, v, dt, a)[0], v)
 
 
-def from_force(step: Step) -> Callable[[float, float, float, Force], State]:
-    return lambda x, v, dt, force: step(x, v, dt, polynomial(force))
-
-
+from_force = partial(look_through, take_accel)
 for about, right in METHODS.values():
     kinds[about] = Kind(from_force(right), describe_step, {"x": [0], "v": [1]}, apart=True)
 
@@ -293,7 +278,7 @@ def weigh_samples(sources: Sources, weights: Sequence[float], speeds: Sources = 
 
 
 kinds[SAMPLES] = Kind(
-    lambda *given: find_places(USUAL)(*take_accel(*given)),
+    from_force(find_places(USUAL)),
     describe_step,
     {f"the position of k{n + 1}": [n] for n in range(4)},
 )
@@ -427,7 +412,7 @@ def list_other_sources() -> Iterator[tuple[str, str, str, Sources, Sources]]:
 for part, name, words, sources, speeds in list_other_sources():
     name, words = f"{part}-{name}", f"The {part} {words}"
     ways, step = find_places(sources, speeds), weigh_samples(sources, RIGHT_WEIGHTS, speeds)
-    mistake("8c", SAMPLES, name, words, lambda *given, ways=ways: ways(*take_accel(*given)))
+    mistake("8c", SAMPLES, name, words, from_force(ways))
     mistake("8c", "rk4", name, words, from_force(step), apart=False)
 for number, (before, reach) in enumerate(USUAL, 1):
     other = (*USUAL[: number - 1], (number, reach), *USUAL[number:])
