@@ -4,13 +4,7 @@ import math
 
 from hypothesis import strategies as st
 
-from grader.checks.exact import (
-    DAMPED_STEPS,
-    MAX_STEPS,
-    RATES,
-    Disc,
-    Rect,
-)
+from grader.checks.exact import DAMPED_STEPS, MAX_STEPS, RATES, Disc, Rect
 from grader.judge.drawing import between
 from grader.judge.lab import STEP
 
@@ -26,7 +20,6 @@ half_extents = between(8, 1600).map(eighths)  # px
 speeds = between(-4000, 4000).map(eighths)  # px/s
 spins = between(-160, 160).map(lambda n: n * 129 / 1024)  # rad/s; none is round but 0
 masses = between(1, 400).map(eighths)  # kg
-impulses = between(0, 800).map(eighths)  # kg px/s
 frictions = st.integers(0, 16).map(lambda n: n / 16)
 rates = st.sampled_from(RATES) | st.sampled_from(RATES[:4])  # 1/s; often small ones
 damped_steps = st.sampled_from(DAMPED_STEPS)  # s
@@ -71,7 +64,6 @@ def frames_to_advance(draw: st.DrawFn) -> list[tuple[float, float]]:
 
 
 pairs = st.tuples(coordinates, coordinates)
-discs = st.builds(Disc, coordinates, coordinates, radii)
 velocities = st.tuples(speeds, speeds)
 
 # TODO 4 and 5: from very slow to very fast, and from very light to very heavy.
@@ -89,7 +81,6 @@ crowd_rects = st.builds(Rect, coordinates, coordinates, half_extents, half_exten
 
 # Bodies of any size, position and motion. Scales and positions are whole or powers of 2, so that
 # their sums and differences are exact.
-places = st.sampled_from([0.0, -40_000.0, 500_000.0])  # px
 any_masses = masses | st.sampled_from([1 / 1024, 1e6])  # kg
 any_masses_or_static = st.just(0.0) | any_masses
 slow_speeds = st.integers(-64, 64).map(lambda n: n / 64)  # px/s

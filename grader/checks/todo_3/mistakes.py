@@ -214,10 +214,7 @@ MODELS: Models = (
         "velocities-are-replaced",
         lambda rod: exact.push_ends(rod._replace(vel_a=STILL, vel_b=STILL), right_impulse(rod)),
     ),
-    (
-        "shares-equally",
-        share_equally,
-    ),
+    ("shares-equally", share_equally),
     ("stops-the-sideways-speed", stop_sideways_speed),
     ("speed-in-every-direction", with_speed(speed_in_every_direction)),
     ("k-of-one-end", push(lambda rod: (rod.bias - rod.speed) * mass_of(rod.mass_b))),

@@ -137,10 +137,7 @@ RULES: tuple[tuple[str, Rule], ...] = (
     ("loses-the-sign", lambda total, wanted, limit: -limit if abs(wanted) > limit else wanted),
     ("no-limit", lambda total, wanted, limit: wanted),
     ("no-friction-at-all", lambda total, wanted, limit: 0.0),
-    (
-        "total-for-the-lower-bound",
-        lambda total, wanted, limit: max(-wanted, min(wanted, limit)),
-    ),
+    ("total-for-the-lower-bound", lambda total, wanted, limit: max(-wanted, min(wanted, limit))),
     ("always-at-the-limit", always_at_the_limit),
     ("against-the-slip", against_the_slip),
 )

@@ -17,11 +17,7 @@ from grader.checks.pacing import (
     want_fixed_steps,
     want_whole_steps,
 )
-from grader.checks.strategies import (
-    frame_lists,
-    frame_rates,
-    frames_to_advance,
-)
+from grader.checks.strategies import frame_lists, frame_rates, frames_to_advance
 from grader.judge.drawing import given
 from grader.judge.lab import STEP, Lab
 

@@ -3,34 +3,13 @@
 from collections.abc import Callable, Collection
 
 from grader.checks.mistakes import Models, register
-from grader.checks.todo_b1.checks import (
-    AFTER_A_HIT,
-    AFTER_A_PUSH,
-    AFTER_A_SPIN,
-    AFTER_THE_AIR,
-    ANOTHER_HIT,
-    AT_FIRST,
-    AT_REST,
-    CARRIED_AWAY,
-    CHEAP,
-    CREEPING,
-    FLOOR_GONE,
-    FLYING,
-    IN_TURN,
-    LONG_AT_REST,
-    ON_A_ROD,
-    ON_A_SPRING,
-    ONE_OF_TWO_GONE,
-    ROLLING,
-    SPINNING,
-    STATIC,
-)
+from grader.checks.todo_b1 import checks as at
 from grader.judge.explain.misconceptions import Kind, Undecided, kinds
 
-HELD, ANEW = (ON_A_ROD, ON_A_SPRING), (AFTER_A_PUSH, AFTER_THE_AIR)
-HIT, LEFT = (AFTER_A_HIT, AFTER_A_SPIN), (FLOOR_GONE, CARRIED_AWAY, ONE_OF_TWO_GONE)
-AWAKE = (AT_FIRST, STATIC, FLYING, ROLLING, SPINNING, *HELD, *ANEW, *HIT, *LEFT)
-ASLEEP = (AT_REST, LONG_AT_REST, CREEPING, ANOTHER_HIT, IN_TURN, CHEAP)
+HELD, ANEW = (at.ON_A_ROD, at.ON_A_SPRING), (at.AFTER_A_PUSH, at.AFTER_THE_AIR)
+HIT, LEFT = (at.AFTER_A_HIT, at.AFTER_A_SPIN), (at.FLOOR_GONE, at.CARRIED_AWAY, at.ONE_OF_TWO_GONE)
+AWAKE = (at.AT_FIRST, at.STATIC, at.FLYING, at.ROLLING, at.SPINNING, *HELD, *ANEW, *HIT, *LEFT)
+ASLEEP = (at.AT_REST, at.LONG_AT_REST, at.CREEPING, at.ANOTHER_HIT, at.IN_TURN, at.CHEAP)
 RIGHT = dict.fromkeys(AWAKE, False) | dict.fromkeys(ASLEEP, True)
 
 kinds["sleep"] = Kind(RIGHT.__getitem__)
@@ -48,20 +27,20 @@ def wrong_at(*moments: str, unsure: Collection[str] = ()) -> Callable[[str], boo
 
 
 MODELS: Models = (
-    ("sleeps-too-soon", wrong_at(AT_FIRST, unsure=(*ANEW, *LEFT, *HIT))),
-    ("sleeps-at-the-top-of-a-throw", wrong_at(FLYING, unsure=(AFTER_THE_AIR,))),
-    ("sleeps-while-it-spins", wrong_at(SPINNING)),
+    ("sleeps-too-soon", wrong_at(at.AT_FIRST, unsure=(*ANEW, *LEFT, *HIT))),
+    ("sleeps-at-the-top-of-a-throw", wrong_at(at.FLYING, unsure=(at.AFTER_THE_AIR,))),
+    ("sleeps-while-it-spins", wrong_at(at.SPINNING)),
     ("sleeps-on-its-rod", wrong_at(*HELD)),
-    ("the-time-never-begins-anew", wrong_at(AFTER_A_PUSH, unsure=(AFTER_THE_AIR,))),
+    ("the-time-never-begins-anew", wrong_at(at.AFTER_A_PUSH, unsure=(at.AFTER_THE_AIR,))),
     ("sleeps-through-a-hit", wrong_at(*HIT)),
-    ("one-hit-wakes-all", wrong_at(ANOTHER_HIT)),
+    ("one-hit-wakes-all", wrong_at(at.ANOTHER_HIT)),
     (
         "floats-when-its-support-leaves",
-        wrong_at(FLOOR_GONE, CARRIED_AWAY, unsure=(ONE_OF_TWO_GONE,)),
+        wrong_at(at.FLOOR_GONE, at.CARRIED_AWAY, unsure=(at.ONE_OF_TWO_GONE,)),
     ),
-    ("an-awake-neighbour-wakes", wrong_at(IN_TURN, unsure=(AT_REST, CHEAP, *LEFT))),
+    ("an-awake-neighbour-wakes", wrong_at(at.IN_TURN, unsure=(at.AT_REST, at.CHEAP, *LEFT))),
     ("never-wakes", wrong_at(*HIT, *LEFT)),
-    ("a-static-body-sleeps", wrong_at(STATIC, unsure={*RIGHT} - {STATIC})),
-    ("sleeps-at-once", wrong_at(AT_FIRST, unsure={*RIGHT} - {AT_FIRST})),
+    ("a-static-body-sleeps", wrong_at(at.STATIC, unsure={*RIGHT} - {at.STATIC})),
+    ("sleeps-at-once", wrong_at(at.AT_FIRST, unsure={*RIGHT} - {at.AT_FIRST})),
 )
 register("B1", "sleep", MODELS)
