@@ -45,7 +45,7 @@ class Film:
 
 
 def fixed(value, digits):
-    """Round a number to so many decimals, and cap one that is far away."""
+    """Round a number to so many decimals, and cap large ones."""
     return round(max(-9999.0, min(9999.0, value)), digits) + 0.0
 
 

@@ -31,7 +31,7 @@ def engines():
 
 
 def film(engine, scene, rate):
-    """Return the shots of a tower, how far its top sank at most, and the contacts solved."""
+    """Return the shots of a tower, the deepest sink of its top, and the contacts solved."""
     top, last, solved, sink = scene.moving()[-1], {}, 0, 0.0
     start, frames = engine.read(top).y, []
     for step in range(SECONDS * rate + 1):

@@ -74,7 +74,7 @@ class Svg:
 
 
 def say(value):
-    """Return a number with one decimal at most, and anything else as it is."""
+    """Return a number with at most one decimal, and anything else unchanged."""
     return f"{value:.1f}".removesuffix(".0") if isinstance(value, float) else str(value)
 
 

@@ -58,7 +58,7 @@ def tree_of(todo, variant, folder):
 
 
 def run_in(tree, program, *arguments):
-    """Return what a program of this folder prints, run by the code of a tree."""
+    """Run a program of this folder with the code of a tree; return its output."""
     command = [sys.executable, str(Path(__file__).with_name(program)), *arguments]
     done = subprocess.run(
         command, cwd=tree, env=environment_in(tree), capture_output=True, text=True

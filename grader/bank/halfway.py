@@ -50,7 +50,7 @@ Place = Literal["region", "below the stub", "above the stub", "outside"]
 
 
 class State(Entry, frozen=True, kw_only=True):
-    """A student's code: the sheet's with some text changed, or code of its own."""
+    """A student's code: the sheet's code with some text changed, or its own code."""
 
     says: tuple[str, ...]  # regular expressions, each of which must be found
     never: tuple[str, ...] = ()  # and these must not
@@ -157,6 +157,6 @@ def make_state(todo: str, name: str, right: str, state: State) -> Halfway:
 
 
 def find_failure(result: Result) -> CheckResult | None:
-    """Return the first failed check, or one that passes with given code restored."""
+    """Return the first check that fails, or passes only with given code restored."""
     checks = [check for todo in result.todos for check in todo.checks]
     return next((each for each in checks if each.failed or each.meaning), None)

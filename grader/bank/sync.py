@@ -121,7 +121,7 @@ def is_laid_in(name: str) -> bool:
 
 
 def list_students_files(kit: Path) -> dict[str, Path]:
-    """Return the path of each file that students get, by its name there, without notebooks."""
+    """Return the path of each file that students get, by their name for it, without notebooks."""
     solution, starter = kit / "solution", kit / "starter"
     extra = {name: solution / name for name in list_given_files(solution) if is_laid_in(name)}
     return extra | {name: starter / name for name in list_given_files(starter)}
@@ -159,7 +159,7 @@ def read_stub_sources(starter: dict[str, str]) -> dict[str, str]:
 
 
 def read_given_sources(starter: dict[str, str]) -> dict[str, str]:
-    """Return the given files: to supply missing ones, and to see what was changed."""
+    """Return the given files, to supply missing ones and to find changes."""
     programs = load_rubric().modules
     return {
         name: text

@@ -34,7 +34,7 @@ class Traces:
 
 @contextmanager
 def watch_traces(own: Path, name: str) -> Iterator[Traces]:
-    """Let the grade use the folder `own`, and find leftovers there and elsewhere.
+    """Let a grade use the folder `own`; find its leftovers in there and elsewhere.
 
     With a `name`, files that have it in their names are looked for as well.
     """

@@ -208,7 +208,7 @@ def list_halfway(only: str, course: Course, complaints: list[str]) -> list[Halfw
 
 
 def check_kit() -> Iterator[str]:
-    """Yield what is wrong with the kit before anything is graded."""
+    """Yield faults of the kit that show before anything is graded."""
     yield from sync(KIT / "solution", KIT / "starter", write=False)
     points = load_rubric().max_points
     if points != 100:

@@ -30,7 +30,7 @@ ADOPT_ORPHANS = 36  # PR_SET_CHILD_SUBREAPER of Linux: their time counts too
 
 
 class Tested(NamedTuple):
-    """A kit that is measured, and the folder for what it writes."""
+    """A kit to measure, and the folder for its files."""
 
     kit: Path
     work: Path
@@ -164,7 +164,7 @@ def measure_outputs(tested: Tested, count: int) -> Iterator[tuple[str, float]]:
 
 
 def watch_todo_4(tested: Tested) -> Process:
-    """Start a `check --watch` that has shown its first result."""
+    """Start `check --watch`, and wait for its first result."""
     words = ["check", "--todo", "4", "--watch"]
     process = tested.start(*words, cwd=tested.work / "tree", stdout=subprocess.PIPE)
     read_until(process, "Watching")

@@ -115,7 +115,7 @@ def pace(lab: Lab, frames: list[int], step_ms: float = 0.0) -> Pace:
 
 
 def beyond(waits: float, frame: int) -> int:
-    """Return the length of a frame (ms) for a program that waits so many ms itself.
+    """Return a frame's length (ms), adapted to a program that itself waits for some time.
 
     Frames below the cap stay below it, and the order of lengths is preserved.
     """

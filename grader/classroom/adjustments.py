@@ -192,9 +192,9 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         return [who for who in self.students if not any(is_same_student(who, n) for n in here)]
 
     def resolve(self, names: Iterable[str], people: ClassList) -> "Adjustments":
-        """Return the decisions with students by their names in the class, `names`.
+        """Return the decisions with each student under the class's name, one of `names`.
 
-        The file may have any name of the class list: address, login, number or full name. Raises
+        The file may use any name of the class list: address, login, number or full name. Raises
         Stop for a name that two students have.
         """
         here = list(dict.fromkeys(names))

@@ -157,7 +157,7 @@ class Run:
 
     @property
     def changed(self) -> list[Outcome]:
-        """Return the outcomes whose mark differs from that of the run before."""
+        """Return the outcomes whose mark differs from the previous run's."""
         old = self.book.outcomes
         return [
             each

@@ -82,7 +82,7 @@ class Outcome(Struct, frozen=True):
         return "none" if self.mark is None else f"{self.mark} / {self.max_points}"
 
     def has_mark_of(self, old: "Outcome") -> bool:
-        """Return whether the mark and its maximum are those of another outcome."""
+        """Return whether mark and maximum equal another outcome's."""
         alone = self.by_hand or self.mark is None  # its maximum is set later
         return self.mark == old.mark and (alone or self.max_points == old.max_points)
 

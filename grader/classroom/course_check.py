@@ -62,7 +62,7 @@ def find_problems(files: Files, path: Path | None = None) -> list[str]:
 
 @contextmanager
 def collect_stop(found: list[str]) -> Iterator[None]:
-    """Add what stops a step to the problems found."""
+    """Add the error that stops a step to the problems."""
     try:
         yield
     except Stop as error:

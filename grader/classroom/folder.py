@@ -110,7 +110,7 @@ class ClassFolder:
 
     @property
     def marks(self) -> Path | None:
-        """Return the settings of marks: the class's own, or those of its course with nbgrader."""
+        """Return the settings of marks: the class's own, or its nbgrader course's."""
         own = self.locate(self.settings.marks or MARKS)
         if self.settings.marks or own.is_file():
             return own

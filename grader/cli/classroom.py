@@ -79,7 +79,7 @@ def course_command(
 
 
 def find_course(folder: Path, named: Path | None) -> Path | None:
-    """Return the named course, or that of the folder; None for the kit's own."""
+    """Return the named course or the folder's; None for the kit's own."""
     own = folder / COURSE
     return named or (own if own.is_file() else None)
 

@@ -165,7 +165,7 @@ class Watch:
                 raise SavedAgain
 
     def replace(self, todo: TodoResult) -> TodoResult:
-        """Replace the TODO's result with a new one, and return the one before."""
+        """Replace the TODO's result, and return the old one."""
         (before,) = (each for each in self.result.todos if each.id == todo.id)
         todos = [todo if each is before else each for each in self.result.todos]
         self.result = self.result.with_todos(todos)

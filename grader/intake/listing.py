@@ -114,7 +114,7 @@ def find_export(folder: Path) -> Lms:
 
 
 def enter_wrapper(folder: Path) -> Path:
-    """Return the one folder inside, if it holds all submissions, as in many zips."""
+    """Return the only inner folder if it holds all submissions, as in many zips."""
     inner = list_folder(folder)
     if len(inner) != 1 or not inner[0].is_dir() or has_program(inner[0]):
         return folder

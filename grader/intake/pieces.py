@@ -72,7 +72,7 @@ def strip_additions(name: str) -> str:
 
 
 def match_name(name: str, names: Iterable[str]) -> str | None:
-    """Return the one of `names` that a file's name means; None if it means none."""
+    """Return which of `names` a file's name means; None if it means none."""
     plain = fold(strip_additions(name))
     return next((each for each in names if each == name), None) or next(
         (each for each in names if fold(each) == plain), None

@@ -35,7 +35,7 @@ class Decoder:
         self.running = text
 
     def want(self, holds: bool, expected: str, got: str, meaning: str = "") -> None:
-        """Fail the check unless `holds`, with the expected value and the one it got."""
+        """Fail the check unless `holds`, with the expected and the actual value."""
         if holds:
             return
         if self.surveys:
@@ -44,7 +44,7 @@ class Decoder:
             self.fail(expected, got, meaning)
 
     def fail(self, expected: str, got: str, meaning: str = "") -> NoReturn:
-        """Fail the check at once; the words are those of `want`."""
+        """Fail the check at once, with the same arguments as `want`."""
         raise self.remember(NotYet(self.running, expected, got, meaning))
 
     def refuse(self, wanted: str, what: str, value: Value) -> NoReturn:

@@ -40,7 +40,7 @@ class Broke(Exception):
 
 @dataclass(frozen=True)
 class Failing:
-    """A failed check, to run it once more."""
+    """A failed check, with all that is needed to run it again."""
 
     todo: Todo
     check: Check

@@ -68,7 +68,7 @@ def grading(
 
 @contextmanager
 def open_tree(tree: Path) -> Iterator[Callable[[int], Child]]:
-    """Yield a function that opens children of a tree as it is, without grading it."""
+    """Yield a function that opens children of an unchanged tree, without grading it."""
     with work_folder() as work:
         worker = start_worker()
         try:

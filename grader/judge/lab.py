@@ -96,7 +96,7 @@ class Lab(Asker):
             self.connection.end()
 
     def about(self, number: float, within: float | None = None) -> float:
-        """Return the number or, under an instructor's secret seed, another one near it.
+        """Return the number or, under an instructor's secret seed, a number near it.
 
         So students cannot hard-code the answers. The number changes by eighths of `within`, by
         default a quarter of it: sums and products of round numbers stay exact. Properties do not

@@ -164,7 +164,7 @@ class CheckLoop:
                     future.cancel()
 
     def _find_outcome(self, job: Job, ahead: "Future[EarlyOutcome] | None") -> Outcome:
-        """Return the outcome of a check: that of a helper, if one has begun it."""
+        """Return the outcome of a check, from a helper if one has begun it."""
         if ahead is None or ahead.cancel():
             return self.runner.run(job)
         early, id = ahead.result(), job.todo.id

@@ -130,18 +130,18 @@ class Result(Struct, frozen=True):
 
     @property
     def main_todos(self) -> list[TodoResult]:
-        """Return the TODOs whose points add up to those of the result."""
+        """Return the TODOs whose points add up to the result's points."""
         return [todo for todo in self.todos if not todo.bonus]
 
     @property
     def todos_to_show(self) -> list[TodoResult]:
-        """Return the TODOs for reports: bonus tasks once started, or if there is nothing else."""
+        """Return the TODOs for reports: bonus tasks only if started, or if there is nothing else."""
         begun = [todo for todo in self.todos if todo.bonus and todo.state != "not started"]
         return [*self.main_todos, *begun] if self.main_todos else self.todos
 
     @property
     def has_full_marks(self) -> bool:
-        """Return whether it has full marks; of bonus tasks only if there is nothing else."""
+        """Return whether it has full marks; bonus tasks count only if nothing else was graded."""
         asked = self.main_todos or self.todos
         earned = all(todo.points == todo.max_points for todo in asked)
         return earned and self.points == self.max_points

@@ -149,7 +149,7 @@ def as_in_reference(tree: Path, reference: Path | None) -> list[str]:
 
 
 def has_same_files(folder: Path, other: Path) -> bool:
-    """Return whether a folder holds the same files as another one, which need not exist."""
+    """Return whether a folder holds the same files as another folder, which may be missing."""
     return other.is_dir() and contents(folder) == contents(other)
 
 

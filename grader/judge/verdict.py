@@ -65,7 +65,7 @@ def word_failure(submission: Submission, job: Job, failure: NotYet | Broke) -> C
 
 
 def is_given(todo: Todo, frame: CodeLine) -> bool:
-    """Return whether a line is as handed out: the cause of an error there is elsewhere."""
+    """Return whether a line is unchanged given code: then an error has its cause elsewhere."""
     text = load_given().get(frame.file)
     if text is None or frame.function == todo.function_name:
         return False

@@ -313,7 +313,7 @@ def write_script(
 
 
 def end_with_answer(steps: Sequence[Step]) -> Sequence[Step]:
-    """Leave out changes that a check made after the last answer, the one it judged."""
+    """Leave out changes that a check made after the answer that it judged, the last one."""
     last = len(steps)
     while last and isinstance(steps[last - 1].request, Set) and steps[last - 1].silent:
         last -= 1

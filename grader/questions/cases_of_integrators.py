@@ -20,7 +20,7 @@ CALLED = {
 
 
 def measure_error(states: Sequence[tuple[float, float]], seconds: float) -> float:
-    """Return how far the spring's x is from the exact one at the end, px."""
+    """Return the error of the spring's x at the end, px."""
     return abs(states[-1][0] - X0 * math.cos(OMEGA * seconds))
 
 

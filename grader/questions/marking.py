@@ -175,7 +175,7 @@ def mark_answer(question: Question, given: GivenAnswer) -> tuple[int | None, str
 
 
 def write_points(marked: Marking, out: Path) -> tuple[Path, Path]:
-    """Write the table of all answers, and that of students."""
+    """Write a table of all answers, and a table of students."""
     answers, totals = out / "points.csv", out / "totals.csv"
     titles = ("student", "question", "kind", "about", "answer", "points", "out of", "note")
     rows = [

@@ -71,7 +71,7 @@ class Frame:
         return found
 
     def changes(self) -> list[Change]:
-        """Return what changed since then."""
+        """Return the changes since then."""
         after = self.state()
         if after == self.before:  # the usual case
             return []

@@ -41,7 +41,7 @@ def start(subject: Subject, module: str, shown: Sized, frames: int) -> None:
 
 
 def run_as_main(folder: Path, module: str) -> None:
-    """Run the code that `python -m module` runs besides an import."""
+    """Run the code that `python -m module` runs, apart from the import."""
     path = folder / module / "__main__.py"
     if path.exists():
         code: CodeType | None = compile(path.read_bytes(), path, "exec")

@@ -432,7 +432,7 @@ def record_positions(accel: Callable[..., float], positions: list[Value]) -> Cal
 
 
 def refs_in(request: Call) -> list[int]:
-    """Return the numbers of the objects among a call's arguments, and of the one it belongs to."""
+    """Return the numbers of the objects among a call's arguments, and of the method's object."""
     arguments = (*request.args, *request.kwargs.values())
     refs = [each.id for each in arguments if isinstance(each, Ref)]
     own = request.target[1:].partition(".")[0] if request.target.startswith("#") else ""

@@ -84,7 +84,7 @@ def serve_judge(control_fd: int, without: list[str]) -> None:
 
 
 def warm_up() -> None:
-    """Use once what every child uses, so that no child has to load it.
+    """Use everything once that children use, so that no child has to load it.
 
     SDL looks for joysticks in each frame. A child may not ask the kernel for them, so SDL would
     load libudev in every frame (0.1 ms) unless it is loaded already.

@@ -33,7 +33,7 @@ PAGE = "hard-cases.md"  # the handout, and the name of its lines in results.json
 
 
 class Trial:
-    """Build engines for a row, and add up what their steps cost."""
+    """Build engines for a row, and add up the cost of their steps."""
 
     def __init__(self, contestant, substeps):
         self.make, self.substeps = contestant.make, substeps

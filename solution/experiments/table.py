@@ -95,7 +95,7 @@ class Progress:
         self.shown = self.stream.isatty()
 
     def step(self, weight, what):
-        """Show what comes next, and count what came before."""
+        """Name the next item, and count the one before as done."""
         if self.shown:
             share = min(self.done / self.total, 1)
             spent = time.monotonic() - self.start

@@ -222,7 +222,7 @@ class BroadPhase:
         return pairs
 
     def find_hull(self, edge: float) -> tuple[float, float, float, float]:
-        """Return left, right, top and bottom of all rooms, with so many px around them."""
+        """Return left, right, top and bottom of all rooms, with an edge (px) around them."""
         left = top = inf
         right = bottom = -inf
         for one in self.moving:

@@ -89,7 +89,7 @@ class Contact:
         b.vy += py * b.inv_mass
 
     def slip(self) -> float:
-        """Return how fast (px/s) the rim of B moves along the tangent, seen from that of A."""
+        """Return the speed (px/s) along the tangent of B's rim relative to A's."""
         a, b = self.a, self.b
         rims = b.w * b.r + a.w * a.r
         return (b.vy - a.vy) * self.nx - (b.vx - a.vx) * self.ny - rims

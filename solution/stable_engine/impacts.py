@@ -136,7 +136,7 @@ class Impacts:
         return True
 
     def resolve_alone(self, law: Law, c: Contact, ago: float) -> None:
-        """Resolve an impact of so long (s) ago that affects no other contact."""
+        """Resolve an impact, some seconds ago, that affects no other contact."""
         hit = [c.a] if c.b.is_static else [c.a, c.b]
         turns_back = ago > 0 and self.free.issuperset(hit)
         if turns_back:
@@ -292,7 +292,7 @@ class Impacts:
         """Make contacts separate at least at the given speeds (px/s).
 
         Normal impulses come first, then friction limited by them, so no energy is created.
-        In further turns, normal impulses stop what friction has set in motion.
+        In further turns, normal impulses stop motion that friction has caused.
         """
         hits = []
         for c in group:

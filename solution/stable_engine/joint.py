@@ -1,4 +1,4 @@
-"""Share what rods and springs have in common."""
+"""The common parts of rods and springs."""
 
 from math import hypot
 from typing import ClassVar, Generic, TypeVar

@@ -19,7 +19,7 @@ def stop_at_first_hit(
 ) -> float:
     """Put a ball back to its first hit with a static body on its way from start, if any.
 
-    Return the fraction of the way up to there.
+    Return the fraction of the way to the hit.
 
     The step counts as one straight flight of a ball of this radius (px). There it overlaps
     by overlap px, so that the next step finds the contact and resolves the impact. It keeps its

@@ -22,7 +22,7 @@ def solve_rod(rod: Rod) -> Answer:
 
 
 def describe_rod(rod: Rod) -> dict[str, str]:
-    """Return what moves, and what the rod has to do, in words."""
+    """Describe in words which ends move and what the rod has to do."""
     names = [name for name, mass in (("A", rod.mass_a), ("B", rod.mass_b)) if mass]
     moves = {"": "no end can move", "A": "only A can move", "B": "only B can move"}
     off = math.hypot(*rod.offset) - rod.length

@@ -242,7 +242,7 @@ SHARES = 4.0, -4.0, 0.25, -0.25, 63 / 64, -63 / 64, 65 / 64, -65 / 64, 100.0, -1
 
 
 def slips(discs: Discs, closing: float) -> Iterator[float]:
-    """Yield slips both ways, px/s: below, at and above what friction can end."""
+    """Yield slips both ways, px/s: below, at and above the most that friction can end."""
     most = math.sqrt(discs.mu[0] * discs.mu[1]) * closing
     yield from (share * most for share in SHARES)
 

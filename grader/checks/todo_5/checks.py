@@ -26,7 +26,7 @@ PULLS = (0.0, 0.0), (0.0, 980.0), (-120.375, 35.5), (0.125, -980.25)  # px/s²
 
 
 class Damped(NamedTuple):
-    """A ball in a world of its own, whose rates may be changed."""
+    """A ball alone in a world, whose rates may be changed."""
 
     lab: Lab
     world: Thing

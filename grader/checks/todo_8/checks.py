@@ -56,7 +56,7 @@ def want_steps(
     other: Polynomial,
     elsewhere: float,
 ) -> None:
-    """Ask several questions, each with one or two values changed from the one before.
+    """Ask several questions, each with one or two values of the previous one changed.
 
     This exposes answers stored for an earlier position, speed or step. In the third question no
     force acts at the start. The last two are close to the first step of the lesson's table, and a
@@ -121,7 +121,7 @@ SAMPLES = 4  # of RK4
 
 
 def look_closely(lab: Lab, method: Method) -> None:
-    """Ask for single steps that cost no points, only to tell what is wrong."""
+    """Ask for single steps, at no cost of points, to find out what is wrong."""
     if not lab.surveys:
         return
     if method is RK4:

@@ -112,7 +112,7 @@ def the_scene_is_that_of_the_lesson(lab: Lab) -> None:
 
 
 def want_the_first_scene(lab: Lab, played: Played, when: str) -> None:
-    """Insist that a program of the mini engine shows what make_world makes."""
+    """Insist that a program of the mini engine starts with make_world's scene."""
     expected = {(*p.pos, p.shape[0], p.mass) for p in world_parts(lab, SEED) if p.mass}
     found = moving_parts(played)
     lab.want(
@@ -377,7 +377,7 @@ def want_the_scene_again(lab: Lab, found: set[tuple[float, ...]]) -> bool:
 
 
 def want_a_first_ball(lab: Lab, rows: list[list[Moment]], place: tuple[int, int]) -> None:
-    """Insist that the first click, and nothing before it, drops one ball there."""
+    """Insist that the first click drops one ball, at its position, and nothing drops one before."""
     more = next((row for row in rows if len(row) > len(rows[0])), [])
     lab.want(
         len(more) == len(rows[0]) + 1,
@@ -445,7 +445,7 @@ def want_a_standing_stack(lab: Lab, boxes: list[SpaceBody]) -> None:
 
 
 def tilt(box: SpaceBody) -> float:
-    """Return by how much a box is turned, modulo 2 pi, rad."""
+    """Return the angle of a box, modulo 2 pi, rad."""
     return abs(math.remainder(box.angle, 2 * math.pi))
 
 

@@ -107,9 +107,9 @@ def say(body: BodyValue) -> str:
 def want_a_total_that_is_clamped(lab: Lab) -> None:
     """Insist that a pass can reduce the impulse of an earlier one.
 
-    A disc falls into a shallow groove between two large ones. Each side that is solved pushes it a
-    little off the other one. With totals clamped the next pass draws it back, and after two passes
-    a sixteenth of its speed is left at the most; with clamped changes it leaves at a quarter.
+    A disc falls into a shallow groove between two large ones. Solving one side pushes it a little
+    off the other. If totals are clamped, the next pass draws it back, and after two passes at most
+    a sixteenth of its speed is left; if changes are clamped, a quarter is left.
     """
     speed = lab.about(20.0, 4.0)
     lab.ran(f"a disc that falls at {speed:g} px/s into a groove between two large ones, one step")

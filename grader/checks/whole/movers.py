@@ -60,7 +60,7 @@ class Mover:
 
     @property
     def rolled_distance(self) -> float:
-        """Return how far it rolled over the floor, px."""
+        """Return the distance that it rolled over the floor, px."""
         return sum(
             abs(moment.vx) * STEP
             for moment in self.trail

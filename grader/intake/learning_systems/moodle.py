@@ -84,7 +84,7 @@ class Moodle(Lms):
         return columns if len(set(columns)) == len(columns) else titles
 
     def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:
-        """Return the worksheet as it came, with two columns filled in."""
+        """Return the unchanged worksheet with two columns filled in."""
         table = [[roster.titles.get(name, name) for name in roster.columns]]
         for row, mark, summary in marks.rows:
             cells = row | {"Grade": mark, "Feedback comments": summary}

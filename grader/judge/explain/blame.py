@@ -65,7 +65,7 @@ class GivenCause:
 def find_changes(
     submission: Submission, unusable: Iterable[Broke | NotYet] = ()
 ) -> list[GivenChange]:
-    """Return how the given code of a submission differs from what was handed out.
+    """Return the differences between a submission's given code and the handed-out code.
 
     `unusable` holds the imports that failed. Files with such an import are compared as a whole, as
     added code may be the reason.

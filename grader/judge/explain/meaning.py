@@ -208,7 +208,7 @@ def name_kind(failure: Failure) -> str:
 
 
 def name_mistake(failure: Failure) -> str:
-    """Name the one known mistake that gives all the answers of the TODO."""
+    """Name the only known mistake that predicts all answers of the TODO."""
     return failure.evidence.mistake.meaning if failure.evidence.mistake else ""
 
 

@@ -57,7 +57,7 @@ def list_signatures(text: str) -> Iterator[Signature]:
 
 @cache
 def load_signatures(module: str) -> dict[str, Signature]:
-    """Return the functions of a program as it was handed out, by their paths."""
+    """Return the functions of the handed-out program, by their paths."""
     given = load_given().items()
     texts = [text for name, text in given if name.partition("/")[0] in (module, f"{module}.py")]
     return {each.path: each for text in texts for each in list_signatures(text)}

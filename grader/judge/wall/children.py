@@ -146,7 +146,7 @@ class Child:
         return answered
 
     def _receive(self) -> Answered:
-        """Return the next answer; send the questions when there is none to come."""
+        """Return the next answer; if none is due, send the questions."""
         if self.over:
             raise ChildEnded(self.over, self.late)
         try:
@@ -375,7 +375,7 @@ class WarmWorker:
         return ended.status
 
     def _hear(self) -> bytes:
-        """Return a message of the warm process; do not wait for one that a child has stopped."""
+        """Return a message of the warm process, unless a child has stopped that process."""
         stopped = 0
         for _ in range(int(START_SECONDS)):
             if self.control.wait(1.0):

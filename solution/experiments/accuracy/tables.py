@@ -127,7 +127,7 @@ def list_smooth(smooth):
 
 
 def tabulate_dials(studies):
-    """Show what each dial does from its first value to its last, a row per scene."""
+    """Show the effect of each dial from its first value to its last, a row per scene."""
     heads, rows = ["scene: error"], []
     for study in studies:
         row = [f"{study['title']}: {study['error']} ({study['unit']})"]
@@ -143,7 +143,7 @@ def tabulate_dials(studies):
 
 
 def say_dial(dial):
-    """Say the errors at a dial's ends, and what a digit costs."""
+    """Say the errors at a dial's ends, and the cost of one more digit."""
     first, last = (say_error(dial["runs"][i]["error"]) for i in (0, -1))
     return f"{first} to {last} ({say_verdict(dial['verdict'])})"
 

@@ -180,7 +180,7 @@ class Show:
         return [scene.bodies[i].mass * (gx * now[i].x + gy * now[i].y) for i in scene.moving()]
 
     def drift(self):
-        """Return the energy gained since the start, in % of what the scene had, or None.
+        """Return the energy gained since the start, in % of the scene's energy, or None.
 
         That counts motion, springs, and the height that its balls have fallen so far.
         """

@@ -1,4 +1,4 @@
-"""Rows about bouncing: what Newton's law of restitution says of one ball and still surfaces."""
+"""Rows about bouncing: Newton's law of restitution, for one ball and still surfaces."""
 
 import math
 from functools import partial
@@ -32,13 +32,13 @@ def rise_after_bounce(trial, scene):
 
 
 def first_rebound(trial, scene, height, e):
-    """Return how far (px/s) the speed after the first bounce is off."""
+    """Return the error (px/s) of the speed after the first bounce."""
     _, apex = rise_after_bounce(trial, scene)
     return abs(fall_speed(max(apex, 0)) - e * fall_speed(height))
 
 
 def last_apex(trial, scene, seconds, height):
-    """Return how far the apex of the last two seconds is off, as a share of the first."""
+    """Return the error of the apex of the last two seconds, as a share of the first apex."""
     engine, radius = run_for(trial, scene, seconds - 2), scene.bodies[1].radius
     tops = watch(engine, 2, lambda: energy_height(engine, 1) - radius)
     return abs(sorted(tops)[len(tops) // 2] / height - 1)

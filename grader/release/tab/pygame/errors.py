@@ -2,7 +2,7 @@
 
 
 class error(RuntimeError):  # noqa: N801 (its name in pygame)
-    """Raised where pygame cannot do what it is asked for."""
+    """Raised if pygame cannot do what a program asks for."""
 
 
 error.__module__ = "pygame"

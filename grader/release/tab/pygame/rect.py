@@ -130,7 +130,7 @@ class Rect(metaclass=Named):
         return type(self)(self._x + x, self._y + y, self._w, self._h)
 
     def inflate(self, *by):
-        """Return a copy, larger by so much around the same centre."""
+        """Return a copy that is larger by x and y, around the same centre."""
         w, h = map(to_int, by if len(by) == 2 else by[0])
         return type(self)(self._x - half(w), self._y - half(h), self._w + w, self._h + h)
 

@@ -138,7 +138,7 @@ class Surface(metaclass=Named):
     convert_alpha = convert
 
     def forget(self):
-        """Drop the oldest commands but the first if there are too many."""
+        """Drop the oldest commands, except the first, if there are too many."""
         if len(self.ops) > MOST:
             del self.ops[1 : len(self.ops) - MOST // 2]
             self._drawn = None, 0

@@ -62,7 +62,7 @@ def get_ticks():
 
 
 def wait(milliseconds):
-    """Rest; returns how long in ms."""
+    """Rest; return the time rested, in ms."""
     if not isinstance(milliseconds, int):
         raise TypeError("wait requires one integer argument")
     began = time.perf_counter()
@@ -72,7 +72,7 @@ def wait(milliseconds):
 
 
 def delay(milliseconds):
-    """Rest; returns how long in ms."""
+    """Rest; return the time rested, in ms."""
     if not isinstance(milliseconds, int):
         raise TypeError("delay requires one integer argument")
     return wait(milliseconds)
