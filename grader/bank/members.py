@@ -308,7 +308,7 @@ class Member:
     def compare_losses(self, result: Result) -> str:
         """Return the checks that wrongly lose or keep their points; empty if there are none.
 
-        A bonus task that the member does not begin is not asked for.
+        Bonus tasks that the member does not begin do not count.
         """
         lost, meant = set(), set()
         for todo in result.todos:

@@ -36,7 +36,7 @@ class Traces:
 def watch_traces(own: Path, name: str) -> Iterator[Traces]:
     """Let a grade use the folder `own`; find its leftovers in there and elsewhere.
 
-    With a `name`, files that have it in their names are looked for as well.
+    With a `name`, also look for files that have it in their names.
     """
     own.mkdir()
     traces = Traces()

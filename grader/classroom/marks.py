@@ -147,7 +147,7 @@ class Scores:
 
     @property
     def absent(self) -> list[str]:
-        """Return the students whose points their group does not share."""
+        """Return the students who do not share their group's points."""
         by_name = self.parts.items()
         if self.of_sheets:
             return [*self.parts]

@@ -263,7 +263,7 @@ def check_name(name: str) -> str:
 def write_member(archive: zipfile.ZipFile, member: zipfile.ZipInfo, path: Path) -> None:
     """Unpack one file, up to the size that the zip gives.
 
-    With other methods than these two, `zipfile` may need more memory than the file has bytes.
+    With other compression methods, `zipfile` may need more memory than the file has bytes.
     """
     if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
         raise CannotTake(OWN_WAY)

@@ -135,7 +135,7 @@ class Result(Struct, frozen=True):
 
     @property
     def todos_to_show(self) -> list[TodoResult]:
-        """Return the TODOs for reports: bonus tasks only if started, or if there is nothing else."""
+        """Return the TODOs for reports: bonus tasks once started, or if there is nothing else."""
         begun = [todo for todo in self.todos if todo.bonus and todo.state != "not started"]
         return [*self.main_todos, *begun] if self.main_todos else self.todos
 

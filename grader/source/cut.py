@@ -112,7 +112,7 @@ def prune_modules(sources: dict[str, str], roots: dict[str, set[str]]) -> dict[s
 def list_uses(source: str, modules: Collection[str]) -> Iterator[tuple[str, str]]:
     """Yield the names that a file takes from these modules, each with its module.
 
-    A module that is imported itself yields the empty name, and each attribute that is used.
+    An import of a whole module yields the empty name, and each attribute that the file uses.
     """
     tree = ast.parse(source)
     bound: dict[str, str] = {}  # names of modules in the file

@@ -270,7 +270,7 @@ def find_unread(code: RegionCode) -> Suspect | None:
 def find_needed(node: ast.AST, assigned: str = "") -> Iterator[str]:
     """Yield the names that code reads, except to compute a new value of the name itself.
 
-    `assigned` is the one name to which all of the code gives a value.
+    `assigned` is the only name that the code gives a value.
     """
     for each in ast.iter_child_nodes(node):
         if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Load) and each.id != assigned:

@@ -1,6 +1,6 @@
 """TODO 7a to 7c: gravity, a ball's moment of inertia and the rod, in pymunk.
 
-7d is TODO 6 once more, in another program: its checks are those of todo_6.
+7d is TODO 6 again, in another program, with the checks in todo_6.
 """
 
 import math

@@ -391,7 +391,7 @@ REACHES = {0.0: "at the start", 0.5: "half-way", 1.0: "at the end of the step"}
 def list_other_sources() -> Iterator[tuple[str, str, str, Sources, Sources]]:
     """Yield mistakes in one sample: its part, a name, the end of a sentence, and its sources.
 
-    The sources are those of the position, and those of the velocity.
+    The sources are a list for the position and one for the velocity.
     """
     for number, (before, reach) in enumerate(USUAL, 1):
         for source, share in product(range(number), REACHES):

@@ -27,7 +27,7 @@ Result = TypeVar("Result")
 
 
 def ask_child(child: Child, request: Request) -> Answered:
-    """Ask without recording, the usual `send` of a connection."""
+    """Ask without recording: the usual `send` of a connection."""
     return child.ask(request)
 
 
