@@ -98,9 +98,9 @@ class Lab(Asker):
     def about(self, number: float, within: float | None = None) -> float:
         """Return the number or, under an instructor's secret seed, a number near it.
 
-        So students cannot hard-code the answers. The number changes by eighths of `within`, which is
-        a quarter of it by default: sums and products of round numbers stay exact. Properties do
-        not need this, since they draw their numbers.
+        So students cannot hard-code the answers. The number changes by eighths of `within`, by
+        default a quarter of the number: sums and products of round numbers stay exact. Properties
+        draw their numbers, and do not need this.
         """
         if self.drawn is None:
             return number
