@@ -228,7 +228,7 @@ def list_members(archive: zipfile.ZipFile) -> Iterator[zipfile.ZipInfo]:
 
 
 def name_members(archive: zipfile.ZipFile) -> list[tuple[PurePosixPath, zipfile.ZipInfo]]:
-    """Return the files and their names; raises CannotTake where two share a name and differ."""
+    """Return the files and their names; raises CannotTake if two differ but share a name."""
     found: dict[str, tuple[PurePosixPath, zipfile.ZipInfo]] = {}
     for member in list_members(archive):
         name = PurePosixPath(check_name(decode_name(member)))

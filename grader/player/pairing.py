@@ -36,7 +36,7 @@ class Tolerance(NamedTuple):
 
 
 class PairedRequest(NamedTuple):
-    """A request in both runs; the other is None if the right run is not known."""
+    """A request in both runs; the right run's is None if that run is not known."""
 
     line: Line
     other: Line | None

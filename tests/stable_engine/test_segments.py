@@ -13,10 +13,15 @@ R = 10.0
 SLIPPERY = [(20, 0.0), (45, 0.1), (60, 0.3)]  # degrees, and a friction that lets a disc slide
 
 
+def directions(degrees):
+    """Return the unit vectors along a slope that falls to the right, and up from it."""
+    angle = math.radians(degrees)
+    return (math.cos(angle), math.sin(angle)), (math.sin(angle), -math.cos(angle))
+
+
 def on_slope(degrees, friction, effects=("Contacts", "Friction"), radius=0.0):
     """Make a ball that just touches a slope falling to the right; return its world and itself."""
-    angle = math.radians(degrees)
-    along, up = (math.cos(angle), math.sin(angle)), (math.sin(angle), -math.cos(angle))
+    along, up = directions(degrees)
     world = World(effects=make(effects))
     far = 4000.0
     ends = [(side * far * along[0], side * far * along[1]) for side in (-1, 1)]
@@ -40,8 +45,7 @@ def test_a_disc_rolls_or_slides_down_a_slope(degrees, friction, radius):
 
 @pytest.mark.parametrize("degrees", [0, 30, 90, 200])
 def test_a_ball_bounces_off_by_the_law_of_reflection(degrees):
-    angle = math.radians(degrees)
-    along, up = (math.cos(angle), math.sin(angle)), (math.sin(angle), -math.cos(angle))
+    along, up = directions(degrees)
     world = World(gravity=(0, 0), effects=make(["Contacts", "Bounce"]))
     ends = [(side * 300 * along[0], side * 300 * along[1]) for side in (-1, 1)]
     world.add(Body(Segment(*ends), restitution=1))
@@ -109,8 +113,7 @@ def test_nothing_hops_at_a_seam(speed):
 )
 @pytest.mark.parametrize("degrees", [0, 37])
 def test_fast_balls_do_not_tunnel(speed, degrees, effects):
-    angle = math.radians(degrees)
-    along, up = (math.cos(angle), math.sin(angle)), (math.sin(angle), -math.cos(angle))
+    along, up = directions(degrees)
     for far in (60.0, 63.7, 68.1, 71.3):
         world = World(gravity=(0, 0), effects=make(effects))
         ends = [(side * 9000 * along[0], side * 9000 * along[1]) for side in (-1, 1)]

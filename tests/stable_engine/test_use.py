@@ -201,17 +201,12 @@ def test_a_bullet_in_a_world_without_bullets_is_refused_later_too():
 # ---------------------------------------------------------------- pushing
 
 
-def test_an_impulse_changes_velocity_by_its_share_of_the_mass():
+@pytest.mark.parametrize(("at", "arm"), [(None, 0), ((5, -5), 10)], ids=["centre", "top"])
+def test_an_impulse_changes_velocity_and_at_the_rim_spin(at, arm):
     ball = Body(Circle(10), (5, 5), mass=4)
-    ball.apply_impulse((8, -4))
-    assert (ball.vel, ball.omega) == ((2, -1), 0)
-
-
-def test_an_impulse_at_the_rim_turns_the_ball_as_well():
-    ball = Body(Circle(10), (5, 5), mass=4)
-    ball.apply_impulse((8, 0), at=(5, -5))  # at the top, to the right: clockwise
-    assert ball.vel == (2, 0)
-    assert ball.omega == pytest.approx(8 * 10 / (4 * 10**2 / 2))
+    ball.apply_impulse((8, -4), at)
+    assert ball.vel == (2, -1)
+    assert ball.omega == pytest.approx(8 * arm / (4 * 10**2 / 2))  # clockwise
 
 
 def test_a_force_acts_for_one_step_and_adds_up():

@@ -40,7 +40,7 @@ def count_cores() -> int:
 
 
 class Started(NamedTuple):
-    """A process that loads, and the judge's ends of its channels."""
+    """A process that is still loading, and the judge's ends of its channels."""
 
     process: "subprocess.Popen[bytes]"
     ends: list[socket.socket]
