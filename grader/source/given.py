@@ -177,7 +177,7 @@ def restore_piece(
 def compare_piece(
     name: str, file: str, lines: list[str], piece: Piece, original: tuple[str, ...]
 ) -> Iterator[GivenChange]:
-    """Yield the change of a piece, if any; `original` has the student's regions."""
+    """Yield the change of a piece, if any; `original` is given code with the student's regions."""
     own = tuple(lines[piece.start : piece.stop])
     if meaning_of(own) == meaning_of(original):
         return

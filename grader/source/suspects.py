@@ -57,7 +57,7 @@ class Suspect:
 
 @dataclass(frozen=True)
 class Leftover(Suspect):
-    """Handed-out lines among the student's own; the words say that a check passes without them."""
+    """Handed-out lines among the student's own, and words for when a check passes without them."""
 
     last: Suspect  # the last of these lines, as a return that hides the student's own answer
     without: str  # the file's text with empty lines in their place

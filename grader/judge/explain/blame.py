@@ -38,7 +38,7 @@ class GivenCause:
 
     @property
     def is_gone(self) -> bool:
-        """Return whether code is missing that its TODO cannot run without."""
+        """Return whether code is missing without which its TODO cannot run."""
         return not self.mended and not any(each.theirs for each in self.changes)
 
     @property
