@@ -21,14 +21,14 @@ from rich.table import Table
 
 from grader.bank.halfway import Halfway, list_states
 from grader.bank.ladders import Ladder, list_ladders
-from grader.bank.members import Entry, Member, list_members
+from grader.bank.members import Attack, Entry, Member, list_members
 from grader.bank.store import Store
 from grader.bank.sync import sync
 from grader.bank.traces import watch_traces
 from grader.errors import Stop
 from grader.judge.course import FULL, Course
 from grader.judge.grade import grade
-from grader.judge.passed import PASSED, PassedPrograms
+from grader.judge.passed import PASSED, PassedBefore, PassedPrograms
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.judge.task import KIT, Options, shipped_reference
@@ -249,10 +249,11 @@ def grade_member(
 ) -> Verdict:
     """Grade it on all TODOs that may judge it, or on those in `only`.
 
-    Programs that have `passed` are not run again, unless hostile ones might notice.
+    Programs that have `passed` are not run again. After the first line of a hostile program, all
+    are: an attack begins in the checks of its TODO, other hostile programs with their import.
     """
-    if member.kind == "hostile":
-        passed = None
+    if member.kind == "hostile" and passed:
+        passed = PassedBefore(passed) if isinstance(member.entry, Attack) else None
     with tempfile.TemporaryDirectory(prefix="bank-") as folder:
         submission = Path(folder).resolve() / member.name
         try:

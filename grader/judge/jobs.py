@@ -29,6 +29,11 @@ class Job:
         return self.check.module or self.todo.module
 
     @property
+    def part(self) -> tuple[str, str]:
+        """Return the TODO and the program; its jobs with the same ones run the same code."""
+        return self.todo.id, self.module
+
+    @property
     def title(self) -> str:
         return (self.function.__doc__ or self.check.id).strip().splitlines()[0].rstrip(".")
 

@@ -13,7 +13,6 @@ from grader.judge.jobs import Job, Key, jobs_of
 from grader.judge.lab import Lab, Observation
 from grader.judge.passed import PassedPrograms, program_key
 from grader.judge.result import CheckResult
-from grader.judge.rubric import Todo
 from grader.judge.running import Opener, Outcome, Runner
 from grader.judge.submission import CannotGrade
 from grader.judge.task import Task
@@ -78,14 +77,14 @@ class CheckLoop:
 
     def _run_group(self, jobs: list[Job]) -> None:
         """Run the checks of TODOs that do not depend on each other."""
-        todos = {job.todo.id: job.todo for job in jobs}
-        keys = {id: self._program_key(todo) for id, todo in todos.items()}
-        known = {id for id, key in keys.items() if self.passed and self.passed.holds(key)}
-        with self._run_ahead([job for job in jobs if job.todo.id not in known]) as ahead:
+        parts = {job.part: job for job in jobs}
+        keys = {part: self._program_key(job) for part, job in parts.items()}
+        known = {part for part, key in keys.items() if self.passed and self.passed.holds(key)}
+        with self._run_ahead([job for job in jobs if job.part not in known]) as ahead:
             for job in jobs:
-                self._judge(job, job.todo.id in known, ahead.get(job.key))
-        for id, key in keys.items():
-            results = [outcome.result for outcome in self.list_outcomes(id)]
+                self._judge(job, job.part in known, ahead.get(job.key))
+        for part, key in keys.items():
+            results = [self.outcomes[job.key].result for job in jobs if job.part == part]
             if self.passed and key and {(r.state, r.meaning) for r in results} == {("passed", "")}:
                 self.passed.add(key)
 
@@ -212,16 +211,12 @@ class CheckLoop:
 
     # ------------------------------------------------------------ programs that have passed
 
-    def _program_key(self, todo: Todo) -> str:
-        """Return a key of the program that a TODO's checks run; see PassedPrograms.
+    def _program_key(self, job: Job) -> str:
+        """Return a key of the program that a check and others of its TODO run; see PassedPrograms.
 
         Empty if nothing may be remembered or a file was too long to read.
         """
         if self.passed is None or self.submission.unread:
             return ""
-        right = [
-            piece
-            for module in todo.modules
-            for piece in self.runner.find_pieces(todo, module, differing=False)
-        ]
-        return program_key(todo, self.submission, right, self.grading.options.seed)
+        right = self.runner.find_pieces(job.todo, job.module, differing=False)
+        return program_key(job.todo, job.module, self.submission, right, self.grading.options.seed)

@@ -38,46 +38,67 @@ class PassedPrograms:
         (self.folder / key).touch()
 
 
+class PassedBefore(PassedPrograms):
+    """The programs that have passed, up to the first that has not: it may affect all after it."""
+
+    def __init__(self, programs: PassedPrograms) -> None:
+        super().__init__(programs.folder)
+        self.over = False
+
+    def holds(self, key: str) -> bool:
+        self.over = self.over or not super().holds(key)
+        return not self.over
+
+    def add(self, key: str) -> None:
+        """Remember nothing."""
+
+
 PASSED = PassedPrograms(Path(__file__).parents[2] / "build" / "passed")
 
 
 def program_key(
-    todo: Todo, submission: Submission, right: Sequence[Piece], seed: int | None
+    todo: Todo, module: str, submission: Submission, right: Sequence[Piece], seed: int | None
 ) -> str:
-    """Hash the program that the checks of a TODO run, with the checks, the grader and Python.
+    """Hash the program that a TODO's checks of `module` run, with the checks, grader and Python.
 
     Imported files of the submission count, and all files that are not Python.
     `right`: the reference's versions of other TODOs, which count instead of the submission's own
     if they have the same parameters.
     """
     program, tree = submission.program, submission.folder
-    texts = {path: program.texts[path] for path in program.list_files(todo.modules)}
+    replaced: dict[Path, list[Function]] = {}
     for piece in right:
         defined = program.definition(*piece.target.split(":"))
         if defined is None or defined.function is None:
             continue
-        path, function = program.paths[defined.module], defined.function
-        if path in texts and list(function.parameters) == piece.parameters:
-            texts[path] = without_body(texts[path], function)
-    contents = {path.as_posix(): text.encode() for path, text in texts.items()}
+        if list(defined.function.parameters) == piece.parameters:
+            replaced.setdefault(program.paths[defined.module], []).append(defined.function)
+    contents = {}
+    for path in program.list_files([module]):
+        text, data = program.texts[path], (tree / path).read_bytes()
+        as_usual = data == text.encode("utf-8", "replace")  # else another encoding, or CRLF
+        usual = without_bodies(text, replaced.get(path, [])).encode("utf-8", "replace")
+        contents[path.as_posix()] = usual if as_usual else data
     for file in tree.rglob("*"):
         if file.is_file() and file.suffix not in (".py", ".ipynb"):
             contents[file.relative_to(tree).as_posix()] = file.read_bytes()
     digest = hashlib.sha256(surroundings().encode())
-    digest.update(msgspec.json.encode([todo, seed, right]))
+    digest.update(msgspec.json.encode([todo, module, seed, right]))
     for name, content in sorted(contents.items()):
         digest.update(f"{name}\0{len(content)}\0".encode() + content)
     return digest.hexdigest()
 
 
-def without_body(text: str, function: Function) -> str:
-    """Return a file's text without the body of a function."""
-    lines = text.splitlines()
-    node = next(iter(statements(source_of(text, function))), None)
-    if not isinstance(node, ast.FunctionDef) or node.body[0].lineno == 1:
-        return text
-    begin = function.lineno + node.body[0].lineno - 2
-    return "\n".join([*lines[:begin], REPLACED, *lines[function.end_lineno :]])
+def without_bodies(text: str, functions: Sequence[Function]) -> str:
+    """Return a file's text without the bodies of some functions."""
+    lines: list[str | None] = [*text.splitlines()]
+    for function in functions:
+        node = next(iter(statements(source_of(text, function))), None)
+        if isinstance(node, ast.FunctionDef) and node.body[0].lineno > 1:
+            begin = function.lineno + node.body[0].lineno - 2
+            body = slice(begin, function.end_lineno)
+            lines[body] = [REPLACED, *[None] * (len(lines[body]) - 1)]
+    return "\n".join(line for line in lines if line is not None)
 
 
 @cache

@@ -9,11 +9,12 @@ import pytest
 from grader.bank.members import list_members
 from grader.bank.verify import grade_member, shared_worker
 from grader.judge.grade import grade
-from grader.judge.passed import PassedPrograms, program_key
+from grader.judge.passed import PassedBefore, PassedPrograms, program_key, without_bodies
 from grader.judge.reference import Reference
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import take_in
 from grader.judge.task import KIT, Options, shipped_reference
+from grader.source.definitions import Function
 from grader.source.regions import replace_regions
 
 SOAK = pytest.mark.soak
@@ -35,7 +36,7 @@ def key_for(tree: Path, copy: Path) -> str:
     submission = take_in(tree, copy)
     reference = Reference(shipped_reference(), rubric)
     right = reference.for_the_others(todo, todo.module, rubric, submission, differing=False)
-    return program_key(todo, submission, right, None)
+    return program_key(todo, todo.module, submission, right, None)
 
 
 def test_a_wrong_todo_leaves_the_others_the_program_that_they_were(tmp_path: Path):
@@ -80,6 +81,34 @@ def test_all_but_replaced_code_belongs_to_a_program(
     tree = change(tmp_path / "tree", file, text.replace(old, new))
     usual = key_for(KIT / "solution", tmp_path / "usual")
     assert (key_for(tree, tmp_path / "copy") == usual) is same
+
+
+def test_other_bytes_are_another_program_even_with_the_same_text(tmp_path: Path):
+    usual = (KIT / "solution" / DAMPING).read_bytes()
+    keys = set()
+    for number, data in enumerate((usual, usual.replace(b"\n", b"\r\n"), b"\xef\xbb\xbf" + usual)):
+        tree = change(tmp_path / f"tree {number}", DAMPING, "")
+        (tree / DAMPING).write_bytes(data)
+        keys.add(key_for(tree, tmp_path / f"copy {number}"))
+    assert len(keys) == 3
+
+
+def test_a_body_of_any_length_leaves_the_lines_of_the_next():
+    text = "def f(x):\n    x += 1\n    return x\n\ndef g(x):\n    return 2\n\nend = 3"
+    functions = [Function("f", 1, 3, ("x",)), Function("g", 5, 6, ("x",))]
+    left = without_bodies(text, functions)
+    assert left == "def f(x):\n<the reference's>\n\ndef g(x):\n<the reference's>\n\nend = 3"
+    assert without_bodies(text, functions[::-1]) == left
+
+
+def test_programs_are_known_up_to_the_first_that_is_new(tmp_path: Path):
+    passed = PassedPrograms(tmp_path)
+    for key in "ac":
+        passed.add(key)
+    before = PassedBefore(passed)
+    assert [before.holds(key) for key in "aba"] == [True, False, False]
+    before.add("b")
+    assert not passed.holds("b") and passed.holds("c")
 
 
 @pytest.mark.soak
