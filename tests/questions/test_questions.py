@@ -58,6 +58,18 @@ def program_of(folder: Path, result: Result) -> Iterator[Program]:
         yield program
 
 
+@contextmanager
+def changed_program(
+    hand_in: HandIn, result: Result, file: str, old: str, new: str
+) -> Iterator[Program]:
+    """Open the solution with one text of a file of its engine replaced."""
+    text = (KIT / "solution/mini_engine" / file).read_text()
+    assert old in text
+    name = f"mini_engine__{file.replace('.', '_')}"
+    with program_of(hand_in("solution", **{name: text.replace(old, new)}), result) as program:
+        yield program
+
+
 def make_sheet(program: Program, student: str, seed: str, asked: Asked) -> Sheet:
     return sheets.make_sheet(program, student, seed, asked, MAKERS)
 
@@ -93,11 +105,8 @@ def test_what_flies_above_the_scene_is_in_the_picture():
 def test_a_program_that_tells_false_numbers_is_not_asked_about_them(
     hand_in: HandIn, solution: Result
 ):
-    text = (KIT / "solution/mini_engine/solver.py").read_text()
-    false = text.replace("    c.jn = total\n", "    c.jn = total * 1.05\n")
-    assert false != text
-    folder = hand_in("solution", mini_engine__solver_py=false)
-    with program_of(folder, solution) as program:
+    false = "    c.jn = total\n", "    c.jn = total * 1.05\n"
+    with changed_program(hand_in, solution, "solver.py", *false) as program:
         sheet = make_sheet(program, "eve", "1", Asked(film=0, why=0))
     assert [each.name for each in sheet.questions] == ["steps", "verlet", "friction"]
     (words,) = sheet.dropped
@@ -137,12 +146,9 @@ def test_numbers_that_make_no_sense_drop_a_question_and_not_the_class(error: typ
 
 
 def test_a_program_whose_scene_breaks_has_a_sheet_all_the_same(hand_in: HandIn, solution: Result):
-    scenes = (KIT / "solution/mini_engine/scenes.py").read_text()
-    breaks = scenes.replace("    world = World()\n", "    raise KeyError('\x1b[2J')\n")
-    assert breaks != scenes
-    folder = hand_in("solution", mini_engine__scenes_py=breaks)
-    todos = [todo for todo in solution.todos if todo.id in ("1", "3")]
-    with program_of(folder, solution.with_todos(todos)) as program:
+    breaks = "    world = World()\n", "    raise KeyError('\x1b[2J')\n"
+    some = solution.with_todos([todo for todo in solution.todos if todo.id in ("1", "3")])
+    with changed_program(hand_in, some, "scenes.py", *breaks) as program:
         sheet = make_sheet(program, "eve", "1", Asked())
     assert [each.name for each in sheet.questions] == ["why-centre-inside", "why-rod-impulse"]
     assert [words.partition(":")[0] for words in sheet.dropped] == ["rod", "films"]
@@ -151,11 +157,8 @@ def test_a_program_whose_scene_breaks_has_a_sheet_all_the_same(hand_in: HandIn, 
 
 
 def test_a_program_that_keeps_ending_is_left_alone(hand_in: HandIn, solution: Result):
-    scenes = (KIT / "solution/mini_engine/scenes.py").read_text()
-    ends = scenes.replace("    world = World()\n", "    raise SystemExit\n")
-    assert ends != scenes
-    leaves = ends.replace("raise SystemExit", "__import__('os')._exit(3)")
-    with program_of(hand_in("solution", mini_engine__scenes_py=leaves), solution) as program:
+    leaves = "    world = World()\n", "    __import__('os')._exit(3)\n"
+    with changed_program(hand_in, solution, "scenes.py", *leaves) as program:
         for _ in range(4):
             with pytest.raises((CannotAsk, Broke)):
                 MAKERS[0].ask(program, "1", 2)
@@ -227,27 +230,16 @@ def test_a_film_shows_a_change_by_what_the_lesson_lets_one_expect():
 
 
 def test_what_is_asked_of_a_line_is_how_the_student_wrote_it(hand_in: HandIn, solution: Result):
-    text = (KIT / "solution/mini_engine/solver.py").read_text()
-    by_hand = text.replace(
+    by_hand = (
         "    total = max(-limit, min(limit, total))\n",
         "    if total > limit:\n        total = limit\n"
         "    if total < -limit:\n        total = -limit\n",
     )
-    assert by_hand != text
-    with program_of(hand_in("solution", mini_engine__solver_py=by_hand), solution) as program:
+    with changed_program(hand_in, solution, "solver.py", *by_hand) as program:
         sheet = make_sheet(program, "bob", "1", Asked(number=0, film=0, why=1))
     (question,) = sheet.questions
     assert (question.name, question.code) == ("why-clamp", "if total > limit:")
     assert question.by_hand and question.points == len(question.rubric)
-
-
-LIAR = """\
-class World(World):
-    def step(self, dt):
-        super().step(dt)
-        for body in self.moving_bodies():
-            body.pos.x += 1.5
-"""
 
 
 @pytest.mark.soak
@@ -255,9 +247,9 @@ def test_a_program_whose_films_lie_is_not_asked_about_them(
     hand_in: HandIn, solution: Result, monkeypatch: pytest.MonkeyPatch
 ):
     monkeypatch.setattr(films, "TRIES", 1)
-    text = (KIT / "solution/mini_engine/world.py").read_text()
-    folder = hand_in("solution", mini_engine__world_py=f"{text}\n\n{LIAR}")
-    with program_of(folder, solution) as program:
+    move = "            body.pos += body.vel * dt\n"
+    lies = move, f"{move}            body.pos.x += 1.5\n"
+    with changed_program(hand_in, solution, "world.py", *lies) as program:
         sheet = make_sheet(program, "eve", "1", Asked(number=1, why=0))
     assert [each.kind for each in sheet.questions] == ["number", "number"]
     assert any(words.startswith("films: its film of") for words in sheet.dropped)
