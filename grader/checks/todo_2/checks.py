@@ -1,6 +1,7 @@
 """TODO 2: the spin terms in effective_mass."""
 
 import math
+from itertools import product
 from typing import Any
 
 from hypothesis import strategies as st
@@ -130,34 +131,23 @@ def any_two_bodies_agree_with_the_formula(
 ) -> None:
     """Two bodies of any mass and size, pushed anywhere, and then changed"""
     slow = [{**each, "omega": 1 / 64, "vel": (1 / 64, 0.0)} for each in fields]
-    n = 0
-    for quadrant in QUADRANTS:
-        for kind in KINDS:
-            scale, weight = SCALES[n % 3], WEIGHTS[n // 3 % 3]
-            axis = nearly if n == 7 else AXES[n % 7]
-            a, b = (
-                Lever(
-                    weight * each * mass,
-                    scale * radius,
-                    scale * radius * x * sx,
-                    scale * radius * y * sy,
-                )
-                for each, mass, radius, (x, y), (sx, sy) in zip(
-                    kind,
-                    masses,
-                    radii,
-                    (arms[:2], arms[2:]),
-                    (quadrant, QUADRANTS[n // 2 % 4]),
-                    strict=True,
-                )
-            )
-            both = discs(lab, a, b, *(slow if n % 2 else fields))
-            want_exact(lab, a, b, axis, both)
-            want_exact(lab, a._replace(rx=a.ry, ry=-a.rx), b, axis, both)
-            if n % 4 == 0:  # A and B become static in turn
-                lab.put(both[0], inv_mass=0.0, inv_inertia=0.0)
-                want_exact(lab, a._replace(mass=0.0), b._replace(rx=b.ry, ry=b.rx), axis, both)
-            n += 1
+    for n, (quadrant, (here, there)) in enumerate(product(QUADRANTS, KINDS)):
+        scale, weight = SCALES[n % 3], WEIGHTS[n // 3 % 3]
+        axis = nearly if n == 7 else AXES[n % 7]
+        a = make_lever(weight * here * masses[0], scale * radii[0], arms[:2], quadrant)
+        other = QUADRANTS[n // 2 % 4]
+        b = make_lever(weight * there * masses[1], scale * radii[1], arms[2:], other)
+        both = discs(lab, a, b, *(slow if n % 2 else fields))
+        want_exact(lab, a, b, axis, both)
+        want_exact(lab, a._replace(rx=a.ry, ry=-a.rx), b, axis, both)
+        if n % 4 == 0:  # A and B become static in turn
+            lab.put(both[0], inv_mass=0.0, inv_inertia=0.0)
+            want_exact(lab, a._replace(mass=0.0), b._replace(rx=b.ry, ry=b.rx), axis, both)
+
+
+def make_lever(mass: float, radius: float, arm: tuple[float, ...], signs: Pair) -> Lever:
+    """Return a disc with an arm, which is given in radii."""
+    return Lever(mass, radius, radius * arm[0] * signs[0], radius * arm[1] * signs[1])
 
 
 # ---------------------------------------------------------------- what a player sees

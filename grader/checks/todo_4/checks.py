@@ -7,6 +7,7 @@ from the speeds. No number depends on TODO 2, since no impulse turns them.
 import math
 from collections.abc import Iterator
 from itertools import product
+from operator import add
 
 from hypothesis import strategies as st
 
@@ -24,7 +25,6 @@ from grader.checks.strategies import (
 )
 from grader.judge.drawing import between, given
 from grader.judge.lab import STEP, Lab, Pair, Run, Thing
-from grader.protocol import BodyValue
 
 ASLANT, STILL = (0.6, 0.8), (0.0, 0.0)
 ROUGH = (0.5, 0.5)
@@ -73,7 +73,7 @@ def rub(
     kept = kept if LEAST_KEPT < kept < 2.0 else 1.0
     first = tuple(kept * each for each in first)
     closing, slip = kept * closing, kept * slip
-    last = motion(lab.state(a), lab.state(b))
+    last = (*lab.state(a).vel, *lab.state(b).vel)
     rubbing = measure_friction(discs, first, last)
     want_opposite(lab, discs, first, last, max(closing / discs.k, 0.0), rubbing)
     if not spin:
@@ -90,20 +90,11 @@ def place_discs(lab: Lab, discs: Discs, first: Motion, spin: float) -> tuple[Thi
     """Return two discs that overlap by DEPTH, with these velocities; movable ones spin."""
     (x, y), reach = discs.normal, sum(discs.radius) - DEPTH
     places = STILL, (reach * x, reach * y)
+    same = {"restitution": 0.0, "inv_inertia": 0.0}
+    columns = places, discs.radius, discs.mass, discs.mu, (first[:2], first[2:])
     a, b = (
-        lab.circle(
-            place,
-            radius,
-            mass,
-            friction=mu,
-            restitution=0.0,
-            inv_inertia=0.0,
-            vel=vel,
-            omega=spin * (mass > 0),
-        )
-        for place, radius, mass, mu, vel in zip(
-            places, discs.radius, discs.mass, discs.mu, (first[:2], first[2:]), strict=True
-        )
+        lab.circle(place, radius, mass, friction=mu, vel=vel, omega=spin * (mass > 0), **same)
+        for place, radius, mass, mu, vel in zip(*columns, strict=True)
     )
     return a, b
 
@@ -123,10 +114,6 @@ def measure_friction(discs: Discs, first: Motion, last: Motion) -> float:
     return mass_a * ((first[1] - last[1]) * x - (first[0] - last[0]) * y)
 
 
-def motion(a: BodyValue, b: BodyValue) -> Motion:
-    return (*a.vel, *b.vel)
-
-
 def want_opposite(
     lab: Lab, discs: Discs, first: Motion, last: Motion, pressing: float, rubbing: float
 ) -> None:
@@ -134,12 +121,8 @@ def want_opposite(
     x, y = discs.normal
     push = pressing * x - rubbing * y, pressing * y + rubbing * x
     a, b = (exact.inverse(mass) for mass in discs.mass)
-    right = (
-        first[0] - a * push[0],
-        first[1] - a * push[1],
-        first[2] + b * push[0],
-        first[3] + b * push[1],
-    )
+    changes = -a * push[0], -a * push[1], b * push[0], b * push[1]
+    right = tuple(map(add, first, changes))
     size = 1.0 + sum(map(abs, (*first, *last)))  # of what is rounded
     off = max(abs(one - other) for one, other in zip(last, right, strict=True))
     words = "opposite impulses on A and B, and nothing else: {}"
@@ -148,16 +131,13 @@ def want_opposite(
 
 def want_contact(lab: Lab, world: Thing, discs: Discs, pressing: float, rubbing: float) -> None:
     """Insist on one unchanged contact with the applied impulses."""
-    found = [
-        lab.contact_or_none(each) for each in lab.items(lab.get(world, "contacts"), "contacts")
-    ]
+    found = map(lab.contact_or_none, lab.items(lab.get(world, "contacts"), "contacts"))
     contacts = [each for each in found if each is not None]
     lab.want(len(contacts) == 1, "one contact of the two", f"{len(contacts)}")
     c = contacts[0]
     x, y = discs.normal
-    near = abs(abs(c.normal.x * x + c.normal.y * y) - 1) <= 1e-9 and abs(c.depth - DEPTH) <= 1e-6
     lab.want(
-        near,
+        abs(abs(c.normal.x * x + c.normal.y * y) - 1) <= 1e-9 and abs(c.depth - DEPTH) <= 1e-6,
         f"the contact's normal along ({x:g}, {y:g}) and its depth {DEPTH:g} px, as found",
         f"normal ({c.normal.x:g}, {c.normal.y:g}), depth {c.depth:g} px",
     )

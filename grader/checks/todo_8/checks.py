@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Sequence
 from itertools import islice, pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from grader.checks import exact
 from grader.checks.digits import want_answer
@@ -47,29 +47,30 @@ def oracle_of(method: Method) -> Callable[[float, float, float, Accel], State]:
     return oracle
 
 
-def want_steps(
+def want_every_step(
     lab: Lab,
     method: Method,
-    start: State,
-    dt: float,
+    starts: Starts,
     force: Polynomial,
     other: Polynomial,
     elsewhere: float,
 ) -> None:
-    """Ask several questions, each with one or two values of the previous one changed.
+    """Insist on steps of every length, from motion and from rest, also under gravity alone.
 
-    This exposes answers stored for an earlier position, speed or step. In the third question no
-    force acts at the start. The last two are close to the first step of the lesson's table, and a
-    fast short step.
+    Each question has one or two values of the previous one changed. This exposes answers stored for
+    an earlier position, speed or step. In the third question no force acts at the start. The last
+    two are close to the first step of the lesson's table, and a fast short step.
     """
-    want_step(lab, method, start, dt, force, twice=True)
-    want_step(lab, method, start, dt, other)
-    centred = (force[0] - exact.polynomial(force)(elsewhere), *force[1:])
-    end = want_step(lab, method, (elsewhere, start[1]), dt, centred)
-    if max(map(abs, end)) <= FAR:
-        want_step(lab, method, end, dt, other)
-    for usual, short in NEARLY_USUAL:
-        want_step(lab, method, usual, short, force)
+    for n, dt in enumerate(TIME_STEPS):
+        start, first = starts[n % 2], GRAVITY if n % 3 == 2 else force
+        want_step(lab, method, start, dt, first, twice=True)
+        want_step(lab, method, start, dt, other)
+        centred = (first[0] - exact.polynomial(first)(elsewhere), *first[1:])
+        end = want_step(lab, method, (elsewhere, start[1]), dt, centred)
+        if max(map(abs, end)) <= FAR:
+            want_step(lab, method, end, dt, other)
+        for usual, short in NEARLY_USUAL:
+            want_step(lab, method, usual, short, first)
 
 
 def want_step(
@@ -173,26 +174,10 @@ def asked_everywhere(check: Callable[..., None]) -> Callable[..., None]:
     return drawn(check)
 
 
-def want_every_step(
-    lab: Lab,
-    method: Method,
-    starts: Starts,
-    force: Polynomial,
-    other: Polynomial,
-    elsewhere: float,
-) -> None:
-    """Insist on steps of every length, from motion and from rest, also under gravity alone."""
-    for n, dt in enumerate(TIME_STEPS):
-        first = GRAVITY if n % 3 == 2 else force
-        want_steps(lab, method, starts[n % 2], dt, first, other, elsewhere)
-
-
 @asked_everywhere
-def semi_implicit_euler_moves_with_the_new_velocity(
-    lab: Lab, starts: Starts, force: Polynomial, other: Polynomial, elsewhere: float
-) -> None:
+def semi_implicit_euler_moves_with_the_new_velocity(lab: Lab, **drawn: Any) -> None:
     """A step changes the velocity first, then moves with the new one"""
-    want_every_step(lab, SEMI_IMPLICIT_EULER, starts, force, other, elsewhere)
+    want_every_step(lab, SEMI_IMPLICIT_EULER, **drawn)
 
 
 def semi_implicit_euler_keeps_the_spring_swinging(lab: Lab) -> None:
@@ -201,11 +186,9 @@ def semi_implicit_euler_keeps_the_spring_swinging(lab: Lab) -> None:
 
 
 @asked_everywhere
-def velocity_verlet_uses_the_accelerations_at_both_ends(
-    lab: Lab, starts: Starts, force: Polynomial, other: Polynomial, elsewhere: float
-) -> None:
+def velocity_verlet_uses_the_accelerations_at_both_ends(lab: Lab, **drawn: Any) -> None:
     """A step uses the accelerations at both of its ends"""
-    want_every_step(lab, VELOCITY_VERLET, starts, force, other, elsewhere)
+    want_every_step(lab, VELOCITY_VERLET, **drawn)
 
 
 def velocity_verlet_keeps_the_spring_swinging(lab: Lab) -> None:
@@ -214,11 +197,9 @@ def velocity_verlet_keeps_the_spring_swinging(lab: Lab) -> None:
 
 
 @asked_everywhere
-def rk4_weighs_four_samples(
-    lab: Lab, starts: Starts, force: Polynomial, other: Polynomial, elsewhere: float
-) -> None:
+def rk4_weighs_four_samples(lab: Lab, **drawn: Any) -> None:
     """A step weighs four samples of velocity and acceleration"""
-    want_every_step(lab, RK4, starts, force, other, elsewhere)
+    want_every_step(lab, RK4, **drawn)
 
 
 def rk4_keeps_the_spring_swinging(lab: Lab) -> None:
