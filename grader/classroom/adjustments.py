@@ -11,7 +11,6 @@ import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from datetime import date, datetime, timedelta, tzinfo
-from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 from zoneinfo import ZoneInfo
@@ -19,7 +18,7 @@ from zoneinfo import ZoneInfo
 import msgspec
 from msgspec import Meta, Struct, structs
 
-from grader.classroom.comments import Comment, place_all
+from grader.classroom.comments import Comment, place_comment
 from grader.errors import Stop
 from grader.intake.found import Work
 from grader.intake.names import fold
@@ -179,12 +178,14 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
 
         Raises Exceeded, Failed or Lost if searching its files reaches a limit.
         """
-        for name in (found.name, found.handed_in_by):
-            about = [each for each in self.comment if is_same_student(each.student, name)]
-            if about:
-                placing = partial(place_all, about, files)
-                return call_within(READING, list[Remark], placing) if files else placing()
-        return []
+        names = found.name, found.handed_in_by
+        lists = ([e for e in self.comment if is_same_student(e.student, name)] for name in names)
+        about = next(filter(None, lists), [])
+
+        def place() -> list[Remark]:
+            return [place_comment(each, files) for each in about]
+
+        return call_within(READING, list[Remark], place) if about and files else place()
 
     def find_unused(self, names: Iterable[str]) -> list[str]:
         """Return the students of decisions who are not among `names`."""
@@ -232,13 +233,20 @@ def write_time(when: datetime | None) -> str:
 
 def load_adjustments(path: Path | None, course: Course = FULL) -> Adjustments:
     """Read the file; without one, return the course's rules. Raises Stop for an invalid file."""
-    document: dict[str, Any] = {}
     try:
-        document = tomllib.loads(path.read_text(encoding="utf-8-sig")) if path else {}
-        convert_dates(document)
-        adjustments = msgspec.convert(add_rules(course, document), Adjustments)
+        text = path.read_text(encoding="utf-8-sig") if path else ""
     except OSError as error:
         raise Stop(f"there are no adjustments at {path}") from error
+    return read_adjustments(text, path, course)
+
+
+def read_adjustments(text: str, path: Path | None, course: Course) -> Adjustments:
+    """Read the text of the file at `path`. Raises Stop for an invalid one."""
+    document: dict[str, Any] = {}
+    try:
+        document = tomllib.loads(text)
+        convert_dates(document)
+        adjustments = msgspec.convert(add_rules(course, document), Adjustments)
     except msgspec.ValidationError as error:
         raise Stop(f"{path}: {name_value(str(error), document)}") from error
     except ValueError as error:  # no TOML, or no text

@@ -19,7 +19,7 @@ from typing import Any
 
 import msgspec
 from canvasapi import exceptions as refused
-from canvasapi.course import Course
+from canvasapi.course import Course as CanvasCourse
 from canvasapi.requester import Requester
 from canvasapi.upload import Uploader
 from msgspec import Struct
@@ -27,13 +27,13 @@ from rich.console import Console
 from rich.table import Column, Table
 
 from grader.classroom.dashboard import Entry, read_class, write_dashboard
-from grader.classroom.feedback import GradedClass, write_text
+from grader.classroom.feedback import write_text
 from grader.classroom.folder import FILE, ClassFolder, remember_class
 from grader.classroom.marks import Scores, make_marks, make_parts, mark_engine
-from grader.classroom.owners import find_owners
 from grader.errors import Stop
 from grader.intake.roster import list_name
 from grader.intake.systems import read_roster
+from grader.judge.course import Course
 from grader.report.files import write_whole
 from grader.text import printable
 
@@ -195,15 +195,15 @@ def list_deliveries(known: ClassFolder, others_known: bool, plan: Plan) -> list[
         )
     key, entries = roster.choose_key(known.settings.key), read_class(results)
     write_dashboard(results, entries, course)
-    graded = GradedClass(entries, results.resolve(), course)
     parts = make_parts(each.outcome for each in entries)
     scores = Scores(parts, mark_engine(known.marks, course), others_known=others_known)
-    made, owners = make_marks(roster, key, scores), find_owners(roster, key, parts, scores.absent)
+    made = make_marks(roster, key, scores)
     plan.notes += made.notes
     by_name = {each.outcome.name: each for each in entries}
     ids = Counter(row["ID"].strip() for row in roster.rows)
     deliveries = []
-    for row, mark, summary in made.rows:
+    for each in made.rows:
+        row, mark = each.row, each.mark
         user, full = row["ID"].strip(), list_name(row)
         name = f"{full} ({row[key]})" if full else row[key]
         if not mark:  # make_marks notes the reason
@@ -211,22 +211,22 @@ def list_deliveries(known: ClassFolder, others_known: bool, plan: Plan) -> list[
         elif not user or ids[user] > 1:
             plan.skip(name, f"the class list has ID {user!r} {ids[user]} times")
         else:
-            found = next((by_name[each] for each in owners.find_results(row)), None)
-            deliveries.append(make_delivery((name, user, mark), found, summary, graded))
+            found = next(map(by_name.get, made.owners.find_results(row)), None)
+            deliveries.append(make_delivery((name, user, mark), found, each.summary, course))
     return deliveries
 
 
 def make_delivery(
-    who: tuple[str, str, str], entry: Entry | None, summary: str, graded: GradedClass
+    who: tuple[str, str, str], entry: Entry | None, summary: str, course: Course
 ) -> Delivery:
     """Return a mark with its comment, and with the student's page if there is one."""
     if entry is None:
         return Delivery(*who, summary, hash_text(summary), None)
     # Students already have the findings of earlier runs from Canvas.
     outcome = msgspec.structs.replace(entry.outcome, before="", changed=[])
-    comment = write_text(outcome, None, graded.course).strip()
-    digest = hash_text(write_text(outcome, entry.show_result(graded.course), graded.course))
-    return Delivery(*who, comment, digest, graded.find_page(outcome.name))
+    comment = write_text(outcome, None, course).strip()
+    digest = hash_text(write_text(outcome, entry.show_result(course), course))
+    return Delivery(*who, comment, digest, entry.page)
 
 
 def hash_text(text: str) -> str:
@@ -263,7 +263,7 @@ def open_assignment(address: str, known: ClassFolder) -> Any:
     requester = Requester(match["base"], token)
     session = requester._session  # without a timeout of its own
     session.request = partial(session.request, timeout=PATIENCE)  # pyright: ignore
-    course = Course(requester, {"id": int(match["course"])})
+    course = CanvasCourse(requester, {"id": int(match["course"])})
     assignment = ask(lambda: course.get_assignment(int(match["assignment"])))
     total, worth = mark_engine(known.marks, known.course).total, assignment.points_possible
     if worth != total or assignment.grading_type in ("pass_fail", "not_graded"):

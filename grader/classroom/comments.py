@@ -4,12 +4,11 @@ A comment keeps the text of its line and of both neighbours. So it follows a lin
 that changes between the same neighbours.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from itertools import accumulate
 from pathlib import PurePosixPath
 from typing import Annotated
 
-import msgspec
 from msgspec import Meta, Struct
 
 from grader.report.html import Remark
@@ -20,7 +19,7 @@ LONGEST_LINE = 500  # letters of a line to compare, keep and show
 Words = Annotated[str, Meta(pattern=r"\S")]
 
 
-class Comment(Struct, frozen=True, forbid_unknown_fields=True):
+class Comment(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
     """A comment to a student, on a line of a file or on all of the work."""
 
     student: Words
@@ -47,10 +46,6 @@ def place_comment(comment: Comment, files: Mapping[str, bytes]) -> Remark:
     changed = comment.code and comment.code.strip() != lines[number - 1].strip()
     note = f"the line has changed; it was: {comment.code.strip()}" if changed else ""
     return Remark(comment.comment, name, number, shown, note)
-
-
-def place_all(comments: Iterable[Comment], files: Mapping[str, bytes]) -> list[Remark]:
-    return [place_comment(each, files) for each in comments]
 
 
 def find_file(name: str, files: Mapping[str, bytes]) -> str:
@@ -109,9 +104,3 @@ def describe_remark(remark: Remark) -> str:
     place = f"{remark.place}: " * bool(remark.place)
     note = f" ({remark.note})" if remark.note else ""
     return f"{place}{remark.comment}{note}"
-
-
-def encode_comment(comment: Comment) -> dict[str, object]:
-    """Return a comment as the file of decisions holds it, without empty values."""
-    values: dict[str, object] = msgspec.structs.asdict(comment)
-    return {name: value for name, value in values.items() if value}

@@ -7,10 +7,10 @@ with the students. Problems that grading handles are not mentioned.
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 
 from grader.classroom.adjustments import Adjustments, load_adjustments
+from grader.classroom.folder import ClassFolder
 from grader.classroom.marks import Marking, load_marking, read_total
 from grader.errors import Stop
 from grader.intake.found import CannotTake, Intake
@@ -19,45 +19,34 @@ from grader.intake.names import fold
 from grader.intake.packing import pack
 from grader.intake.roster import ClassList, Roster, list_full_names
 from grader.intake.systems import find_system, read_roster
-from grader.judge.course import FULL, Course, read_course
+from grader.judge.course import FULL, Course
 from grader.text import plural
 
 
-@dataclass(frozen=True)
-class Files:
-    """The files to check; None for a missing one."""
-
-    roster: Path | None = None
-    key: str = ""
-    adjust: Path | None = None
-    marking: Path | None = None
-    submissions: Path | None = None
-
-
-def find_problems(files: Files, path: Path | None = None) -> list[str]:
-    """Return all problems, a sentence each; `path` is the course, by default the kit's."""
+def find_problems(known: ClassFolder) -> list[str]:
+    """Return all problems of a class, a sentence each."""
     course, roster, people, adjustments = FULL, None, ClassList(), Adjustments()
     found: list[str] = []
     with collect_stop(found):
-        course = read_course(path)
+        course = known.course
     with collect_stop(found):
-        if files.roster is not None:
-            roster = read_roster(files.roster)
-            people = ClassList(roster, files.key)
-            found += check_roster(roster, roster.choose_key(files.key))
+        if known.roster is not None:
+            roster = read_roster(known.roster)
+            people = ClassList(roster, known.settings.key)
+            found += check_roster(roster, roster.choose_key(known.settings.key))
     with collect_stop(found):
-        marking = load_marking(files.marking, course)
+        marking = load_marking(known.marks, course)
         found += check_gradebook(roster, marking) if roster else ()
     with collect_stop(found):
-        adjustments = load_adjustments(files.adjust, course)
+        adjustments = load_adjustments(known.decisions, course)
         people.chosen = adjustments.choices
     names = people.names
     with collect_stop(found):
-        if files.submissions is not None:
-            with open_class(files.submissions, people) as intake:
+        if known.submissions.exists():
+            with open_class(known.submissions, people) as intake:
                 names = [*intake.names, *people.list_absent(intake.names)]
                 found += check_submissions(intake, people, adjustments, course)
-    return [*found, *check_names(adjustments, names, people, files.adjust)]
+    return [*found, *check_names(adjustments, names, people, known.decisions)]
 
 
 @contextmanager
@@ -110,7 +99,7 @@ def check_gradebook(roster: Roster, marking: Marking) -> Iterator[str]:
 
 
 def check_submissions(
-    intake: Intake, people: ClassList, adjustments: Adjustments, course: Course = FULL
+    intake: Intake, people: ClassList, adjustments: Adjustments, course: Course
 ) -> Iterator[str]:
     """Yield work that cannot be graded, and students whose time or name is unknown."""
     yield from (f"{name}: {words}" for name, words in sorted(intake.troubles.items()))

@@ -9,13 +9,12 @@ from functools import cached_property, partial
 from pathlib import Path
 from urllib.parse import quote
 
-import msgspec
 from markupsafe import Markup
 from msgspec import structs
 
 from grader.classroom.adjustments import write_time
 from grader.classroom.book import Book, Outcome
-from grader.classroom.marks import USUAL_TOTAL, compute_mark, make_parts, mark_by_course
+from grader.classroom.marks import USUAL_TOTAL, compute_mark, load_marking, make_parts
 from grader.classroom.similarity import read_pairs
 from grader.errors import Stop
 from grader.judge.course import FULL, Course
@@ -23,7 +22,7 @@ from grader.judge.result import Result, State, TodoResult
 from grader.judge.wall.outer import Allowance, call_each_within, call_within
 from grader.judge.wording import withhold_reasons
 from grader.player.page import clean_line, fill_template, load_templates
-from grader.report.files import write_whole
+from grader.report.files import read_result, write_whole
 from grader.report.html import TEMPLATES as REPORTS
 from grader.report.html import Standing, write_report
 
@@ -50,17 +49,20 @@ class Entry:
 
     outcome: Outcome
     brief: Result | None = None  # shown on the page of the class
-    path: Path | None = None  # of its result
+    folder: Path = Path()  # of the results
 
     @property
-    def result(self) -> Result | None:
+    def page(self) -> Path:
+        """Return the student's report, which `write_dashboard` writes for everybody."""
+        return self.folder / f"{self.outcome.name}.html"
+
+    def read_result(self) -> Result:
         """Read the whole result."""
-        return msgspec.json.decode(self.path.read_bytes(), type=Result) if self.path else None
+        return read_result(self.folder / f"{self.outcome.name}.json")
 
     def show_result(self, course: Course) -> Result | None:
         """Read the result as students may see it; None if there is none."""
-        result = self.result
-        return withhold_reasons(result, course) if result else None
+        return withhold_reasons(self.read_result(), course) if self.brief else None
 
     @property
     def share(self) -> float:
@@ -116,30 +118,27 @@ class Mistake:
 
 def read_class(results: Path) -> list[Entry]:
     """Return the class with its results."""
-    book = Book(results)
-    return [read_entry(book, outcome) for outcome in read_outcomes(results)]
+    return [read_entry(results.resolve(), outcome) for outcome in read_outcomes(results)]
 
 
 def read_outcomes(results: Path) -> list[Outcome]:
     """Return the lines of the class book; raise Stop if there are none."""
-    book = Book(results)
-    outcomes = list(book.outcomes.values())
+    outcomes = Book(results).outcomes.values()
     if not outcomes:
         raise Stop(f"there are no results in {results}: grade a class first, with --class")
     return sorted(outcomes, key=lambda each: each.order)
 
 
-def read_entry(book: Book, outcome: Outcome) -> Entry:
+def read_entry(folder: Path, outcome: Outcome) -> Entry:
     """Return an outcome with its result; one whose result cannot be read is in trouble."""
+    entry = Entry(outcome, folder=folder)
     if outcome.trouble:
-        return Entry(outcome)
-    entry = Entry(outcome, path=book.locate_result(outcome.name))
+        return entry
     try:
-        result = entry.result
-        return replace(entry, brief=shorten_result(result)) if result else entry
-    except (OSError, msgspec.MsgspecError) as error:
+        return replace(entry, brief=shorten_result(entry.read_result()))
+    except Stop as error:
         words = f"its result cannot be read: {error}"
-        return Entry(structs.replace(outcome, trouble=words))
+        return replace(entry, outcome=structs.replace(outcome, trouble=words))
 
 
 def shorten_result(result: Result) -> Result:
@@ -180,25 +179,24 @@ def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) 
     """Write the page beside the folder of results, and a report per student into it."""
     folder = Book(results).folder
     load_templates(REPORTS)
-    works = [partial(write_entry, folder, entry, course) for entry in entries]
+    works = [partial(write_entry, entry, course) for entry in entries]
     for entry, answer in zip(entries, call_each_within(WRITING, None, works), strict=True):
         if isinstance(answer, Exception):
             standing = make_standing(entry.outcome, course)
             standing.lines.append(("Page", str(answer)))
-            write_report(None, folder / f"{entry.outcome.name}.html", standing)
+            write_report(None, entry.page, standing)
     path = folder.with_name(f"{folder.name}.class.html")
     rendering = partial(render_class, folder, entries, course.title)
     write_whole(call_within(WRITING_CLASS, str, rendering).encode("utf-8"), path)
     return path
 
 
-def write_entry(folder: Path, entry: Entry, course: Course) -> None:
+def write_entry(entry: Entry, course: Course) -> None:
     """Write the report of one student."""
-    report, standing = folder / f"{entry.outcome.name}.html", make_standing(entry.outcome, course)
-    write_report(entry.show_result(course), report, standing)
+    write_report(entry.show_result(course), entry.page, make_standing(entry.outcome, course))
 
 
-def make_standing(outcome: Outcome, course: Course = FULL) -> Standing:
+def make_standing(outcome: Outcome, course: Course) -> Standing:
     """Return the mark, the dates and all decisions, for the head of a page."""
     lines = [
         ("Group", outcome.group_in_words.removeprefix("group ")),
@@ -227,7 +225,7 @@ def scale_mark(outcome: Outcome, course: Course) -> str:
     if outcome.mark is None or not outcome.max_points or total == outcome.max_points:
         return ""
     parts = make_parts([outcome])[outcome.name]
-    return f"{compute_mark(parts, mark_by_course(course))} of {total:g}"
+    return f"{compute_mark(parts, load_marking(None, course))} of {total:g}"
 
 
 def render_class(folder: Path, entries: list[Entry], title: str = FULL.title) -> str:

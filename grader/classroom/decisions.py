@@ -1,30 +1,28 @@
 """Change the file of decisions table by table, and keep a person's notes between them.
 
-A table is identified by its values. Before writing, the whole new text is read back: it must have
-the old decisions and the change.
+Before writing, the whole new text is read back: it must hold what it held, and the change.
 """
 
 import re
 import tomllib
-from collections.abc import Mapping
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
-from grader.classroom.adjustments import load_adjustments
+from grader.classroom.adjustments import read_adjustments
 from grader.errors import Stop
 from grader.judge.course import Course
-from grader.judge.wall.workplace import work_folder
 from grader.report.files import write_whole
 
 HEADER = re.compile(r"^[ \t]*\[\[?[ \t]*([\w-]+)[ \t]*\]\]?[ \t]*(#.*)?$")
 HEAD = (
     "# What people decide about this class. `grader class review` writes it, and you may edit it.\n"
 )
+ODD_FORM = "a form that only people can change: edit it by hand"
 Table = dict[str, Any]
+NO_TABLES: Table = {"adjust": [], "comment": []}  # the kinds of decisions
 
 
 @dataclass(frozen=True)
@@ -86,14 +84,10 @@ class DecisionsFile:
 
     def write(self, text: str, wanted: list[Decision]) -> None:
         """Write the file if it has the intended decisions and is valid in this course."""
-        found = find_decisions(text, self.path)
-        rest = [without_tables(each) for each in (text, self.text)]
-        if [e.key for e in found] != [e.key for e in wanted] or rest[0] != rest[1]:
-            raise Stop(f"{self.path} has a form that only people can change: edit it by hand")
-        with work_folder() as folder:
-            draft = folder / self.path.name
-            draft.write_text(text, encoding="utf-8")
-            load_adjustments(draft, self.course)
+        tables = {kind: [e.values for e in wanted if e.kind == kind] for kind in NO_TABLES}
+        if read_tables(text, self.path) != read_tables(self.text, self.path) | tables:
+            raise Stop(f"{self.path} has {ODD_FORM}")
+        read_adjustments(text, self.path, self.course)
         write_whole(text.encode("utf-8"), self.path)
 
 
@@ -102,9 +96,11 @@ def replace_lines(text: str, old: Decision, table: str) -> str:
     return "".join([*lines[: old.first], table, *lines[old.end :]])
 
 
-def without_tables(text: str) -> Mapping[str, Any]:
-    document = tomllib.loads(text)
-    return {name: value for name, value in document.items() if name not in ("adjust", "comment")}
+def read_tables(text: str, path: Path) -> Table:
+    try:
+        return NO_TABLES | tomllib.loads(text)
+    except ValueError as error:
+        raise Stop(f"{path}: {error}") from error
 
 
 def find_decisions(text: str, path: Path) -> list[Decision]:
@@ -112,33 +108,20 @@ def find_decisions(text: str, path: Path) -> list[Decision]:
 
     A table ends with its last value; notes and empty lines after it belong to the next table.
     """
-    try:
-        document = tomllib.loads(text)
-    except ValueError as error:
-        raise Stop(f"{path}: {error}") from error
+    document = read_tables(text, path)
+    left = {kind: iter(document[kind]) for kind in NO_TABLES}
     lines = text.splitlines(keepends=True)
     heads = [(n, head[1]) for n, line in enumerate(lines) if (head := HEADER.match(line))]
-    left = {kind: list(document.get(kind, [])) for kind in ("adjust", "comment")}
-    found = []
     ends = [*(first for first, _ in heads[1:]), len(lines)]
+    found = []
     for (first, kind), end in zip(heads, ends, strict=False):
-        if left.get(kind):
-            while lines[end - 1].strip() == "" or lines[end - 1].lstrip().startswith("#"):
+        if kind in left:
+            while not lines[end - 1].partition("#")[0].strip():
                 end -= 1
-            values = left[kind].pop(0)
-            if not is_table("".join(lines[first:end]), kind, values):
-                break
-            found.append(Decision(kind, values, first, end))
-    if len(found) != sum(len(document.get(kind, [])) for kind in left):
-        raise Stop(f"{path} has a form that only people can change: edit it by hand")
+            found.append(Decision(kind, next(left[kind], {}), first, end))
+    if len(found) != sum(len(document[kind]) for kind in left):
+        raise Stop(f"{path} has {ODD_FORM}")
     return found
-
-
-def is_table(lines: str, kind: str, values: Table) -> bool:
-    """Return whether these lines hold exactly a table of these values."""
-    with suppress(ValueError):  # a line of a longer text may look like a table
-        return tomllib.loads(lines) == {kind: [values]}
-    return False
 
 
 def write_table(kind: str, values: Table) -> str:

@@ -18,7 +18,7 @@ from grader.intake.found import Intake, Work
 from grader.intake.lms import PAGE, Lms, Page
 from grader.intake.names import make_portable
 from grader.intake.roster import ClassList, Roster
-from grader.judge.course import FULL, Course
+from grader.judge.course import Course
 from grader.judge.result import Result
 from grader.judge.wording import format_reasons
 from grader.report.files import put_in
@@ -37,17 +37,6 @@ class Feedback:
     notes: list[str] = field(default_factory=list)
 
 
-@dataclass(frozen=True)
-class GradedClass:
-    entries: list[Entry]
-    pages: Path  # the folder of all pages
-    course: Course = FULL
-
-    def find_page(self, name: str) -> Path | None:
-        page = self.pages / f"{name}.html"
-        return page if page.is_file() else None
-
-
 def zip_files(files: dict[str, bytes]) -> bytes:
     """Return a zip, the same for the same files."""
     out = io.BytesIO()
@@ -58,20 +47,20 @@ def zip_files(files: dict[str, bytes]) -> bytes:
 
 
 def answer_export(
-    lms: Lms, intake: Intake, graded: GradedClass, people: ClassList | None = None
+    lms: Lms, intake: Intake, graded: list[Entry], people: ClassList, course: Course
 ) -> Feedback:
-    """Return the pages under the LMS's names of the submissions."""
-    made, people = Feedback(), people or ClassList()
-    answer_absent(lms, intake, graded, people, made)
-    entries = {each.outcome.name: each for each in graded.entries}
+    """Return the pages under the LMS's names of the submissions, all of which are graded."""
+    made, entries = Feedback(), {each.outcome.name: each for each in graded}
+    for name in sorted(entries.keys() - {each.name for each in intake.found}):
+        participant = people.participants.get(name, "")
+        if file := lms.name_page(participant, PAGE) if participant else "":
+            made.files[file] = entries[name].page.read_bytes()
+        else:
+            why = intake.troubles.get(name, "no file of theirs came that a page could answer")
+            made.notes.append(f"{name}: skipped, {why}")
     works: dict[tuple[Path, ...], list[Page]] = {}
     for found in sorted(intake.found, key=lambda each: each.handed_in_by != ""):
-        entry, path = entries.get(found.name), graded.find_page(found.name)
-        if entry is None or path is None:
-            made.notes.append(f"{found.name}: skipped, there is no page: grade the class again")
-            continue
-        text = write_text(entry.outcome, entry.show_result(graded.course), graded.course)
-        page = make_page(found, path.read_bytes(), text, people)
+        page = make_page(found, entries[found.name], people, course)
         works.setdefault(found.sources, []).append(page)
     for sources, pages in works.items():
         files = dict(lms.name_pages(sources[0], pages))
@@ -83,24 +72,10 @@ def answer_export(
     return made
 
 
-def answer_absent(
-    lms: Lms, intake: Intake, graded: GradedClass, people: ClassList, made: Feedback
-) -> None:
-    """Add the pages of students without a file, if the LMS takes such pages."""
-    names = {each.outcome.name for each in graded.entries} - {each.name for each in intake.found}
-    for name in sorted(names.union(intake.troubles)):
-        page = graded.find_page(name)
-        participant = people.participants.get(name, "")
-        file = lms.name_page(participant, PAGE) if participant else ""
-        if file and page:
-            made.files[file] = page.read_bytes()
-        elif name in intake.troubles or page:
-            why = intake.troubles.get(name, "no file of theirs came that a page could answer")
-            made.notes.append(f"{name}: skipped, {why}")
-
-
-def make_page(found: Work, content: bytes, text: str, people: ClassList) -> Page:
+def make_page(found: Work, entry: Entry, people: ClassList, course: Course) -> Page:
     """Return the page for one student; other group members get it beside the first one's."""
+    content = entry.page.read_bytes()
+    text = write_text(entry.outcome, entry.show_result(course), course)
     if not found.handed_in_by:
         return Page(found.name, PAGE, content, text)
     file = f"feedback-{make_portable(found.name)}.html"
@@ -135,31 +110,27 @@ def find_address_column(roster: Roster) -> str:
     return column
 
 
-def address_pages(roster: Roster, key: str, graded: GradedClass) -> Feedback:
+def address_pages(roster: Roster, key: str, graded: list[Entry]) -> Feedback:
     """Return the pages by addresses, for mailing, and a list; each member of a group gets one."""
     column = find_address_column(roster)
-    made = Feedback()
-    outcomes = [each.outcome for each in graded.entries]
-    absent = [each.name for each in outcomes if each.trouble == NOTHING]
-    owners = find_owners(roster, key, [each.name for each in outcomes], absent)
+    made, entries = Feedback(), {each.outcome.name: each for each in graded}
+    absent = [name for name, each in entries.items() if each.outcome.trouble == NOTHING]
+    owners = find_owners(roster, key, entries, absent)
     table = [["address", "name", "file"]]
     for row in roster.rows:
         address, names = row[column].strip(), owners.find_results(row)
         if len(names) != 1 or not address:
             why = f"{' and '.join(names)} could be theirs" if names else "no page is theirs"
             made.notes.append(f"{row[key] or address}: skipped, {why}")
-        elif page := graded.find_page(names[0]):
+        else:
             file = f"{make_portable(address)}.html"
-            made.files[file] = page.read_bytes()
+            made.files[file] = entries[names[0]].page.read_bytes()
             table.append([address, names[0], file])
     made.files["addresses.csv"] = format_csv(table).encode("utf-8")
     return made
 
 
-def place_for_nbgrader(graded: GradedClass) -> Feedback:
+def place_for_nbgrader(graded: list[Entry]) -> Feedback:
     """Return the pages beside nbgrader's own feedback, also of students without a notebook."""
-    made = Feedback()
-    for name in (each.outcome.name for each in graded.entries):
-        if page := graded.find_page(name):
-            made.files[f"{name}/{ASSIGNMENT}/engine-{PAGE}"] = page.read_bytes()
-    return made
+    place = f"{ASSIGNMENT}/engine-{PAGE}"
+    return Feedback({f"{each.outcome.name}/{place}": each.page.read_bytes() for each in graded})

@@ -43,7 +43,7 @@ class ClassOptions:
 def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
     """Grade the class at `path`, show it, and print the folder of results."""
     path = path.resolve()
-    people = wanted.people or read_class_list(path, None)
+    people = wanted.people or read_class_list(path)
     course = wanted.options.course
     adjustments = load_adjustments(wanted.adjust or find_file(path, "adjustments.toml"), course)
     book = Book(wanted.out or path.with_name(f"{path.stem}-results"))
@@ -72,7 +72,7 @@ def write_similar(run: Run, earlier: Sequence[Path]) -> None:
         found, prints = {each.name: each for each in run.intake.found}, list(run.prints)
         here = {each.name for each in prints}
         for folder in earlier:
-            others, more = read_prints(stack, folder, read_class_list(folder, None))
+            others, more = read_prints(stack, folder, read_class_list(folder))
             found |= others
             prints += more
         try:

@@ -6,7 +6,6 @@ A draft that a person edited is never replaced or removed.
 
 import hashlib
 from collections.abc import Iterator
-from dataclasses import dataclass
 from email import message_from_bytes
 from email.message import EmailMessage
 from email.policy import SMTP
@@ -44,16 +43,6 @@ ASKS = {  # the request by a part of the reason; the first match counts
 OTHERWISE = "Your work could not be graded: {reason}. Please send it again in a zip."
 
 
-@dataclass(frozen=True)
-class Letter:
-    """A mail to one student."""
-
-    student: str  # the name of the result
-    name: str  # the full name; empty if unknown
-    address: str
-    body: str
-
-
 def write_body(name: str, reason: str, title: str) -> str:
     """Return the request to a student whose work could not be graded."""
     ask = next((words for sign, words in ASKS.items() if sign in reason), OTHERWISE)
@@ -73,11 +62,14 @@ def find_decided(outcomes: list[Outcome], adjustments: Adjustments) -> Iterator[
             yield each
 
 
-def list_letters(
-    roster: Roster, key: str, outcomes: list[Outcome], title: str, notes: list[str]
-) -> Iterator[Letter]:
-    """Yield a mail for each student who needs one; note students without an address."""
-    column = find_address_column(roster)
+def write_mail(roster: Roster, key: str, outcomes: list[Outcome], title: str) -> Feedback:
+    """Return a draft for each student who needs one, and `mail.csv`, by the names of the files.
+
+    Students without an address get a note.
+    """
+    made, column = Feedback(), find_address_column(roster)
+    subject = clean(f"{title}: please send your work again")
+    table = [["address", "name", "subject", "text"]]
     absent = [each.name for each in outcomes if each.trouble == NOTHING]
     owners = find_owners(roster, key, [each.name for each in outcomes], absent)
     for each in outcomes:
@@ -86,36 +78,27 @@ def list_letters(
         rows = [row for row in roster.rows if each.name in owners.find_results(row)]
         addressed = [row for row in rows if "@" in row[column]]
         if not addressed:
-            notes.append(f"{each.label}: no mail, the class list has no address for that name")
+            made.notes.append(f"{each.label}: no mail, the class list has no address for that name")
         for row in addressed:
-            name = clean(next(list_full_names(row), ""))
+            name, address = clean(next(list_full_names(row), "")), " ".join(row[column].split())
             body = write_body(name, each.trouble, title)
-            yield Letter(each.name, name, " ".join(row[column].split()), body)
-
-
-def write_mail(roster: Roster, key: str, outcomes: list[Outcome], title: str) -> Feedback:
-    """Return the drafts and `mail.csv`, by the names of their files."""
-    made = Feedback()
-    subject = clean(f"{title}: please send your work again")
-    table = [["address", "name", "subject", "text"]]
-    for each in list_letters(roster, key, outcomes, title, made.notes):
-        file = f"{DRAFTS}/{make_portable(each.address)}.eml"
-        try:
-            made.files[file] = make_draft(each, subject)
-        except ValueError as error:  # a line break or another sign that is invalid in addresses
-            raise Stop(f"{roster.path} has {each.address!r}, which is no address") from error
-        table.append([each.address, each.name, subject, each.body])
+            try:
+                draft = make_draft(address, subject, body)
+            except ValueError as error:  # a line break or another sign that is invalid in addresses
+                raise Stop(f"{roster.path} has {address!r}, which is no address") from error
+            made.files[f"{DRAFTS}/{make_portable(address)}.eml"] = draft
+            table.append([address, name, subject, body])
     made.files["mail.csv"] = format_csv(table).encode("utf-8-sig")
     return made
 
 
-def make_draft(letter: Letter, subject: str) -> bytes:
+def make_draft(address: str, subject: str, body: str) -> bytes:
     """Return a mail without a sender or date, which mail programs open as a draft."""
     message = EmailMessage(policy=SMTP)
-    message["To"] = letter.address
+    message["To"] = address
     message["Subject"] = subject
     message["X-Unsent"] = "1"
-    message.set_content(letter.body)
+    message.set_content(body)
     message[DIGEST] = digest(message.as_bytes())
     return message.as_bytes()
 

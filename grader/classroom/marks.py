@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from decimal import ROUND_HALF_UP, Decimal
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import msgspec
 from msgspec import Meta, Struct
@@ -56,9 +56,9 @@ def load_marking(path: Path | None, course: Course = FULL) -> Marking:
 
     Without a file the engine is the only part. Raises Stop if the file is missing or invalid.
     """
-    usual = {"title": course.title, "total": course.out_of or USUAL_TOTAL}
+    usual: dict[str, Any] = {"title": course.title, "total": course.out_of or USUAL_TOTAL}
     if path is None:
-        return mark_by_course(course)
+        return Marking(shares={ENGINE: 1}, **usual)
     try:
         document = tomllib.loads(path.read_text(encoding="utf-8"))
         marking = msgspec.convert(usual | document, Marking)
@@ -110,15 +110,11 @@ def make_parts(outcomes: Iterable[Outcome]) -> dict[str, Parts]:
     return made
 
 
-def mark_by_course(course: Course) -> Marking:
-    """Return the settings without a marks.toml: only the engine, with the course's maximum."""
-    return Marking(course.title, {ENGINE: 1}, course.out_of or USUAL_TOTAL)
-
-
 @dataclass
 class Marks:
     """A file for the learning system, and notes on it."""
 
+    owners: Owners
     text: str = ""
     encoding: str = "utf-8"
     rows: list[MarkRow] = field(default_factory=list)
@@ -178,11 +174,11 @@ def make_marks(roster: Roster, key: str, scores: Scores) -> Marks:
     stay empty, so that no student gets another's mark or a wrong zero. While some work has no
     owner, rows without work stay empty too, unless `others_known`.
     """
-    made, marking = Marks(), scores.marking
+    marking = scores.marking
     owners = find_owners(roster, key, scores.parts, scores.absent)
+    made = Marks(owners)
     for row in roster.rows:
-        mark, summary = mark_row(row, row[key], owners, scores, made)
-        made.rows.append(MarkRow(row, mark, summary))
+        made.rows.append(mark_row(row, row[key], scores, made))
     for student in sorted(owners.strangers):
         made.notes.append(f"{student}: handed in, but is not in the class list under {key!r}")
     if made.unowned:
@@ -193,7 +189,7 @@ def make_marks(roster: Roster, key: str, scores: Scores) -> Marks:
     lms = find_system(roster)
     if scores.of_sheets:
         lms = lms.for_other_assignments()
-    if above := [row[key] for row, mark, _ in made.rows if is_above(mark, marking.total)]:
+    if above := [each.row[key] for each in made.rows if is_above(each.mark, marking.total)]:
         made.notes.append(lms.warn_above(", ".join(above), marking.total))
     worth = read_total(roster, marking.title, lms)
     if worth is not None and worth != marking.total:
@@ -205,16 +201,15 @@ def make_marks(roster: Roster, key: str, scores: Scores) -> Marks:
     return made
 
 
-def mark_row(
-    row: Row, student: str, owners: Owners, scores: Scores, made: Marks
-) -> tuple[str, str]:
-    """Return a student's mark and its summary, and add notes to `made`."""
+def mark_row(row: Row, student: str, scores: Scores, made: Marks) -> MarkRow:
+    """Return a student's values, and add notes to `made`."""
+    owners = made.owners
     results = owners.find_results(row)
     if row in owners.doubtful or len(results) > 1:
         names = results or [name for name, rows in owners.doubts.items() if row in rows]
         words = f"no mark, {' and '.join(names)} could be theirs: see by hand"
         made.notes.append(f"{student}: {words}")
-        return "", ""
+        return MarkRow(row)
     if results:
         parts, marking = scores.parts[results[0]], scores.marking
         waiting = [name for name in marking.shares if name in parts and parts[name].waiting]
@@ -224,12 +219,12 @@ def mark_row(
         if mates := owners.mates.get(id(row)):
             made.notes.append(f"{student}: the mark of {' and '.join(mates)}, of the same group")
         mark = "" if waiting and not scores.so_far else compute_mark(parts, marking)
-        return mark, summarize(parts, marking)
+        return MarkRow(row, mark, summarize(parts, marking))
     if owners.strangers and not scores.others_known:
         made.unowned.append(student)
-        return "", ""
+        return MarkRow(row)
     made.notes.append(f"{student}: {scores.missing}")
-    return str(scores.marking.absent), scores.missing
+    return MarkRow(row, str(scores.marking.absent), scores.missing)
 
 
 def summarize(parts: Parts, marking: Marking) -> str:

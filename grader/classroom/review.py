@@ -17,7 +17,6 @@ import msgspec
 from grader.classroom.book import Outcome
 from grader.classroom.comments import (
     Comment,
-    encode_comment,
     place_comment,
     split_lines,
     write_comment,
@@ -262,7 +261,7 @@ def decide_comment(review: Review, name: str, form: Form) -> None:
         if file not in files or not 0 < line <= len(split_lines(files[file])):
             raise Stop(f"{file} has no line {line}")
         comment = write_comment(name, words, file, line, files[file])
-    review.file.put("comment", encode_comment(comment))
+    review.file.put("comment", msgspec.to_builtins(comment))
 
 
 ACTS: dict[str, Callable[[Review, str, Form], None]] = {

@@ -23,7 +23,8 @@ from grader.judge.wall.starting import count_cores
 from grader.text import join_words, plural
 
 if TYPE_CHECKING:
-    from grader.classroom.feedback import Feedback, GradedClass
+    from grader.classroom.dashboard import Entry
+    from grader.classroom.feedback import Feedback
     from grader.classroom.folder import ClassFolder
     from grader.classroom.grading import ClassOptions
     from grader.classroom.marks import Scores
@@ -59,7 +60,7 @@ def new_command(
 ) -> None:
     """Make a class, or change its settings. Exit status 1: there are problems."""
     require_folder_target(folder, "the class")
-    from grader.classroom.course_check import Files, find_problems
+    from grader.classroom.course_check import find_problems
     from grader.classroom.folder import FILE, remember_class, shorten_path
 
     paths = {"roster": roster, "submissions": submissions, "course": course}
@@ -74,9 +75,7 @@ def new_command(
     if earlier:
         named["earlier"] = [shorten_path(path, folder) for path in earlier]
     made = remember_class(folder, named, other_course)
-    there = made.submissions if made.submissions.exists() else None
-    files = Files(made.roster, made.settings.key, made.decisions, made.marks, there)
-    problems = list(find_problems(files, made.course_path))
+    problems = find_problems(made)
     print_notes(describe_class(made))
     print_notes(problems or ["No problems found."])
     print_note(f"The class is in {folder / FILE}. Next: grader class grade {folder}")
@@ -292,7 +291,7 @@ def feedback_command(
     known = open_folder(folder)
     results = known.find_results()
     from grader.classroom.dashboard import read_class, write_dashboard
-    from grader.classroom.feedback import GradedClass, zip_files
+    from grader.classroom.feedback import zip_files
     from grader.intake.learning_systems import BY_NAME
     from grader.report.files import write_whole
 
@@ -304,7 +303,7 @@ def feedback_command(
         raise Stop(f"--for {recipient}: it is not one of {every}")
     entries = read_class(results)
     write_dashboard(results, entries, known.course)
-    made = make_feedback(known, recipient, GradedClass(entries, results.resolve(), known.course))
+    made = make_feedback(known, recipient, entries)
     target = folder / "feedback"
     if recipient in systems:
         target = folder / "feedback.zip"
@@ -316,7 +315,7 @@ def feedback_command(
     raise typer.Exit(1 if made.notes else 0)
 
 
-def make_feedback(known: "ClassFolder", recipient: str, graded: "GradedClass") -> "Feedback":
+def make_feedback(known: "ClassFolder", recipient: str, graded: "list[Entry]") -> "Feedback":
     """Make each student's page for a learning system, for mail or for nbgrader."""
     from grader.classroom import feedback
     from grader.intake.learning_systems import BY_NAME
@@ -330,13 +329,12 @@ def make_feedback(known: "ClassFolder", recipient: str, graded: "GradedClass") -
         return feedback.address_pages(roster, roster.choose_key(known.settings.key), graded)
     people, submissions = known.list_people(), known.find_submissions()
     with open_class(submissions, people) as intake:
-        graded_names = {entry.outcome.name for entry in graded.entries}
-        if others := sorted(set(intake.names) - graded_names):
+        if others := sorted(set(intake.names) - {each.outcome.name for each in graded}):
             raise Stop(
                 f"{known.results} has no result of {join_words(others)} in {submissions}: name the "
                 "class as it was graded, or grade it again"
             )
-        return feedback.answer_export(BY_NAME[recipient], intake, graded, people)
+        return feedback.answer_export(BY_NAME[recipient], intake, graded, people, known.course)
 
 
 @class_app.command("questions")

@@ -5,7 +5,6 @@ others.
 """
 
 from collections.abc import Iterator
-from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
 
@@ -27,7 +26,7 @@ from grader.cli.shared import (
     require_folder_target,
 )
 from grader.errors import Stop
-from grader.judge.course import WrongCourse, read_course
+from grader.judge.course import Course, WrongCourse, read_course
 from grader.judge.task import KIT, Options, shipped_reference
 from grader.text import clean
 
@@ -190,25 +189,24 @@ def dashboard_command(results: ResultsFolder, course: CourseFile = None) -> None
 @app.command("course-check")
 def course_check_command(course: CourseFile = None) -> None:
     """Check the course file, and try its release. Exit status 1: there are problems."""
-    from grader.classroom.course_check import Files, find_problems
-
-    problems = list(find_problems(Files(), course)) or list(find_release_problems(course))
+    try:
+        problems = list(find_release_problems(read_course(course)))
+    except WrongCourse as error:
+        problems = [str(error)]
     print_notes(problems or ["No problems found."])
     raise typer.Exit(1 if problems else 0)
 
 
-def find_release_problems(path: Path | None) -> Iterator[str]:
-    """Yield the reasons to refuse a release of a valid course."""
+def find_release_problems(course: Course) -> Iterator[str]:
+    """Yield the reasons to refuse a release of a course."""
     if list_missing():
         return
     from grader.release.build import prove_cut
     from grader.release.leaks import find_given_answers
 
-    with suppress(WrongCourse):
-        course = read_course(path)
-        yield from find_given_answers(KIT, course)
-        try:
-            with console.status("trying the students' copy (ten seconds or so)"):
-                prove_cut(course)
-        except Stop as error:
-            yield f"this course cannot be released: {error}"
+    yield from find_given_answers(KIT, course)
+    try:
+        with console.status("trying the students' copy (ten seconds or so)"):
+            prove_cut(course)
+    except Stop as error:
+        yield f"this course cannot be released: {error}"

@@ -4,7 +4,6 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 from grader.intake.found import Intake, Upload, Work
 from grader.intake.roster import PLAIN_COLUMNS, ClassList, Roster, Row
@@ -13,10 +12,13 @@ PAGE = "feedback.html"
 TOTAL = re.compile(r"(?:Total Pts: |MaxPoints:)([\d.,]+)")  # of Blackboard and Brightspace
 
 
-class MarkRow(NamedTuple):
+@dataclass(frozen=True)
+class MarkRow:
+    """The values of one student for a gradebook."""
+
     row: Row
-    mark: str
-    summary: str
+    mark: str = ""
+    summary: str = ""
 
 
 @dataclass(frozen=True)
@@ -111,7 +113,7 @@ class Lms:
         """Return the file of marks that the system takes, as rows of cells."""
         own = [name for name in roster.columns if name in PLAIN_COLUMNS or name == marks.key]
         table = [[*(roster.titles.get(name, name) for name in own), "Grade", "Feedback"]]
-        return [*table, *([*pick(row, own), mark, words] for row, mark, words in marks.rows)]
+        return [*table, *([*pick(e.row, own), e.mark, e.summary] for e in marks.rows)]
 
     def for_other_assignments(self) -> "Lms":
         """Return the system to use for another assignment than the class list's own."""

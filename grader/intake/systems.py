@@ -79,9 +79,9 @@ def decode(content: bytes, path: Path) -> tuple[str, str, str]:
     return text, "utf-8", doubt
 
 
-def read_class_list(folder: Path, roster: Path | None) -> ClassList:
-    """Return the class list of a folder: `roster`, or its roster.csv; empty without one."""
-    roster = roster or find_file(folder, "roster.csv")
+def read_class_list(folder: Path) -> ClassList:
+    """Return the class list of a folder, its roster.csv; empty without one."""
+    roster = find_file(folder, "roster.csv")
     return ClassList(read_roster(roster) if roster else None)
 
 

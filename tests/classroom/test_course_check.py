@@ -7,7 +7,8 @@ import packed
 import pytest
 from command_line import run_grader
 
-from grader.classroom.course_check import Files, find_problems
+from grader.classroom.course_check import find_problems
+from grader.classroom.folder import ClassFolder, Settings
 from grader.cli import classroom
 
 GOOD = "Email address,Group\nann@x.edu,1\nben@x.edu,1\n"
@@ -22,16 +23,16 @@ def place(tmp_path: Path) -> Path:
 
 
 def list_problems(place: Path, **texts: str) -> list[str]:
-    names = {"roster": "list.csv", "adjust": "adjustments.toml", "marking": "marks.toml"}
-    files = {}
+    names = {"roster": "list.csv", "adjust": "decisions.toml", "marking": "marks.toml"}
     for name, text in {"roster": GOOD, **texts}.items():
         (place / names[name]).write_text(text, encoding="utf-8")
-        files[name] = place / names[name]
-    return list(find_problems(Files(submissions=place / "class", **files)))
+    return find_problems(ClassFolder(place, Settings(roster="list.csv", submissions="class")))
 
 
 def test_of_what_is_well_nothing_is_said(place, monkeypatch):
-    monkeypatch.setattr(classroom, "find_release_problems", lambda path: [])  # see test_courses.py
+    monkeypatch.setattr(
+        classroom, "find_release_problems", lambda course: []
+    )  # see test_courses.py
     assert list_problems(place, adjust="[[adjust]]\nstudent = 'ann'\nadd = 1\nreason = 'x'\n") == []
     done = run_grader("course-check")
     assert done.exit_code == 0 and "No problems found" in done.output

@@ -178,8 +178,8 @@ def test_a_page_that_cannot_be_made_says_so_and_the_others_are_made(
     book = run_class(tmp_path / "class", ClassOptions(ONLY_8A, jobs=1), QUIET).book
     write_entry = dashboard.write_entry
 
-    def write_or_loop(folder: Path, entry: dashboard.Entry, course: object) -> None:
-        write_entry(folder, entry, dashboard.FULL)
+    def write_or_loop(entry: dashboard.Entry, course: object) -> None:
+        write_entry(entry, dashboard.FULL)
         if entry.outcome.name == "ben":
             loop()
 

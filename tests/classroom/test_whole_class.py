@@ -23,7 +23,8 @@ from grader.classroom.book import compare_results
 from grader.classroom.grading import ClassOptions, run_class
 from grader.intake import archives, repack
 from grader.intake.learning_systems import BY_NAME
-from grader.intake.systems import read_class_list
+from grader.intake.roster import ClassList
+from grader.intake.systems import read_roster
 from grader.judge.course import Course
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.task import Options
@@ -92,7 +93,7 @@ def exported(place: Path, system: str) -> tuple[Path, Path, list[Student]]:
 
 
 def with_list(folder: Path, roster: Path) -> ClassOptions:
-    return ClassOptions(Options(), people=read_class_list(folder, roster))
+    return ClassOptions(Options(), people=ClassList(read_roster(roster)))
 
 
 def test_people_are_listed_by_their_names_as_people_sort_and_all_of_them(tmp_path, in_one_process):
@@ -253,9 +254,9 @@ def check_gradebook(graded_class: Class) -> None:
     assert done.exit_code == 1, done.output
     content = settings.with_suffix(".csv").read_bytes()
     told = list(classes.read_marks(graded_class.system, content).values())
-    for student, (mark, _) in zip(graded_class.students, told, strict=True):
+    for student, cells in zip(graded_class.students, told, strict=True):
         wanted = graded_class.mark(student)
-        assert mark == ("" if wanted is None else str(wanted)), student.login
+        assert cells.mark == ("" if wanted is None else str(wanted)), student.login
         if wanted is None:
             assert f"{graded_class.name(student)}: no mark" in done.output
 

@@ -233,13 +233,7 @@ SYSTEMS: dict[str, Callable[[Path, list[Student]], str]] = {
     "brightspace": brightspace,
 }
 BY_EMAIL = {"moodle", "gradescope"}  # their class lists identify students by addresses
-READERS: dict[str, Callable[[bytes], Marks]] = {  # of the marks; other systems take plain columns
-    "canvas": lambda content: gradebooks.canvas(content, TITLE),
-    "moodle": gradebooks.moodle_worksheet,
-    "blackboard": lambda content: gradebooks.blackboard(content, TITLE),
-    "brightspace": lambda content: gradebooks.brightspace(content, TITLE),
-}
 
 
 def read_marks(system: str, content: bytes) -> Marks:
-    return READERS.get(system, gradebooks.plain)(content)
+    return gradebooks.READERS.get(system, gradebooks.plain)(content, TITLE)

@@ -3,8 +3,18 @@
 import csv
 import io
 import re
+from collections.abc import Callable
+from typing import NamedTuple
 
-Marks = dict[str, tuple[str, str]]  # by a student's identifier: the mark, the feedback
+
+class Cells(NamedTuple):
+    """What a gradebook has about one student."""
+
+    mark: str
+    feedback: str = ""
+
+
+Marks = dict[str, Cells]  # by a student's identifier
 
 
 def rows_of(content: bytes, delimiter: str = ",") -> list[dict[str, str]]:
@@ -22,16 +32,16 @@ def canvas(content: bytes, title: str) -> Marks:
     assert first[:2] == ["Student", "ID"] and "Section" in first
     (column,) = [name for name in first if re.fullmatch(rf"{re.escape(title)} \(\d+\)", name)]
     assert rows[0]["Student"].strip() == "Points Possible" and float(rows[0][column])
-    return {row["ID"]: (row[column], "") for row in rows[1:]}
+    return {row["ID"]: Cells(row[column]) for row in rows[1:]}
 
 
-def moodle_worksheet(content: bytes) -> Marks:
-    """Each row by its Identifier, with a Grade and Feedback comments."""
+def moodle(content: bytes, title: str) -> Marks:
+    """Read the worksheet: each row by its Identifier, with a Grade and Feedback comments."""
     rows = rows_of(content)
     assert all(re.fullmatch(r"Participant \d+", row["Identifier"]) for row in rows)
     for row in rows:
         assert row["Grade"] == "" or 0 <= float(row["Grade"]) <= float(row["Maximum Grade"])
-    return {row["Identifier"]: (row["Grade"], row["Feedback comments"]) for row in rows}
+    return {row["Identifier"]: Cells(row["Grade"], row["Feedback comments"]) for row in rows}
 
 
 def blackboard(content: bytes, title: str) -> Marks:
@@ -40,7 +50,7 @@ def blackboard(content: bytes, title: str) -> Marks:
     wanted = rf"{re.escape(title)} \[Total Pts: \d+ Score\] \|\d+"
     (column,) = [name for name in rows[0] if re.fullmatch(wanted, name)]
     assert list(rows[0])[:3] == ["Last Name", "First Name", "Username"]
-    return {row["Username"]: (row[column], "") for row in rows}
+    return {row["Username"]: Cells(row[column]) for row in rows}
 
 
 def brightspace(content: bytes, title: str) -> Marks:
@@ -49,10 +59,15 @@ def brightspace(content: bytes, title: str) -> Marks:
     assert list(rows[0])[-1] == "End-of-Line Indicator"
     assert all(row["End-of-Line Indicator"] == "#" for row in rows)
     assert {"OrgDefinedId", "Username"} & set(rows[0])
-    return {row["Username"]: (row[f"{title} Points Grade"], "") for row in rows}
+    return {row["Username"]: Cells(row[f"{title} Points Grade"]) for row in rows}
 
 
-def plain(content: bytes) -> Marks:
+def plain(content: bytes, title: str) -> Marks:
     """In the order of the class list, with a Grade and Feedback."""
     rows = rows_of(content)
-    return {str(number): (row["Grade"], row["Feedback"]) for number, row in enumerate(rows)}
+    return {str(number): Cells(row["Grade"], row["Feedback"]) for number, row in enumerate(rows)}
+
+
+READERS: dict[str, Callable[[bytes, str], Marks]] = {  # other systems take plain columns
+    each.__name__: each for each in (canvas, moodle, blackboard, brightspace)
+}

@@ -18,7 +18,8 @@ import pytest
 from packed import put
 
 from grader.classroom.book import list_broken
-from grader.classroom.course_check import Files, find_problems
+from grader.classroom.course_check import find_problems
+from grader.classroom.folder import ClassFolder, Settings
 from grader.classroom.marks import Marking, Marks, Part, Parts, Scores, make_marks
 from grader.errors import Stop
 from grader.intake.dates import read_moment
@@ -281,7 +282,7 @@ def test_a_worksheet_in_another_language_goes_back_in_it(tmp_path: Path, letters
 
 def test_windows_letters_are_asked_about(tmp_path: Path):
     classes.put(tmp_path / "list.csv", GERMAN.encode("cp1252"))
-    fault, *_ = find_problems(Files(roster=tmp_path / "list.csv"))
+    fault, *_ = find_problems(ClassFolder(tmp_path, Settings(roster="list.csv")))
     assert "is not UTF-8" in fault and "Vollständiger" in fault
 
 

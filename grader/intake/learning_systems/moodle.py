@@ -86,8 +86,8 @@ class Moodle(Lms):
     def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:
         """Return the unchanged worksheet with two columns filled in."""
         table = [[roster.titles.get(name, name) for name in roster.columns]]
-        for row, mark, summary in marks.rows:
-            cells = row | {"Grade": mark, "Feedback comments": summary}
+        for each in marks.rows:
+            cells = each.row | {"Grade": each.mark, "Feedback comments": each.summary}
             table.append([cells[name] for name in roster.columns])
         return table
 
