@@ -33,6 +33,7 @@ FEWEST = 3  # sections of a page that begins with a list of them
 SITE_ONLY = re.compile(r"\A---\n.*?^---\n", re.M | re.S)  # front matter of a page for the site
 EMPTY: Mapping[str, str] = {}
 HERE = Path(__file__).with_name("templates")
+READER = MarkdownIt("commonmark").enable("table")
 STYLE = (HERE / "handout.css").read_text(encoding="utf-8")
 
 
@@ -118,15 +119,14 @@ def sort_pages(texts: Mapping[str, str]) -> dict[str, str]:
 
 def make_page(name: str, texts: Mapping[str, str], scripts: Mapping[str, str] = EMPTY) -> str:
     """Make one page; links to missing handouts become plain words."""
-    reader = MarkdownIt("commonmark").enable("table")
-    tokens = reader.parse(typeset(texts[name].replace("- [ ] ", "- \N{BALLOT BOX} ")))
+    tokens = parse_page(texts[name])
     sections = []
     for token, after in zip(tokens, [*tokens[1:], None], strict=True):
         if token.type == "heading_open" and after is not None:
             token.attrSet("id", make_anchor(after.content))
             sections += [after.content] if token.tag == "h2" else []
         mend_links(token.children or [], texts)
-    body = reader.renderer.render(tokens, reader.options, {})
+    body = render_page(tokens)
     heading, end, rest = body.partition("</h1>\n")
     template = load_environment(HERE).get_template("handout.html")
     return template.render(
@@ -142,6 +142,15 @@ def make_page(name: str, texts: Mapping[str, str], scripts: Mapping[str, str] = 
         html_name=html_name,
         make_anchor=make_anchor,
     )
+
+
+def parse_page(text: str) -> list[Token]:
+    return READER.parse(typeset(text.replace("- [ ] ", "- \N{BALLOT BOX} ")))
+
+
+def render_page(tokens: list[Token]) -> str:
+    """Return the HTML of a parsed page."""
+    return str(READER.renderer.render(tokens, READER.options, {}))
 
 
 def find_title(text: str) -> str:

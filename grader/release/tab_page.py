@@ -16,7 +16,6 @@ from pathlib import Path
 
 import jinja2
 import markupsafe
-from markdown_it import MarkdownIt
 
 from grader.bank.store import hash_contents, hash_lines
 from grader.errors import Stop
@@ -34,7 +33,6 @@ from grader.release.build import (
     write_right_runs,
     write_zip,
 )
-from grader.release.formulas import typeset
 from grader.release.handed_out import make_students_tree
 from grader.release.handouts import find_sections, make_handouts
 from grader.release.leaks import Secret, find_leaks, find_secrets
@@ -43,6 +41,8 @@ from grader.release.pages import (
     find_figures,
     make_scrollable,
     mend_links,
+    parse_page,
+    render_page,
     write_files,
 )
 from grader.release.recordings import Record, Recordings
@@ -96,7 +96,7 @@ def make_tab(
     out: Path, course: Course = FULL, cffi: Path | None = None, record: Record | None = None
 ) -> list[Path]:
     """Build the page of a course into `out`, unless it is recorded; return folder and zip."""
-    fetch_parts(CACHE)
+    fetch_parts()
     if cffi is not None:
         check_cffi(cffi)
     record = record or Recordings(course)
@@ -124,7 +124,7 @@ def hash_sources(cffi: Path | None) -> str:
 def add_tab(out: Path, course: Course = FULL, cffi: Path | None = None) -> list[str]:
     """Build the page with a release; return lines on the result or the reason of a failure."""
     try:
-        fetch_parts(CACHE)
+        fetch_parts()
     except Stop as error:
         why = str(error).partition("\n")[0].rstrip(":")
         return [f"skipped the page for a browser: {why}"]
@@ -137,7 +137,6 @@ def build_tab(
     course: Course,
     record: Record,
     cffi: Path | None = None,
-    cache: Path = CACHE,
 ) -> Path:
     """Build the page below `work`; return the folder that holds it and its zip.
 
@@ -157,11 +156,11 @@ def build_tab(
     }
     sources = work / "sources"
     sources.mkdir()
-    write_lab(sources / "lab.zip", copy, files, cache, cffi)
+    write_lab(sources / "lab.zip", copy, files, cffi)
     secrets = find_secrets(KIT, course)
     look_for_own_leaks(sources, secrets)  # hashes of what the page has compiled
     write_sheet(site, copy, files, course, cffi is not None)
-    pyodide = cache / "node_modules" / "pyodide"
+    pyodide = CACHE / "node_modules" / "pyodide"
     (site / "pyodide").mkdir()
     for name in PYODIDE:
         shutil.copyfile(pyodide / name, site / "pyodide" / name)
@@ -173,7 +172,7 @@ def build_tab(
     for name in AS_THEY_ARE:
         shutil.copyfile(PARTS / "page" / name, site / name)
     write_index(site)
-    bundle_scripts(site, cache)
+    bundle_scripts(site)
     write_service_worker(site)
     look_for_own_leaks(site, secrets)
     write_zip(site, built / ZIP, site.name)
@@ -191,23 +190,23 @@ def look_for_own_leaks(folder: Path, secrets: list[Secret]) -> None:
 # ---------------------------------------------------------------- what is fetched
 
 
-def fetch_parts(cache: Path) -> None:
+def fetch_parts() -> None:
     """Fetch Pyodide, the editor and the wheels with npm and pip, unless they are cached."""
-    cache.mkdir(parents=True, exist_ok=True)
-    if not (cache / "node_modules").is_dir():
+    CACHE.mkdir(parents=True, exist_ok=True)
+    if not (CACHE / "node_modules").is_dir():
         for name in ("package.json", "package-lock.json"):
-            shutil.copyfile(PARTS / name, cache / name)
+            shutil.copyfile(PARTS / name, CACHE / name)
         patience = ["--fetch-timeout=30000", "--fetch-retries=1"]  # ms
-        run_tool(["npm", "ci", "--no-audit", "--no-fund", *patience], cache)
-    if list_missing_wheels(cache / "wheels"):
+        run_tool(["npm", "ci", "--no-audit", "--no-fund", *patience], CACHE)
+    if list_missing_wheels(CACHE / "wheels"):
         where = [word for each in PLATFORMS for word in ("--platform", each)]
         what = ["--require-hashes", "--requirement", str(PARTS / "wheels.txt")]
         kind = ["--no-deps", "--only-binary=:all:", "--python-version", PYTHON, *where]
         pip = [sys.executable, "-m", "pip", "download", "--quiet", "--retries", "1"]
         pip += ["--dest", "wheels"]
-        run_tool([*pip, *kind, *what], cache)
-    if missing := list_missing_wheels(cache / "wheels"):
-        raise Stop(f"{cache / 'wheels'} lacks {', '.join(missing)}: delete it and try again")
+        run_tool([*pip, *kind, *what], CACHE)
+    if missing := list_missing_wheels(CACHE / "wheels"):
+        raise Stop(f"{CACHE / 'wheels'} lacks {', '.join(missing)}: delete it and try again")
 
 
 def list_missing_wheels(folder: Path) -> list[str]:
@@ -247,13 +246,11 @@ def run_tool(command: list[str], folder: Path) -> None:
 # ---------------------------------------------------------------- what is written
 
 
-def write_lab(
-    target: Path, copy: Path, files: Mapping[str, bytes], cache: Path, cffi: Path | None
-) -> None:
+def write_lab(target: Path, copy: Path, files: Mapping[str, bytes], cffi: Path | None) -> None:
     """Write the page's Python: wheels, grader, stand-ins and the starter."""
     with zipfile.ZipFile(target, "w") as archive:
         wheels = [
-            each for each in find_wheels(cache / "wheels") if cffi or each.stem[:6] != "pymunk"
+            each for each in find_wheels(CACHE / "wheels") if cffi or each.stem[:6] != "pymunk"
         ]
         for path in [*wheels, *([cffi] if cffi else [])]:
             for name, content in read_archive(path).items():
@@ -368,11 +365,10 @@ def render(text: str) -> str:
     """Return a section of the lab sheet as HTML, with the page's buttons for commands."""
     for command, button in TYPED:
         text = command.sub(button, text)
-    reader = MarkdownIt("commonmark").enable("table")
-    tokens = reader.parse(typeset(text.replace("- [ ] ", "- \N{BALLOT BOX} ")))
+    tokens = parse_page(text)
     for token in tokens:
         mend_links(token.children or [], [LESSON])
-    html = make_scrollable(str(reader.renderer.render(tokens, reader.options, {})))
+    html = make_scrollable(render_page(tokens))
     return html.replace('<a href="lesson.html', '<a target="_blank" href="lesson.html')
 
 
@@ -384,14 +380,14 @@ def write_index(site: Path) -> None:
     (site / "index.html").write_text(text, encoding="utf-8", newline="\n")
 
 
-def bundle_scripts(site: Path, cache: Path) -> None:
+def bundle_scripts(site: Path) -> None:
     """Bundle the page's scripts and the editor into one file."""
-    sources = cache / "page"  # beside node_modules, where esbuild looks for the editor
+    sources = CACHE / "page"  # beside node_modules, where esbuild looks for the editor
     shutil.rmtree(sources, ignore_errors=True)
     shutil.copytree(PARTS / "page", sources)
-    esbuild = cache / "node_modules" / "esbuild" / "bin" / "esbuild"
+    esbuild = CACHE / "node_modules" / "esbuild" / "bin" / "esbuild"
     options = ["--bundle", "--minify", "--format=esm", "--log-level=warning"]
-    run_tool([str(esbuild), "page/app.js", *options, f"--outfile={site / 'app.js'}"], cache)
+    run_tool([str(esbuild), "page/app.js", *options, f"--outfile={site / 'app.js'}"], CACHE)
 
 
 def write_service_worker(site: Path) -> None:

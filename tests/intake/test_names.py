@@ -3,8 +3,6 @@
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from grader.intake.learning_systems import SYSTEMS
 from grader.intake.learning_systems.blackboard import WHO
@@ -42,12 +40,6 @@ PARTS = [
     ),
     *("_1", "_1_1_", "_assignsubmission_", "_assignsubmission_file_", "1-2 - ", "integrators"),
 ]
-NAMES = st.builds(
-    "{}{}{}".format,
-    st.sampled_from(["", *PARTS]),
-    st.builds(lambda parts, n: "".join(parts) * n, st.lists(st.sampled_from(PARTS)), st.just(99)),
-    st.sampled_from(["", "!", "\n", ".py", "!.py", "_1_2_a.py", ".zip"]),
-)
 
 
 def read_name(name: str) -> None:
@@ -69,19 +61,6 @@ def test_a_name_of_one_part_again_and_again_is_read(part: str):
     for end in ("", "!", "!.py", "_1_2_a.py"):
         read_name(part * MOST + end)
         read_name((part * MOST)[: MOST - len(end)] + end)
-
-
-@settings(max_examples=50, deadline=None)
-@given(NAMES)
-def test_a_name_of_any_parts_is_read(name: str):
-    read_name(name)
-
-
-@pytest.mark.soak
-@settings(max_examples=20_000, deadline=None)
-@given(st.one_of(NAMES, st.text(max_size=MOST)))
-def test_many_names_of_any_parts_are_read(name: str):
-    read_name(name)
 
 
 def test_a_receipt_is_read_whatever_stands_in_it():

@@ -101,7 +101,7 @@ def need_parts() -> None:
     """Skip a test without the page's parts; CI fetches them."""
     try:
         if os.environ.get("CI"):
-            fetch_parts(CACHE)
+            fetch_parts()
     except Stop as error:
         pytest.skip(f"needs npm, pip and their registries: {error}")
     if not (CACHE / "node_modules").is_dir() or list_missing_wheels(CACHE / "wheels"):
@@ -568,7 +568,7 @@ def test_the_same_page_is_built_once(tmp_path: Path, monkeypatch: pytest.MonkeyP
         (work / "built").mkdir()
         return (work / "made").rename(work / "built" / tab_page.ZIP).parent
 
-    monkeypatch.setattr(tab_page, "fetch_parts", lambda _: None)
+    monkeypatch.setattr(tab_page, "fetch_parts", lambda: None)
     monkeypatch.setattr(tab_page, "check_cffi", lambda _: None)
     monkeypatch.setattr(tab_page, "build_tab", build)
     (tmp_path / "cffi.whl").write_text("a wheel")
