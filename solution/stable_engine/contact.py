@@ -21,8 +21,9 @@ class Contact:
     """
 
     __slots__ = (
-        *("a", "b", "nx", "ny", "found", "gap", "reach", "jn", "jt", "mn", "mt", "mu", "e", "load"),
+        *("a", "b", "nx", "ny", "found", "gap", "reach", "jn", "jt", "mn", "mt", "mu", "e"),
         *("ax", "ay", "bx", "by", "tax", "tay", "aw", "tbx", "tby", "bw", "arm_a", "arm_b"),
+        "place",
     )
 
     def __init__(self, a: Body, b: Body) -> None:
@@ -33,8 +34,8 @@ class Contact:
         self.gap = 0.0  # px, the gap to solve for: for Bounce, separating bodies just touch
         self.reach = 0.0  # px
         self.jn = 0.0  # kg px/s, accumulated normal impulse, never negative
-        self.load = 0.0  # kg px/s, the lasting part of jn, see Contacts.prepare
         self.jt = 0.0  # kg px/s, accumulated friction impulse
+        self.place = 0.0, 0.0, 0.0  # in the order of solving, see give_places
         self.mn = 1 / (a.inv_mass + b.inv_mass)  # kg, effective mass along the normal
         self.mt = 0.0  # kg, effective mass along the tangent, filled in by Friction
         self.mu = 0.0  # friction of the pair, filled in by Friction

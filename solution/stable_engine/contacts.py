@@ -7,6 +7,7 @@ from .body import Body
 from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, the_way_it_came
 from .effect import Effect, WorldState
+from .order import Group, give_places, in_same_place, put_in_order
 from .soft import SAME_DIRECTION, Pace, softness
 from .sweep import NO_HIT, first_hit, moment_of_touch, stop_at_first_hit
 from .validate import refuse
@@ -30,17 +31,6 @@ REDETECT_DISTANCE = 1e-4  # contacts stay valid until a body moves further
 
 OnHit = Callable[[Body, Body, float], object]
 OnPart = Callable[[Body, Body], object]
-
-
-class Group:
-    """Contacts that are solved alike: ball against ball, or ball against static body."""
-
-    __slots__ = ("bias_rate", "contacts", "mass_scale", "moves_b")
-
-    def __init__(self, moves_b: bool) -> None:
-        self.moves_b = moves_b  # whether an impulse moves B
-        self.contacts: list[Contact] = []
-        self.bias_rate = self.mass_scale = 0.0  # see softness
 
 
 class Contacts(Effect):
@@ -77,6 +67,8 @@ class Contacts(Effect):
         self.beside_static: list[Body] = []  # balls that are near static bodies
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
         self.groups: list[Group] = []  # of these two, those with any contact
+        self.beginnings = 0.0  # in how many steps any contact has begun
+        self.is_mirrored = False  # whether contacts may have the same place in the order
         self.unpaired: dict[int, Contact] = {}  # of sleeping bodies, by their pair's number
         self.ignored: set[int] = set()  # numbers of pairs
         self.pace = Pace(STIFFENING)
@@ -263,11 +255,27 @@ class Contacts(Effect):
             return
         if self.crowd:
             self.gather_crowd()
+        self.find_order()
         for c in self.touching:
             a, b, nx, ny = c.a, c.b, c.nx, c.ny
             c.ax, c.ay = nx * a.inv_mass, ny * a.inv_mass
             c.bx, c.by = nx * b.inv_mass, ny * b.inv_mass
             c.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - c.gap
+
+    def find_order(self) -> None:
+        """Find the contacts that are solved in turn, and in what order, and those at once.
+
+        In a mirrored scene one that looks the same in the mirror; else any order will do.
+        """
+        if self.begun:
+            self.beginnings += 1
+            g, grain = self.world.g, self.touching_gap
+            if give_places(self.begun, g, grain, self.beginnings):
+                self.is_mirrored = True
+        for group in self.groups:
+            group.in_turn, group.ties = group.contacts, []
+        if self.is_mirrored:
+            self.is_mirrored = any([put_in_order(group) for group in self.groups])
 
     def keep_forces(self, h: float) -> None:
         """Scale the kept impulses to a substep of h seconds, so that the forces stay the same."""
@@ -291,54 +299,67 @@ class Contacts(Effect):
                     b.vy += c.by * jn
 
     def solve(self, h: float) -> None:
-        most = -self.max_push_speed
         for group in self.groups:
-            moves_b, bias_rate, mass_scale = group.moves_b, group.bias_rate, group.mass_scale
-            for c in group.contacts:
-                a, b = c.a, c.b
-                nx, ny, mn = c.nx, c.ny, c.mn
-                gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
-                speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
-                before = c.jn
-                if gap > 0:
-                    jn = before - mn * (speed + gap / h)
-                else:
-                    push = bias_rate * gap
-                    if push < most:
-                        push = most
-                    jn = mass_scale * (before - mn * speed) - mn * push
-                if jn < 0:
-                    jn = 0.0
-                c.jn = jn
-                jn -= before
-                a.vx -= c.ax * jn
-                a.vy -= c.ay * jn
-                if moves_b:
-                    b.vx += c.bx * jn
-                    b.vy += c.by * jn
+            self.push(group, group.in_turn, h)
+            for tie in group.ties:
+                tie.solve(self.push, group, h)
+
+    def push(self, group: Group, contacts: list[Contact], h: float) -> None:
+        """Push overlapping bodies apart, and stop those that would overlap after the move."""
+        most = -self.max_push_speed
+        least = self.touching_gap / 2  # px and px/s; at 0, rounding would decide
+        moves_b, bias_rate, mass_scale = group.moves_b, group.bias_rate, group.mass_scale
+        for c in contacts:
+            a, b = c.a, c.b
+            nx, ny, mn = c.nx, c.ny, c.mn
+            gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
+            speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
+            before = c.jn
+            if gap > least:
+                jn = before - mn * (speed + gap / h)
+            else:
+                push = bias_rate * gap
+                if push < most:
+                    push = most
+                jn = mass_scale * (before - mn * speed) - mn * push
+            if jn < mn * least:
+                jn = 0.0
+            c.jn = jn
+            jn -= before
+            a.vx -= c.ax * jn
+            a.vy -= c.ay * jn
+            if moves_b:
+                b.vx += c.bx * jn
+                b.vy += c.by * jn
 
     def relax(self, h: float) -> None:
         for group in self.groups:
-            moves_b = group.moves_b
-            for c in group.contacts:
-                a, b = c.a, c.b
-                nx, ny = c.nx, c.ny
-                speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
-                before = c.jn
-                if not before:
-                    gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
-                    if gap > 0:
-                        speed += gap / h
-                jn = before - c.mn * speed
-                if jn < 0:
-                    jn = 0.0
-                c.jn = jn
-                jn -= before
-                a.vx -= c.ax * jn
-                a.vy -= c.ay * jn
-                if moves_b:
-                    b.vx += c.bx * jn
-                    b.vy += c.by * jn
+            self.stop(group, group.in_turn, h)
+            for tie in group.ties:
+                tie.solve(self.stop, group, h)
+
+    def stop(self, group: Group, contacts: list[Contact], h: float) -> None:
+        """Stop bodies that still come together, and take back the speed of a push."""
+        moves_b = group.moves_b
+        for c in contacts:
+            a, b = c.a, c.b
+            nx, ny = c.nx, c.ny
+            speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
+            before = c.jn
+            if not before:
+                gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
+                if gap > 0:
+                    speed += gap / h
+            jn = before - c.mn * speed
+            if jn < 0:
+                jn = 0.0
+            c.jn = jn
+            jn -= before
+            a.vx -= c.ax * jn
+            a.vy -= c.ay * jn
+            if moves_b:
+                b.vx += c.bx * jn
+                b.vy += c.by * jn
 
     def finish(self, h: float) -> None:
         """Keep the core of a ball out of static bodies, however fast or hard pressed it is.
@@ -387,16 +408,16 @@ class Contacts(Effect):
         some speed, which is energy from nothing.
         """
         deepest = 0.0
-        for c in self.crowd:
-            a, b = c.a, c.b
-            nx, ny, gap = collide(a, b)
-            deepest = max(deepest, -gap)
-            way = c.mn * min(max(-PARTED * gap, 0.0), self.max_push_speed * dt)
-            a.x -= nx * way * a.inv_mass
-            a.y -= ny * way * a.inv_mass
-            b.x += nx * way * b.inv_mass
-            b.y += ny * way * b.inv_mass
-            a.still = b.still = 0.0
+        for same in in_same_place(list(self.crowd)):
+            for c, (nx, ny, gap) in [(c, collide(c.a, c.b)) for c in same]:
+                a, b = c.a, c.b
+                deepest = max(deepest, -gap)
+                way = c.mn * min(max(-PARTED * gap, 0.0), self.max_push_speed * dt)
+                a.x -= nx * way * a.inv_mass
+                a.y -= ny * way * a.inv_mass
+                b.x += nx * way * b.inv_mass
+                b.y += ny * way * b.inv_mass
+                a.still = b.still = 0.0
         if deepest < REDETECT_DISTANCE * self.world.unit:
             self.crowd = {}
 

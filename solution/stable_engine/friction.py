@@ -3,8 +3,9 @@
 from math import sqrt
 
 from .contact import Contact
-from .contacts import Contacts, Group
+from .contacts import Contacts
 from .effect import Effect, WorldState
+from .order import Group
 
 CALM = 1e-7  # share of the limit; smaller changes are skipped
 
@@ -44,6 +45,8 @@ class Friction(Effect):
         for whole in self.contacts.groups:
             group = Group(whole.moves_b)
             group.contacts = [c for c in whole.contacts if c.mu > 0]
+            group.in_turn = [c for c in whole.in_turn if c.mu > 0]
+            group.ties = whole.ties
             if group.contacts:
                 self.groups.append(group)
             for c in group.contacts:
@@ -77,34 +80,36 @@ class Friction(Effect):
 
     def solve(self, h: float) -> None:
         """Apply friction to contacts that press now; in relax alone, a pile would never rest."""
-        self.rub()
+        for group in self.groups:
+            self.rub(group, group.in_turn, h)
+            for tie in group.ties:
+                tie.solve(self.rub, group, h)
 
     def relax(self, h: float) -> None:
-        self.rub()
+        self.solve(h)
 
-    def rub(self) -> None:
+    def rub(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Slow the slip of each contact, as far as its normal impulse allows."""
-        for group in self.groups:
-            moves_b = group.moves_b
-            for c in group.contacts:
-                limit, before = c.mu * c.jn, c.jt
-                if limit or before:
-                    a, b = c.a, c.b
-                    rims = b.w * c.arm_b + a.w * c.arm_a
-                    jt = before - c.mt * ((b.vy - a.vy) * c.nx - (b.vx - a.vx) * c.ny - rims)
-                    if jt > limit:
-                        jt = limit
-                    elif jt < -limit:
-                        jt = -limit
-                    c.jt = jt
-                    jt -= before
-                    if abs(jt) <= CALM * limit:
-                        c.jt = before
-                        continue
-                    a.vx -= c.tax * jt
-                    a.vy -= c.tay * jt
-                    a.w -= c.aw * jt
-                    if moves_b:
-                        b.vx += c.tbx * jt
-                        b.vy += c.tby * jt
-                        b.w -= c.bw * jt
+        moves_b = group.moves_b
+        for c in contacts:
+            limit, before = c.mu * c.jn, c.jt
+            if limit or before:
+                a, b = c.a, c.b
+                rims = b.w * c.arm_b + a.w * c.arm_a
+                jt = before - c.mt * ((b.vy - a.vy) * c.nx - (b.vx - a.vx) * c.ny - rims)
+                if jt > limit:
+                    jt = limit
+                elif jt < -limit:
+                    jt = -limit
+                c.jt = jt
+                jt -= before
+                if abs(jt) <= CALM * limit:
+                    c.jt = before
+                    continue
+                a.vx -= c.tax * jt
+                a.vy -= c.tay * jt
+                a.w -= c.aw * jt
+                if moves_b:
+                    b.vx += c.tbx * jt
+                    b.vy += c.tby * jt
+                    b.w -= c.bw * jt

@@ -58,6 +58,7 @@ class Impacts:
         self.touching_gap = contacts.touching_gap
         self.slow = slow  # px/s, slower impacts are ignored
         self.due: dict[Contact, Impact] = {}
+        self.fastest = 0.0  # px/s, at the start
         self.frame_of: dict[Body, Frame] = {}
         self.pivots: dict[Body, Body] = {}  # of balls that swing on one rod
         if rods:
@@ -100,14 +101,29 @@ class Impacts:
             speed = c.closing_speed()
             return -c.gap / speed if 0 < -c.gap < speed * since else 0.0
         is_arc = c.a in self.pivots or c.b in self.pivots
-        ago, nx, ny = moment_of_touch(c.a, c.b, since * ARC if is_arc else since)
-        ago = min(ago, since)
+        ago, nx, ny = self.look_back(c, since)
+        if ago == 0:
+            ago, nx, ny = moment_of_touch(c.a, c.b, since * ARC if is_arc else since)
+            ago = min(ago, since)
         if c.b.is_static and nx * c.nx + ny * c.ny <= 0:
             return 0.0
         if ago > 0 and (nx, ny) != (c.nx, c.ny):
             c.nx, c.ny = nx, ny
             c.gap = -c.closing_speed() * ago
         return ago
+
+    def look_back(self, c: Contact, since: float) -> tuple[float, float, float]:
+        """Return since (s) and the normal of two round bodies if they just touched so long ago.
+
+        Else return 0 first. One of them was hit then, and rounding would decide whether they did.
+        """
+        a, b = c.a, c.b
+        vx, vy = b.vx - a.vx, b.vy - a.vy
+        x, y = b.x - a.x - vx * since, b.y - a.y - vy * since
+        distance = hypot(x, y)
+        if abs(distance - a.r - b.r) > self.touching_gap or x * vx + y * vy >= 0 or not b.r:
+            return 0.0, 0.0, 0.0
+        return since, x / distance, y / distance
 
     def swings(self, body: Body) -> bool:
         """Return whether a ball may not have flown straight: on a spring, or fast on a rod."""
@@ -118,6 +134,7 @@ class Impacts:
     def resolve_all(self, law: Law) -> None:
         """Resolve all impacts, and those that they cause, island by island."""
         self.link()
+        self.fastest = max([impact.speed for impact in self.due.values()])
         due, done = self.due, set[Contact]()
         for c, impact in due.items():
             if self.is_alone(c):
@@ -241,8 +258,9 @@ class Impacts:
             ((c, impact),) = due.items()
             return [c], impact.ago
         earliest = max([impact.ago for impact in due.values()])
-        early = [c for c, impact in due.items() if impact.ago >= earliest - SAME * self.last_dt]
-        hardest = max([due[c].speed for c in early]) * (1 - SAME)
+        near = self.touching_gap
+        early = [c for c, hit in due.items() if (earliest - hit.ago) * hit.speed <= near]
+        hardest = max([due[c].speed for c in early]) - SAME * self.fastest
         return [c for c in early if due[c].speed >= hardest], earliest
 
     def settle(self, body: Body, ago: float, reached: dict[Body, float]) -> None:

@@ -1,0 +1,122 @@
+"""The order in which contacts are solved: one that looks the same in a mirror."""
+
+from collections import Counter
+from collections.abc import Callable
+from itertools import groupby
+from math import hypot
+from operator import attrgetter
+
+from .body import Body
+from .contact import Contact
+
+PLACE = attrgetter("place")
+LEFT = 1e-9  # share of an impulse that is nothing but rounding
+
+
+class Group:
+    """Contacts that are solved alike: ball against ball, or ball against static body."""
+
+    __slots__ = ("bias_rate", "contacts", "in_turn", "mass_scale", "moves_b", "ties")
+
+    def __init__(self, moves_b: bool) -> None:
+        self.moves_b = moves_b  # whether an impulse moves B
+        self.contacts: list[Contact] = []
+        self.in_turn: list[Contact] = []  # those of them that are solved one after the other
+        self.ties: list[Tie] = []  # the others
+        self.bias_rate = self.mass_scale = 0.0  # see softness
+
+
+Stage = Callable[[Group, list[Contact], float], None]
+
+
+class Tie:
+    """Contacts that share balls and the same place in the order, as a mirror makes them.
+
+    They are solved at once. One after the other, the first one would have to do more than the last.
+    """
+
+    def __init__(self, contacts: list[Contact]) -> None:
+        self.contacts = contacts
+        self.balls = list(dict.fromkeys(balls_of(contacts)))
+        self.share = share_of_each(contacts)
+
+    def solve(self, stage: Stage, group: Group, h: float) -> None:
+        """Solve each contact as if it were alone, and add up a share of what that changes.
+
+        A contact that lets go does so wholly: what is left of an impulse would pull.
+        """
+        changes = []
+        before = [(ball, ball.vx, ball.vy, ball.w) for ball in self.balls]
+        for c in self.contacts:
+            jn, jt = c.jn, c.jt
+            stage(group, [c], h)
+            lets_go = c.jn < LEFT * jn or abs(c.jt) < LEFT * abs(jt)
+            share = 1.0 if lets_go else self.share
+            c.jn, c.jt = jn + share * (c.jn - jn), jt + share * (c.jt - jt)
+            for ball, vx, vy, w in before:
+                change = share * (ball.vx - vx), share * (ball.vy - vy), share * (ball.w - w)
+                changes.append((ball, change))
+                ball.vx, ball.vy, ball.w = vx, vy, w
+        for ball, (vx, vy, w) in changes:
+            ball.vx += vx
+            ball.vy += vy
+            ball.w += w
+
+
+def give_places(
+    contacts: list[Contact], g: tuple[float, float], grain: float, number: float
+) -> bool:
+    """Give new contacts their places: from below upwards, and from the middle of all outwards.
+
+    Without gravity, only the latter. A grain (px) is what rounding may make of equal places. The
+    number of this call comes last, so that only contacts that begin together have the same place.
+    Return whether any two have, as in a mirrored scene.
+    """
+    middle_x = middle_y = 0.0
+    for c in contacts:
+        a, b = c.a, c.b
+        x, y = a.x + a.r * c.nx, a.y + a.r * c.ny
+        if b.inv_mass:  # the same whichever is A
+            x, y = (a.x + b.x) / 2, (a.y + b.y) / 2
+        c.place = x, y, number
+        middle_x += x / len(contacts)
+        middle_y += y / len(contacts)
+    gx, gy = g
+    pull, coarse = hypot(gx, gy), grain * 2.0**52  # a float so large has no digits below a grain
+    for c in contacts:
+        x, y, _ = c.place
+        off_x, off_y = x - middle_x, y - middle_y
+        if pull:
+            up, off = -(x * gx + y * gy) / pull, abs(off_x * gy - off_y * gx) / pull
+        else:
+            up, off = 0.0, hypot(off_x, off_y)
+        c.place = (up + coarse) - coarse, (off + coarse) - coarse, number
+    return len(contacts) > 1 and len({c.place for c in contacts}) < len(contacts)
+
+
+def put_in_order(group: Group) -> bool:
+    """Put the contacts of a group in order. Return whether any two have the same place."""
+    group.in_turn = []
+    places = in_same_place(group.contacts)
+    for same in places:
+        if len(same) > 1 and share_of_each(same) < 1:
+            group.ties.append(Tie(same))
+        else:
+            group.in_turn += same
+    return len(places) < len(group.contacts)
+
+
+def in_same_place(contacts: list[Contact]) -> list[list[Contact]]:
+    """Return the contacts in their order, and those in the same place together."""
+    ordered = sorted(contacts, key=PLACE)
+    return [list(same) for _, same in groupby(ordered, key=PLACE)]
+
+
+def share_of_each(contacts: list[Contact]) -> float:
+    """Return the share of its work that a contact may do at once with others at the same ball."""
+    return 1 / max(Counter(balls_of(contacts)).values())
+
+
+def balls_of(contacts: list[Contact]) -> list[Body]:
+    """Return the balls of contacts, one for each contact that it has."""
+    return [body for c in contacts for body in (c.a, c.b) if not body.is_static]
