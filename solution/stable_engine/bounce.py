@@ -19,6 +19,7 @@ class Bounce(Effect):
     see Impacts. Slower contacts stay with the solver, or a resting ball would hop.
     """
 
+    __slots__ = ("contacts", "h", "rods", "slow")
     rank = 6
 
     def attach(self, world: WorldState) -> None:

@@ -18,6 +18,7 @@ class Bullets(Effect):
     each other on their way, bullets or not.
     """
 
+    __slots__ = ("bullets", "contacts", "resting_speed", "starts")
     rank = 7
 
     def __init__(self) -> None:

@@ -44,6 +44,12 @@ class Contacts(Effect):
     Each stage solves contacts of static bodies last, so that these hold best.
     """
 
+    __slots__ = (
+        *("on_hit", "on_part", "hits", "parted", "touching", "begun", "changed", "lets_none_pass"),
+        *("friction_warms", "last_dt", "flown", "broad_phase", "crowd", "near", "beside_static"),
+        *("balls", "statics", "groups", "beginnings", "is_mirrored", "unpaired", "ignored", "pace"),
+        *("h", "touching_gap", "slow", "max_push_speed", "begin_contact_hooks"),
+    )
     rank = 3
 
     def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:

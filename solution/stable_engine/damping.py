@@ -12,6 +12,7 @@ class Damping(Effect):
     Rates are per second. Raises ValueError when one is negative, NaN or infinite.
     """
 
+    __slots__ = ("angular_rate", "linear_rate")
     rank = 0
 
     def __init__(self, linear: float = 0.05, angular: float = 0.3) -> None:

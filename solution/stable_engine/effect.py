@@ -67,6 +67,7 @@ class Effect:
     substep in seconds. At each stage effects of lower rank come first.
     """
 
+    __slots__ = ("world",)
     rank: ClassVar[int]
     world: WorldState
 

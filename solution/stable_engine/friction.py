@@ -16,6 +16,7 @@ class Friction(Effect):
     The tangent is the normal turned clockwise.
     """
 
+    __slots__ = ("contacts", "groups")
     rank = 5
 
     def attach(self, world: WorldState) -> None:

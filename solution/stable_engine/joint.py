@@ -103,6 +103,8 @@ AnyJoint = TypeVar("AnyJoint", bound=Joint)
 class Joints(Effect, Generic[AnyJoint]):
     """An effect with a list of joints. Those between sleeping bodies are skipped."""
 
+    __slots__ = ("awake", "joints")
+
     def __init__(self) -> None:
         self.joints: list[AnyJoint] = []
         self.awake: list[AnyJoint] = []

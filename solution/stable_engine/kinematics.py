@@ -12,6 +12,7 @@ class Kinematics(Effect):
     pass through the ball.
     """
 
+    __slots__ = ("bodies",)
     rank = -1  # moves bodies before any other effect relaxes
 
     def __init__(self) -> None:

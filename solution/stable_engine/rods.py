@@ -67,6 +67,7 @@ class Rods(Joints[Rod]):
     would drive them on.
     """
 
+    __slots__ = ("frame_of", "frames", "is_stale", "pace", "spring")
     rank = 2
 
     def __init__(self) -> None:

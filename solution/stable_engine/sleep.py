@@ -22,6 +22,7 @@ class Sleep(Effect):
     its balls or joints, a static body that it touches or hangs on, or the gravity.
     """
 
+    __slots__ = ("awake_changed_hooks", "link_hooks", "since", "steps", "supported")
     rank = 4
 
     def __init__(self) -> None:

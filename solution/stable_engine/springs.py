@@ -76,6 +76,7 @@ class Springs(Joints[Spring]):
     change of its speed counts as extra stretch: Numerov's method, with an error of h⁴.
     """
 
+    __slots__ = ("is_stale", "networks")
     rank = 1
 
     def __init__(self) -> None:

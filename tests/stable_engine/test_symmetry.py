@@ -91,7 +91,7 @@ def drop_two_piles(**surface):
 def drop_on_pegs(**surface):
     pegs = [both(x, y, 10, 0.0, **surface) for x, y in ((25, 0), (60, 20), (90, 40))]
     falling = [both(12 + 24 * i, -100 - 30 * i, **surface) for i in range(4)]
-    return Scene([Block((0, 1200), (5000, 500)), *sum(pegs + falling, [])])
+    return Scene([Block((0, 1200), (5000, 500)), *(ball for two in pegs + falling for ball in two)])
 
 
 FALLING = [drop_a_triangle, drop_two_piles, drop_on_pegs]
@@ -150,7 +150,8 @@ def test_a_mirrored_hit_stays_mirrored_and_creates_no_energy(make, restitution, 
         now = states(engine)
         assert kinetic(scene, now) <= most * (1 + 1e-6)
         if make is not fall_into_a_v:
-            assert moments(scene, now) == pytest.approx(before, abs=1e-6 * 100 * 1500)
+            off = [abs(a - b) for a, b in zip(moments(scene, now), before, strict=True)]
+            assert max(*off[:2], off[2] / 100) <= 1e-6 * 600
 
     watch_symmetry(scene, 0.5, look)
 

@@ -9,7 +9,19 @@ from pygame import Vector2
 from worlds_for_tests import balls, build, build_playground, make, state
 
 from experiments.measures import run, watch
-from experiments.scenes import BOUNCE, DT, TOUCH, Ball, Block, G, Scene, chain, floor, on_floor
+from experiments.scenes import (
+    BOUNCE,
+    DT,
+    EFFECTS,
+    TOUCH,
+    Ball,
+    Block,
+    G,
+    Scene,
+    chain,
+    floor,
+    on_floor,
+)
 from stable_engine import (
     Body,
     Bounce,
@@ -159,6 +171,13 @@ def test_other_attributes_cannot_be_set(name):
 def test_a_name_that_a_world_does_not_have_cannot_be_set(name):
     with pytest.raises(AttributeError, match=name):
         setattr(World(), name, 5)
+
+
+@pytest.mark.parametrize("name", [*EFFECTS, "Kinematics"])
+def test_a_name_that_an_effect_does_not_have_cannot_be_set(name):
+    (effect,) = make([name])
+    with pytest.raises(AttributeError, match="on_begin"):
+        effect.on_begin = print
 
 
 @pytest.mark.parametrize("kind", ["World", "Body", "Rod", "Spring", *SHAPES])
