@@ -34,9 +34,7 @@ class Owners:
         return self.rows.get(id(row), [])
 
 
-def find_owners(
-    roster: Roster, key: str, names: Iterable[str], absent: Iterable[str] = ()
-) -> Owners:
+def find_owners(roster: Roster, key: str, names: Iterable[str], absent: Iterable[str]) -> Owners:
     """Find the row of each result, the surest way first; `absent` share no result."""
     owners = Owners()
     ways = [(index_rows(roster, row_labels), labels) for row_labels, labels in list_ways(key)]

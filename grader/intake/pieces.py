@@ -109,7 +109,7 @@ class Piece:
         return mine == others
 
 
-def arrange(folder: Path, asked: Collection[str] = (), taken: Collection[str] = ()) -> Layout:
+def arrange(folder: Path, asked: Collection[str], taken: Collection[str]) -> Layout:
     """Return the submission in `folder` as the lab lays it out.
 
     Raises ManyPrograms if two files at the same depth could be the same program, unless a person

@@ -19,7 +19,7 @@ import msgspec
 from grader.bank.sync import is_laid_in, read_given_sources
 from grader.bank.verify import run_in_processes, shared_worker
 from grader.checks import exact
-from grader.judge.course import FULL, Course
+from grader.judge.course import Course
 from grader.judge.explain import misconceptions
 from grader.judge.grade import grading
 from grader.judge.lab import Observation
@@ -38,7 +38,7 @@ from grader.questions.practice import FILE as PRACTICE
 from grader.release.handed_out import make_students_tree
 from grader.release.handouts import make_handouts, make_tasks
 from grader.release.practice import make_practice
-from grader.release.recordings import Record, record_anew
+from grader.release.recordings import Record
 from grader.report.screen import TASKS
 from grader.source.cut import prune_modules, replace_bodies
 from grader.source.regions import read_source
@@ -62,9 +62,7 @@ def list_hidden_checks(rubric: Rubric) -> list[str]:
     return [name for name in dict.fromkeys(named) if name not in shown]
 
 
-def write_copy(
-    folder: Path, wrong: Iterable[Tree], course: Course = FULL, record: Record = record_anew
-) -> None:
+def write_copy(folder: Path, wrong: Iterable[Tree], course: Course, record: Record) -> None:
     """Write the package into `folder`, with the checks of a course.
 
     A check's next question may depend on an answer. So wrong submissions are recorded as well: the
@@ -90,7 +88,7 @@ def encode_table(table: object) -> bytes:
     return json.dumps(plain, separators=(",", ":"), sort_keys=True).encode()
 
 
-def write_code(folder: Path, course: Course = FULL, whole: bool = False) -> Path:
+def write_code(folder: Path, course: Course, whole: bool = False) -> Path:
     """Write the package without recordings; if `whole`, with the oracles' own code.
 
     Returns the folder of its checks.

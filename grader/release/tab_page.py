@@ -93,7 +93,7 @@ WITHOUT_PYMUNK = "This page was made without pymunk: do TODO 7 and B4 on a compu
 
 
 def make_tab(
-    out: Path, course: Course = FULL, cffi: Path | None = None, record: Record | None = None
+    out: Path, course: Course, cffi: Path | None, record: Record | None = None
 ) -> list[Path]:
     """Build the page of a course into `out`, unless it is recorded; return folder and zip."""
     fetch_parts()

@@ -38,14 +38,18 @@ def make(place: Path, *more: object) -> Path:
     return place / "lab"
 
 
+def read_grades(lab: Path) -> list[str]:
+    with open(lab / "marks.csv", encoding="utf-8") as table:
+        return [row["Grade"] for row in csv.DictReader(table)]
+
+
 def test_no_command_is_told_twice_what_the_class_is(place: Path):
     lab = make(place, "--submissions", place / "export")
     assert "3 submissions" in call_class("grade", lab)
     with open(lab / "results.class.csv", encoding="utf-8-sig") as table:
         assert [row["points"] for row in csv.DictReader(table)] == ["5", "10", "20"]
     assert "4 of 4 marks" in call_class("marks", lab)
-    with open(lab / "marks.csv", encoding="utf-8") as table:
-        assert [row["Grade"] for row in csv.DictReader(table)] == ["2.5", "5.0", "10.0", "0"]
+    assert read_grades(lab) == ["2.5", "5.0", "10.0", "0"]
     assert "Lab 3" in (lab / "results.class.html").read_text(encoding="utf-8")
 
 
@@ -55,11 +59,6 @@ def test_bonus_tasks_are_named_too(place: Path):
     )
     said = call_class("new", place / "lab", "--course", place / "autumn.toml")
     assert "4 points, TODO 8a, 8c; bonus B1, B4" in said
-
-
-def read_grades(lab: Path) -> list[str]:
-    with open(lab / "marks.csv", encoding="utf-8") as table:
-        return [row["Grade"] for row in csv.DictReader(table)]
 
 
 def test_marks_are_rounded_and_absent_as_the_settings_say(place: Path):

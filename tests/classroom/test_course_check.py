@@ -30,9 +30,7 @@ def list_problems(place: Path, **texts: str) -> list[str]:
 
 
 def test_of_what_is_well_nothing_is_said(place, monkeypatch):
-    monkeypatch.setattr(
-        classroom, "find_release_problems", lambda course: []
-    )  # see test_courses.py
+    monkeypatch.setattr(classroom, "find_release_problems", lambda _: [])  # see test_courses.py
     assert list_problems(place, adjust="[[adjust]]\nstudent = 'ann'\nadd = 1\nreason = 'x'\n") == []
     done = run_grader("course-check")
     assert done.exit_code == 0 and "No problems found" in done.output

@@ -38,30 +38,26 @@ def test_less_than_full_marks_end_with_status_1(tmp_path: Path):
     assert json.loads(target.read_text(encoding="utf-8"))["points"] == 0
 
 
-def test_the_command_line_starts_without_what_only_some_commands_need():
+def list_loaded(*arguments: str) -> set[str]:
+    """Return the modules that a command loads."""
     code = (
-        "import sys; sys.argv = ['grader', '--help']; import grader.cli.main as cli\n"
+        "import sys; sys.argv[0] = 'grader'; import grader.cli.main as cli\n"
         "try: cli.main()\n"
         "finally: print(*sys.modules, file=sys.stderr)"
     )
-    done = subprocess.run([sys.executable, "-c", code], cwd=KIT, capture_output=True, text=True)
-    loaded = {name for name in done.stderr.split() if name.startswith("grader.")}
+    command = [sys.executable, "-c", code, *arguments]
+    return set(subprocess.run(command, cwd=KIT, capture_output=True, text=True).stderr.split())
+
+
+def test_the_command_line_starts_without_what_only_some_commands_need():
+    loaded = list_loaded("--help")
     assert "grader.cli.classroom" in loaded
     heavy = {"grader.intake", "grader.classroom.grading", "grader.classroom.nbgrader"}
     assert not loaded & {*heavy, "grader.report.html", "grader.report.ci", "grader.cli.watch"}
 
 
 def test_a_check_that_passes_loads_nothing_for_failures_and_other_commands(hand_in):
-    code = (
-        "import sys; sys.argv = ['grader', 'check', '--todo', '8a', *sys.argv[1:]]\n"
-        "import grader.cli.main as cli\n"
-        "try: cli.main()\n"
-        "finally: print(*sys.modules, file=sys.stderr)"
-    )
-    command = [sys.executable, "-c", code, str(hand_in("solution"))]
-    done = subprocess.run(command, cwd=KIT, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout
-    loaded = set(done.stderr.split())
+    loaded = list_loaded("check", "--todo", "8a", str(hand_in("solution")))
     assert "grader.judge.loop" in loaded
     needless = {"jinja2", "grader.judge.explain.meaning", "grader.cli.grade", "grader.cli.classes"}
     assert not loaded & needless
@@ -76,8 +72,6 @@ def test_files_in_the_current_folder_shadow_nothing(hand_in):
 
 
 def test_there_are_three_hints_for_every_todo():
-    from grader.judge.rubric import load_rubric
-
     for todo in load_rubric().todos:
         assert len(todo.hints) == (3 if todo.function else 0), todo.id
 
