@@ -7,6 +7,7 @@ import math
 
 from grader.checks import exact
 from grader.checks.mistakes import Models, register
+from grader.checks.todo_7.checks import BOB, PIVOT, Rod
 from grader.judge.explain.misconceptions import Kind, Model, Undecided, always, are_close, kinds
 from grader.judge.lab import STEP, Pair
 
@@ -50,14 +51,13 @@ register("7b", "moment", MOMENTS)
 
 # ---------------------------------------------------------------- 7c: what holds the bob
 
-PIVOT, BOB, CORNER = (700.0, 90.0), (840.0, 90.0), (0.0, 0.0)  # px
+CORNER = (0.0, 0.0)  # px
 RIMS = ((-24.0, 0.0), (24.0, 0.0), (0.0, -24.0), (0.0, 24.0))  # px, from the bob's centre
-Rod = tuple[str, Pair, Pair, bool]  # kind, far end, end on the bob, whether the far end moves
 
 
 def pin(far_end: Pair, on_bob: Pair = (0.0, 0.0), moves: bool = False) -> Rod:
     """Return a pin joint to a point of the bob, which is measured from its centre."""
-    return "PinJoint", far_end, (BOB[0] + on_bob[0], BOB[1] + on_bob[1]), moves
+    return Rod("PinJoint", far_end, (BOB[0] + on_bob[0], BOB[1] + on_bob[1]), moves)
 
 
 kinds["rods"] = Kind(always([pin(PIVOT)]))
@@ -68,11 +68,11 @@ JOINTS: dict[str, list[Rod]] = {  # one of them instead of the right one
     "anchors-the-wrong-way-round": [pin(CORNER, PIVOT)],
     "rod-at-the-rim": [pin(PIVOT, rim) for rim in RIMS],
     "rod-on-a-moving-body": [pin(PIVOT, moves=True)],
-    "rope-instead-of-rod": [("SlideJoint", PIVOT, BOB, False)],
-    "slack-of-two": [("SlideJoint with slack", PIVOT, BOB, False)],
-    "spring-instead-of-rod": [("DampedSpring", PIVOT, BOB, False)],
-    "pivot-turns-the-bob": [("PivotJoint", PIVOT, PIVOT, False)],
-    "bob-is-nailed-to-the-wall": [("PivotJoint", BOB, BOB, False)],
+    "rope-instead-of-rod": [Rod("SlideJoint", PIVOT, BOB, False)],
+    "slack-of-two": [Rod("SlideJoint with slack", PIVOT, BOB, False)],
+    "spring-instead-of-rod": [Rod("DampedSpring", PIVOT, BOB, False)],
+    "pivot-turns-the-bob": [Rod("PivotJoint", PIVOT, PIVOT, False)],
+    "bob-is-nailed-to-the-wall": [Rod("PivotJoint", BOB, BOB, False)],
 }
 
 

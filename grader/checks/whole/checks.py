@@ -11,41 +11,11 @@ from collections.abc import Sequence
 from statistics import median
 
 from grader.checks.pacing import frames_at, want_a_proper_end
+from grader.checks.whole import lab_scene as lesson
+from grader.checks.whole import lesson_rules as rules
 from grader.checks.whole.flights import moments, want_free_flights
-from grader.checks.whole.lab_scene import (
-    BALLS,
-    BOB,
-    FIXED,
-    HOOK,
-    ROD,
-    SEED,
-    STACK,
-    first_radius,
-    is_a_ball,
-    is_close,
-    moving_parts,
-    pymunk_scene,
-    space_parts,
-    turning_as_a_disc,
-    want_parts,
-    world_parts,
-)
-from grader.checks.whole.lesson_rules import (
-    EXACT,
-    IMPACTS,
-    want_a_free_flight,
-    want_a_rod_put_right,
-    want_a_total_that_is_clamped,
-    want_a_way_out_for_coincident_discs,
-    want_fresh_contacts,
-    want_friction_after_pressure,
-    want_gravity_then_damping,
-    want_impact,
-    want_pressed_and_rubbed,
-    want_some_passes,
-    want_the_same_pile,
-)
-from grader.checks.whole.movers import FLOOR_TOP, LANDING, LEDGE_TOP, Mover, movers
+from grader.checks.whole.lab_scene import SEED
+from grader.checks.whole.movers import BOB_RADIUS, FLOOR_TOP, LANDING, LEDGE_TOP, Mover, movers
 from grader.checks.whole.pictures import want_pictures
 from grader.judge.decode import Pair
 from grader.judge.lab import STEP, Lab, Moment, Thing
@@ -102,8 +72,8 @@ def the_scene_is_that_of_the_lesson(lab: Lab) -> None:
     """The scene has the lesson's bodies, and the program begins with it"""
     seed = lab.whole(SEED, SEED)
     lab.ran(f"make_world(random.Random({seed}))")
-    parts = [turning_as_a_disc(part) for part in [*FIXED, BOB]]
-    want_parts(lab, world_parts(lab, seed), parts, seed)
+    parts = [lesson.turning_as_a_disc(part) for part in [*lesson.FIXED, lesson.BOB]]
+    lesson.want_parts(lab, lesson.world_parts(lab, seed), parts, seed)
     lab.ran("the program without running its steps, and what there is in its world")
     frames = frames_at(60, 0.2 + abs(lab.whole(0, 9)) / 60)
     played = lab.play(frames, physics=False)
@@ -113,37 +83,32 @@ def the_scene_is_that_of_the_lesson(lab: Lab) -> None:
 
 def want_the_first_scene(lab: Lab, played: Played, when: str) -> None:
     """Insist that a program of the mini engine starts with make_world's scene."""
-    expected = {(*p.pos, p.shape[0], p.mass) for p in world_parts(lab, SEED) if p.mass}
-    found = moving_parts(played)
+    found = lesson.moving_discs(played)
     lab.want(
-        {round_row(row) for row in expected} == {round_row(row) for row in found},
+        found == lesson.first_discs(lab, SEED),
         f"{when} the moving bodies of make_world(random.Random({SEED}))",
         f"{len(found)} moving bodies, not all with the place, size and mass of those",
     )
 
 
-def round_row(row: tuple[float, ...]) -> tuple[float, ...]:
-    return tuple(round(number, 6) for number in row)
-
-
 def contacts_bounce_part_and_rub_as_the_lesson_says(lab: Lab) -> None:
     """Contacts bounce, push out and rub by the lesson's rules"""
-    for impact in IMPACTS:
-        want_impact(lab, impact)
-    want_pressed_and_rubbed(lab)
-    want_friction_after_pressure(lab)
-    want_a_total_that_is_clamped(lab)
-    want_a_way_out_for_coincident_discs(lab)
+    for impact in rules.IMPACTS:
+        rules.want_impact(lab, impact)
+    rules.want_pressed_and_rubbed(lab)
+    rules.want_friction_after_pressure(lab)
+    rules.want_a_total_that_is_clamped(lab)
+    rules.want_a_way_out_for_coincident_discs(lab)
 
 
 def a_step_keeps_its_stages_and_its_passes(lab: Lab) -> None:
     """A step has the lesson's stages in their order, and solves again and again"""
-    want_gravity_then_damping(lab)
-    want_a_free_flight(lab)
-    want_fresh_contacts(lab)
-    want_some_passes(lab)
-    want_a_rod_put_right(lab)
-    want_the_same_pile(lab)
+    rules.want_gravity_then_damping(lab)
+    rules.want_a_free_flight(lab)
+    rules.want_fresh_contacts(lab)
+    rules.want_some_passes(lab)
+    rules.want_a_rod_put_right(lab)
+    rules.want_the_same_pile(lab)
 
 
 def the_rod_swings_alike_at_any_frame_rate(lab: Lab) -> None:
@@ -154,7 +119,7 @@ def the_rod_swings_alike_at_any_frame_rate(lab: Lab) -> None:
     lab.want(bool(bobs and played.rods), "a bob of radius 24 px on a rod", "no such bob, or no rod")
     want_a_swing(lab, bobs[0].trail)
     last = bobs[0].trail[-1]
-    ends = [b.pos for b in played.bodies if isinstance(b, BodyValue) and b.radius == BOB.shape[0]]
+    ends = [b.pos for b in played.bodies if isinstance(b, BodyValue) and b.radius == BOB_RADIUS]
     lab.want(
         (last.x, last.y) == (ends[0].x, ends[0].y),
         "the bob where its last step left it",
@@ -163,8 +128,8 @@ def the_rod_swings_alike_at_any_frame_rate(lab: Lab) -> None:
     distance, length = played.rods[0]
     error = abs(distance - length)
     lab.want(
-        error < 1.0 and abs(length - ROD) < 1.0,
-        f"a rod of {ROD:.0f} px, less than 1 px off",
+        error < 1.0 and abs(length - lesson.ROD) < 1.0,
+        f"a rod of {lesson.ROD:.0f} px, less than 1 px off",
         f"a rod of {length:.1f} px, {error:.2f} px off",
     )
     said = re.search(r"Pendulum length error: (\d+\.\d\d) px", "\n".join(played.lines))
@@ -179,7 +144,7 @@ def want_a_swing(lab: Lab, trail: list[Moment]) -> None:
     """Insist that the bob swings through below its hook and over to the other side."""
     leftmost, lowest = min(each.x for each in trail), max(each.y for each in trail)
     lab.want(
-        leftmost < CROSSED and lowest > HOOK[1] + 0.9 * ROD,
+        leftmost < CROSSED and lowest > lesson.HOOK[1] + 0.9 * lesson.ROD,
         "a bob that swings through below its hook and over to x = 560",
         f"its leftmost x is {leftmost:.0f}, its lowest place y = {lowest:.0f}",
     )
@@ -191,7 +156,7 @@ def balls_bounce_come_to_rest_and_roll(lab: Lab) -> None:
     played = run(lab, 5.0, None, [Event(abs(lab.whole(3, 2)), "click", place)])
     want_all_inside(lab, played)
     *balls, dropped = [body for body in movers(played) if not body.is_bob]
-    lab.want(len(balls) >= len(BALLS), "8 balls, and one more after a click", f"{len(balls) + 1}")
+    lab.want(len(balls) >= 8, "8 balls, and one more after a click", f"{len(balls) + 1}")
     want_events(lab, balls, dropped, place)
     want_rest(lab, [*balls, dropped])
     radius = deal_a_small_ball(lab)
@@ -204,16 +169,16 @@ def deal_a_small_ball(lab: Lab) -> int:
     It is much smaller than usual, so that a recording of the usual balls hovers above the ledge.
     """
     moved = abs(lab.whole(1, 1_000_000))
-    while first_radius(SEED + moved) > SMALL:
+    while lesson.first_radius(SEED + moved) > SMALL:
         moved += 1
     lab.deal(moved)
-    return first_radius(SEED + moved)
+    return lesson.first_radius(SEED + moved)
 
 
 def want_a_landing(lab: Lab, played: Played, radius: int) -> None:
     """Insist that the first ball has its randomly drawn size and lands on the ledge."""
     lab.ran(f"the program as it is, with random numbers that make its first ball {radius} px large")
-    first = min(movers(played), key=lambda each: math.dist(each.begin, BALLS[0]))
+    first = min(movers(played), key=lambda each: math.dist(each.begin, lesson.BALLS[0]))
     lab.want(first.radius == radius, f"a first ball of {radius} px", f"one of {first.radius:g} px")
     lowest = max(map(first.bottom, first.trail))
     lab.want(
@@ -288,7 +253,7 @@ def want_all_inside(lab: Lab, played: Played) -> None:
             )
     static = [body for body in played.bodies if isinstance(body, BodyValue) and not body.inv_mass]
     places = {(body.pos.x, body.pos.y) for body in static}
-    began = {part.pos for part in world_parts(lab, SEED) if not part.mass}
+    began = {part.pos for part in lesson.world_parts(lab, SEED) if not part.mass}
     still = all((*body.vel, body.angle, body.omega) == (0, 0, 0, 0) for body in static)
     lab.want(
         places == began and still,
@@ -343,7 +308,7 @@ def clicks_drop_balls_and_r_resets(lab: Lab) -> None:
     )
     rods = len(played.rods)
     lab.want(rods < 2, "after R the one rod of the scene", f"{rods} rods")
-    same = want_the_scene_again(lab, moving_parts(played))
+    same = want_the_scene_again(lab, lesson.moving_discs(played))
     lab.ran("the program for 0.7 s, a click, R, and 0.7 s more")
     events = [Event(40, "click", (lab.whole(300, 40), 200)), Event(42, "key", key="r")]
     trail = lab.play([17] * 84, events, trail_every=1).trail
@@ -356,24 +321,21 @@ def clicks_drop_balls_and_r_resets(lab: Lab) -> None:
     )
 
 
-def want_the_scene_again(lab: Lab, found: set[tuple[float, ...]]) -> bool:
+def want_the_scene_again(lab: Lab, found: list[lesson.Disc]) -> bool:
     """Insist on the bob and eight balls after R; return whether they are the first eight.
 
     A random generator that is not reset gives balls of other sizes.
     """
-    first = {(*p.pos, p.shape[0], p.mass) for p in world_parts(lab, SEED) if p.mass}
-    bob = (*BOB.pos, *BOB.shape, BOB.mass)
-    balls = {row for row in found if round_row(row) != round_row(bob)}
+    first = lesson.first_discs(lab, SEED)
+    balls = [disc for disc in found if disc != lesson.disc_of(lesson.BOB)]
     lab.want(
-        len(balls) == len(BALLS)
+        len(balls) == len(lesson.BALLS)
         and len(found) == len(first)
-        and all(
-            is_a_ball(*row[2:]) and any(is_close(row[:2], at) for at in BALLS) for row in balls
-        ),
+        and all(lesson.is_a_ball(*ball) and ball[:2] in lesson.BALLS for ball in balls),
         "after R the bob, and 8 balls where they began, of 10 to 22 px and with a mass of r²/100",
         f"{len(found)} moving bodies, not all with such a place, size and mass",
     )
-    return {round_row(row) for row in first} == {round_row(row) for row in found}
+    return found == first
 
 
 def want_a_first_ball(lab: Lab, rows: list[list[Moment]], place: tuple[int, int]) -> None:
@@ -398,13 +360,14 @@ def the_pymunk_stack_stands_and_its_rod_holds(lab: Lab) -> None:
     """In pymunk the same scene: the stack stands, the rod holds, balls roll to rest"""
     seed = lab.whole(SEED, SEED)
     lab.ran(f"make_space(random.Random({seed}))")
-    space, _ = pymunk_scene(lab, seed)
+    space, _ = lesson.pymunk_scene(lab, seed)
     lab.want(
-        abs(space.damping - 0.95) < EXACT,
+        abs(space.damping - 0.95) < rules.EXACT,
         "damping 0.95, the share of the speed kept per second",
         f"{space.damping:.6g}",
     )
-    want_parts(lab, space_parts(space), [*FIXED[:-1], BOB, *STACK], seed)  # without the hook
+    parts = [*lesson.FIXED[:-1], lesson.BOB, *lesson.STACK]  # without the hook
+    lesson.want_parts(lab, lesson.space_parts(space), parts, seed)
     played = run(lab, 5.0, 30, photos=PHOTOGRAPHED)
     discs, boxes = movers(played), boxes_of(played)
     bobs, balls = [d for d in discs if d.is_bob], [d for d in discs if not d.is_bob]
@@ -423,11 +386,11 @@ def the_pymunk_stack_stands_and_its_rod_holds(lab: Lab) -> None:
 def want_a_pymunk_swing(lab: Lab, bob: Mover) -> None:
     """Insist that the bob swings, and that the rod stretches no more than pymunk's."""
     want_a_swing(lab, bob.trail)
-    length = math.dist((bob.trail[-1].x, bob.trail[-1].y), HOOK)
+    length = math.dist((bob.trail[-1].x, bob.trail[-1].y), lesson.HOOK)
     # A pin joint of pymunk's gives way by about 1.2 px in this scene.
     lab.want(
-        abs(length - ROD) <= 3.0,
-        f"the bob {ROD:.0f} px from the hook, give or take 3 px",
+        abs(length - lesson.ROD) <= 3.0,
+        f"the bob {lesson.ROD:.0f} px from the hook, give or take 3 px",
         f"it is {length:.1f} px away",
     )
 
@@ -512,7 +475,7 @@ def want_a_free_box(lab: Lab, level: int) -> None:
     """Hit one box of the stack; insist that it moves without the lowest or the top one."""
     speed = lab.about(3000.0, 400.0)
     lab.ran(f"make_space, and a ball at {speed:g} px/s against box {level} of the stack")
-    space, stack = pymunk_scene(lab, SEED)
+    space, stack = lesson.pymunk_scene(lab, SEED)
     lab.want(len(stack) == 4, "a stack of 4 boxes", f"{len(stack)}")
     thing = lab.thing(space)
     hit_by_a_ball(lab, thing, (650, 542 - 36 * level), speed)
@@ -574,22 +537,13 @@ def clicks_b_and_r_work_in_pymunk(lab: Lab) -> None:
         f"after R the {begin} moving bodies of the beginning, and 1 box from the B after that",
         f"{len(rows[-1])} moving bodies, not all where they began",
     )
+    discs = lesson.moving_discs(played)
+    balls = [disc for disc in discs if disc[2] != BOB_RADIUS]
     lab.want(
-        all(is_a_ball(*row) for row in balls_of(played)) and len(balls_of(played)) == len(BALLS),
+        len(balls) == len(lesson.BALLS) and all(lesson.is_a_ball(*ball) for ball in balls),
         "after R 8 balls of 10 to 22 px, with a mass of r²/100",
         "balls of other sizes or masses",
     )
-
-
-def balls_of(played: Played) -> list[Pair]:
-    """Return radius and mass of each ball of a pymunk program."""
-    bodies = [body for body in played.bodies if isinstance(body, SpaceBody) and body.mass]
-    discs = [(body.shapes[0], body.mass) for body in bodies if body.shapes]
-    return [
-        (shape.radius, mass)
-        for shape, mass in discs
-        if shape.kind == "Circle" and shape.radius != BOB.shape[0]
-    ]
 
 
 def row_of(rows: list[list[Moment]], count: int) -> list[Moment]:

@@ -6,18 +6,18 @@ random.Random is known.
 
 import math
 import random
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from grader.judge.decode import Pair
 from grader.judge.lab import Lab, Thing
-from grader.protocol import BodyValue, Played, Rng, SpaceBody, SpaceValue
+from grader.protocol import BodyValue, Played, Rng, ShapeValue, SpaceBody, SpaceValue
 
 SEED = 12
 RADII = range(10, 23)  # px
 
-
 Bounds = tuple[float, float, float, float]  # left, least y, right, largest y; px
+Disc = tuple[float, ...]  # x, y, radius in px and mass in kg, rounded
 
 
 class Part(NamedTuple):
@@ -194,12 +194,31 @@ def as_box(bounds: Bounds) -> tuple[Pair, tuple[float, ...]] | None:
     return None
 
 
-def moving_parts(played: Played) -> set[tuple[float, ...]]:
-    """Return position, size and mass of each movable body when a mini engine program ends."""
-    bodies = [body for body in played.bodies if isinstance(body, BodyValue)]
-    return {(*body.pos, body.radius, 1 / body.inv_mass) for body in bodies if body.inv_mass}
+def moving_discs(played: Played) -> list[Disc]:
+    """Return the discs that can move when a program ends, in order."""
+    discs = []
+    for body in played.bodies:
+        match body:
+            case BodyValue(inv_mass=inverse) if inverse:
+                discs.append(round_disc(body.pos, body.radius, 1 / inverse))
+            case SpaceBody(shapes=[ShapeValue(kind="Circle") as shape, *_]) if body.mass:
+                discs.append(round_disc(body.pos, shape.radius, body.mass))
+    return sorted(discs)
 
 
-def is_a_ball(size: float, mass: float) -> bool:
-    """Return whether some random number gives a ball of this radius and mass."""
-    return size in RADII and math.isclose(mass, size**2 / 100, rel_tol=1e-6)
+def first_discs(lab: Lab, seed: int) -> list[Disc]:
+    """Return the discs that can move in make_world(random.Random(seed))."""
+    return sorted(disc_of(part) for part in world_parts(lab, seed) if part.mass)
+
+
+def disc_of(part: Part) -> Disc:
+    return round_disc(part.pos, part.shape[0], part.mass)
+
+
+def round_disc(pos: Iterable[float], radius: float, mass: float) -> Disc:
+    return tuple(round(number, 6) for number in (*pos, radius, mass))
+
+
+def is_a_ball(x: float, y: float, radius: float, mass: float) -> bool:
+    """Return whether some random number gives a ball of this radius and mass, anywhere."""
+    return radius in RADII and math.isclose(mass, radius**2 / 100, rel_tol=1e-6)
