@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from grader.checks.todo_7.checks import BOB, is_near, pair, scene
 from grader.judge.lab import NOTHING, Lab, Moment, Pair, Thing
-from grader.protocol import ShapeValue, SpaceValue
+from grader.protocol import ShapeValue
 
 PEGS = ((375.0, 400.0), (435.0, 400.0))  # px, the first two
 LEDGE = (200.0, 270.0)  # px, in the middle of its lower side
@@ -39,7 +39,8 @@ def course(lab: Lab) -> Course:
     boxes = [each for each in moving if each.shapes[0].kind == "Poly"]
     lab.want(len(balls) > 1 and bool(boxes), "balls and boxes in the scene", "none")
     data = lab.thing(lab.get(space, "counter"), "a dictionary from count_hits")
-    pegs = [each for each in static_shapes(found) if each.kind == "Circle"]
+    static = [shape for body in found.bodies if body.kind == "static" for shape in body.shapes]
+    pegs = [shape for shape in static if shape.kind == "Circle"]
     peg = min(pegs, key=lambda each: math.dist(find_middle(each), PEGS[0]))
     product = peg.elasticity * balls[0].shapes[0].elasticity
     return Course(
@@ -51,10 +52,6 @@ def course(lab: Lab) -> Course:
         product,
         lab.about(SPEED, 60.0),
     )
-
-
-def static_shapes(space: SpaceValue) -> list[ShapeValue]:
-    return [shape for body in space.bodies if body.kind == "static" for shape in body.shapes]
 
 
 def find_middle(shape: ShapeValue) -> Pair:

@@ -96,13 +96,10 @@ def want_part_of_the_way(lab: Lab, found: Place, before: Place, now: Place, shar
     off = way > math.dist(before[:2], now[:2]) + CLOSE
     words, why = "the place {}", OFF_THE_WAY * off
     want_answer(lab, near, PLACE, right[:2], found[:2], expected=words, meaning=why)
-    good = any(abs(without_turns(found[2] - each[2])) < CLOSE for each in (before, right, now))
+    good = any(
+        abs(math.remainder(found[2] - each[2], math.tau)) < CLOSE for each in (before, right, now)
+    )
     want_answer(lab, good, "{:.{n}f} rad", right[2], found[2], digits=4, expected="the angle {}")
-
-
-def without_turns(angle: float) -> float:
-    """Return an angle without whole turns."""
-    return math.remainder(angle, 2 * math.pi)
 
 
 def make_moved_body(
