@@ -139,17 +139,13 @@ class Lab(Asker):
         brings the state of the things that it may change and of those in `sees`. `marks` are
         fields to set in the returned contact. An exception becomes an observation of `noted`.
         """
-        named = {key: plain(value) for key, value in kwargs.items()}
-        values = [plain(each) for each in args]
-        framed, states = changes is not None, list_refs(changes or (), sees)
-        request = Call(
+        request = make_call(
             self._target(name),
-            values,
-            named,
-            False,
-            framed,
-            twice,
-            states=states,
+            args,
+            kwargs={key: plain(value) for key, value in kwargs.items()},
+            framed=changes is not None,
+            twice=twice,
+            states=list_refs(changes or (), sees),
             marks=marks or {},
         )
         return self._ask(request, partial(self._compare, name, request, changes), noted, then)
@@ -157,8 +153,7 @@ class Lab(Asker):
     def make(self, name: str, *args: Any) -> Thing:
         """Return a new object of a class, named as in `call`, such as a rod between two bodies."""
         made = self._new(f"the {name.rpartition(':')[2]}")
-        values = [plain(each) for each in args]
-        self._value(Call(self._target(name), values, ref=made.ref, quiet=True))
+        self._value(make_call(self._target(name), args, ref=made.ref, quiet=True))
         return made
 
     def _target(self, name: str) -> str:
@@ -175,15 +170,13 @@ class Lab(Asker):
         then: Judge | None = None,
     ) -> Value:
         """Call a method of an object in the child; the arguments are those of `call`."""
-        target, values = f"#{thing.ref}.{method}", [plain(each) for each in args]
         framed, states = changes is not None, list_refs(changes or (), sees)
-        request = Call(target, values, framed=framed, states=states)
+        request = make_call(f"#{thing.ref}.{method}", args, framed=framed, states=states)
         return self._ask(request, partial(self._compare, method, request, changes), noted, then)
 
     def let(self, thing: Thing, method: str, *args: Any) -> None:
         """Call a method whose answer is not needed."""
-        values = [plain(each) for each in args]
-        self._value(Call(f"#{thing.ref}.{method}", values, quiet=True))
+        self._value(make_call(f"#{thing.ref}.{method}", args, quiet=True))
 
     def _compare(
         self, name: str, request: Call | Integrate, changes: Frame | None, returned: Returned
@@ -236,8 +229,8 @@ class Lab(Asker):
 
         It must not change anything.
         """
-        target, args = f"{self.module}:advance", [plain(world), accumulator, seconds]
-        request = Call(target, args, framed=True, stepping=True)
+        args = (world, accumulator, seconds)
+        request = make_call(self._target("advance"), args, framed=True, stepping=True)
         returned = self._returned(request)
         self._compare("advance", request, NOTHING, returned)
         answer = self.items(returned.value, "what advance returns")
@@ -248,8 +241,7 @@ class Lab(Asker):
 
     def work(self, thing: Thing, method: str, *args: Any) -> int:
         """Count the submission's lines that run in a call of a method."""
-        arguments = [plain(each) for each in args]
-        return self._returned(Call(f"#{thing.ref}.{method}", arguments, work=True)).lines
+        return self._returned(make_call(f"#{thing.ref}.{method}", args, work=True)).lines
 
     def get(self, thing: Thing, name: str, then: Judge | None = None) -> Value:
         """Return an attribute of an object, such as a rod's `length`."""
@@ -373,8 +365,7 @@ class Lab(Asker):
 
         `twice`: the same question must get the same answer, and nothing else may change.
         """
-        target = f"{self.module}:{method}"
-        request = Integrate(target, *start, dt, list(force), steps, twice)
+        request = Integrate(self._target(method), *start, dt, list(force), steps, twice)
         compare = partial(self._compare, method, request, NOTHING if twice else None)
 
         def read(value: Value) -> list[Pair]:
@@ -391,8 +382,7 @@ class Lab(Asker):
 
     def places(self, method: str, start: Pair, dt: float, force: Sequence[float]) -> list[float]:
         """Return the positions at which one step of an integrator asks for the acceleration."""
-        target = f"{self.module}:{method}"
-        request = Integrate(target, *start, dt, list(force), places=True)
+        request = Integrate(self._target(method), *start, dt, list(force), places=True)
         places = self.items(self._value(request), "the places")
         return [self.number(each, "what accel is asked about") for each in places]
 
@@ -406,14 +396,13 @@ class Lab(Asker):
         pictures: bool = False,
         photos: Sequence[int] = (),
         step_ms: float = 0.0,
-        module: str = "",
     ) -> Played:
         """Run the program as `python -m` starts it, one entry of `frames` (ms) per frame.
 
         A second run gets a process of its own. A run begins after a title or a loading picture.
         """
         request = Play(
-            module or self.module,
+            self.module,
             frames,
             list(events),
             physics,
@@ -578,6 +567,11 @@ def list_refs(*groups: Iterable[Thing]) -> list[int]:
 def name_fields(fields: str) -> str:
     """Return the names of fields in the lesson's words."""
     return ", ".join(FIELDS.get(each, each) for each in fields.split())
+
+
+def make_call(target: str, args: Iterable[Any], **more: Any) -> Call:
+    """Return the request to call `module:name`, or `#number.method` of an object."""
+    return Call(target, [plain(each) for each in args], **more)
 
 
 def plain(value: Any) -> Argument:

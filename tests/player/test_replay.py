@@ -862,19 +862,19 @@ def test_the_last_scene_of_a_long_check_is_recorded():
 
 def test_a_body_between_two_steps_is_asked_in_the_scene_of_the_step(tmp_path: Path):
     recorder = record_solution("B5", todo_b5.a_body_is_drawn_on_its_way_through_the_step)
-    script = tmp_path / "again.py"
-    steps = recorder.steps[0] + recorder.steps[1]
-    script.write_text(write_script("", recorder.translator, steps, []), "utf-8")
-    done = run_script(script, KIT / "solution")
-    assert done.returncode == 0, done.stderr
+    run_again(recorder, recorder.steps[0] + recorder.steps[1], tmp_path / "again.py")
 
 
 def test_a_script_makes_the_bodies_of_an_earlier_scene(arm_recorder: Recorder, tmp_path: Path):
-    steps = arm_recorder.steps[-1]
-    script = tmp_path / "again.py"
-    script.write_text(write_script("", arm_recorder.translator, steps, []), "utf-8")
+    assert float(run_again(arm_recorder, arm_recorder.steps[-1], tmp_path / "again.py")) > 0
+
+
+def run_again(recorder: Recorder, steps: list[Step], script: Path) -> str:
+    """Run the script of some steps on the solution; return what it prints."""
+    script.write_text(write_script("", recorder.translator, steps, []), "utf-8")
     done = run_script(script, KIT / "solution")
-    assert done.returncode == 0 and float(done.stdout) > 0, done.stderr
+    assert done.returncode == 0, done.stderr
+    return done.stdout
 
 
 def test_a_question_about_the_effective_mass_shows_its_arms_and_axis(arms: Replay):

@@ -7,7 +7,7 @@ import ast
 import builtins
 import math
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache, cached_property
@@ -131,7 +131,9 @@ def explain_error(got: str, read: Callable[[str], str], todo: str) -> str:
     for pattern, explain in RULES:
         if match := re.search(pattern, error.words):
             try:
-                words = explain if isinstance(explain, str) else explain(match, error)
+                if isinstance(explain, str):
+                    return explain.format(*match.groups())
+                words = explain(match, error)
             except (RecursionError, MemoryError):  # the code is nested too deeply
                 return ""
             if words:
@@ -182,8 +184,8 @@ def explain_undefined(match: Match, error: Error) -> str:
         return f"{name} belongs to the object: write self.{name}."
     if hasattr(math, name):
         return f"{name} is in the module math: write math.{name}."
-    if name in pymunk_names():
-        return f"{name} is in the module pymunk: write pymunk.{name}."
+    if name in PYMUNK_NAMES:
+        return IN_PYMUNK.format(name)
     if error.file.startswith(ENGINE) and (file := given_home(name, error.file)):
         module = file.rpartition("/")[2].removesuffix(".py")
         return f"{name} is in {file}: add `from .{module} import {name}` to {error.file}."
@@ -215,7 +217,7 @@ def explain_module(match: Match, error: Error) -> str:
         return (
             f"pygame has no {name}: it has {left} and {right}, and get_mods() & {both} is for both."
         )
-    known = {"math": dir(math), "pygame": PYGAME}.get(module, pymunk_names())
+    known = {"math": dir(math), "pygame": PYGAME}.get(module, PYMUNK_NAMES)
     near = find_similar(name.replace("disc", "circle"), known, NEAR)
     return f"{module} has no {name}." + (f" Is {near[0]} meant?" if near else "")
 
@@ -223,10 +225,6 @@ def explain_module(match: Match, error: Error) -> str:
 def explain_field(match: Match, error: Error) -> str:
     arguments = given_arguments().get(f"{match[1]}.__init__")
     return f"It is {match[1]}({', '.join(arguments)}): look at {match[2]}." if arguments else ""
-
-
-def explain_import(match: Match, error: Error) -> str:
-    return f"{match[2]} defines no {match[1]}: it was renamed or removed there."
 
 
 def explain_attribute(match: Match, error: Error) -> str:
@@ -286,14 +284,6 @@ def explain_not_callable(match: Match, error: Error) -> str:
     return "A value stands before brackets as if it were a function. Is a * missing there?"
 
 
-def explain_class_attribute(match: Match, error: Error) -> str:
-    """Explain a function of the module pymunk that the code takes from one of its classes."""
-    name = match[2]
-    if name in pymunk_names():
-        return f"{name} is in the module pymunk: write pymunk.{name}."
-    return ""
-
-
 def explain_zero(match: Match, error: Error) -> str:
     """Explain a division by 0 outside the TODO's region, which gave that value."""
     inside = (each for each in read_regions(error.text)[0] if each.id == error.todo)
@@ -332,13 +322,6 @@ def explain_arguments(match: Match, error: Error) -> str:
     usual = None if name == "__init__" else given_arguments().get(name)
     arguments = given_arguments().get(f"{owner}.{name}", usual)
     return f"It is {called}({', '.join(arguments)})." if arguments is not None else ""
-
-
-def explain_mixed(match: Match, error: Error) -> str:
-    """Explain an operation on a vector and a number."""
-    if "**" in match[0]:
-        return "A vector has no power: square a number, such as a length or a cross product."
-    return NUMBER_NEEDED if "first" in match.re.groupindex else DIRECTION_NEEDED
 
 
 def explain_none(match: Match, error: Error) -> str:
@@ -446,12 +429,11 @@ PYMUNK = {  # functions and classes that the lesson calls, with their arguments
     "PinJoint": "PinJoint(a, b, anchor_a, anchor_b)",
     "Body": "Body(mass, moment)",
 }
-
-
+PYMUNK_NAMES = (*PYMUNK, "Circle", "Poly", "Space", "Vec2d")
 PYGAME = ("K_LSHIFT", "K_RSHIFT", "KMOD_SHIFT", "KMOD_CTRL", "Vector2", "key", "event", "math")
 MODULES = {  # modules that a submission may import, and how
     **{n: f"import {n}" for n in ("collections", "functools", "itertools", "math", "random")},
-    **{n: f"import {n}" for n in ("pygame", "pymunk", "numpy")},
+    **{n: f"import {n}" for n in ("numpy", "pygame", "pymunk")},
     "np": "import numpy as np",
 }
 HOMES = {  # functions and classes that students use, with their modules
@@ -462,32 +444,25 @@ HOMES = {  # functions and classes that students use, with their modules
 }
 
 
-def pymunk_names() -> Collection[str]:
-    return (*PYMUNK, "Circle", "Poly", "Space", "Vec2d")
-
-
 # ---------------------------------------------------------------- the errors
 
 TUPLE = "A tuple (x, y) is no vector and cannot be computed with: write Vector2(x, y)."
 NUMBERS = "A tuple cannot be computed with: compute with each of its numbers."
-NUMBER_NEEDED = (
-    "A number and a vector do not go together here: a number is needed, which is a coordinate, a "
-    "length or a dot product."
-)
-DIRECTION_NEEDED = (
-    "A vector and a number cannot be added or compared: multiply the number by a vector that gives "
-    "it a direction, or take a coordinate or a length."
-)
 NONE_BEFORE_DOT = "The value before the dot is None: a function without return returns None."
 NONE_AMONG = "There is a None among the values: a function without return returns None."
+IN_PYMUNK = "{0} is in the module pymunk: write pymunk.{0}."
 PARTS = "The parts of this vector cannot be changed: give the whole a new pair, (x, y)."
 CLAMP = "write max(low, min(number, high))"
 
+# A text may name the groups of its pattern.
 RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
     (r"^EOFError", "input() waits for a line, and a check types none: use the arguments."),
     (r"^(\w+)\.(\w+) is of type \w+; expected", explain_field),
     (r"^ImportError: .*partially initialized", "Two files import each other: drop one import."),
-    (r"^ImportError: cannot import name '(\w+)' from '[\w.]+' \((.+?)\)", explain_import),
+    (
+        r"^ImportError: cannot import name '(\w+)' from '[\w.]+' \((.+?)\)",
+        "{1} defines no {0}: it was renamed or removed there.",
+    ),
     (r"^BdbQuit", explain_debugger),
     (r"^SystemExit", "This ends the whole program. A function ends with return."),
     (r"^RecursionError", "A function calls itself, without an end."),
@@ -504,7 +479,7 @@ RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
     ),
     (r"^AttributeError: '([\w.]+)' object has no attribute '(\w+)'", explain_attribute),
     (r"^AttributeError: module '(math|pymunk|pygame)' has no attribute '(\w+)'", explain_module),
-    (r"^AttributeError: type object '([\w.]+)' has no attribute '(\w+)'", explain_class_attribute),
+    (rf"^AttributeError: type object .* has no attribute '({'|'.join(PYMUNK_NAMES)})'", IN_PYMUNK),
     (r"^AttributeError: can't set attribute", PARTS),
     (
         r"^Exception: Unsupported type",
@@ -526,9 +501,20 @@ RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
     (r"^TypeError: unsupported operand type.*'(tuple|list)'", explain_tuple),
     (r"^TypeError: unsupported operand type\(s\) for \^", "^ is no power in Python: write **."),
     (r"^AssertionError: .*already added", "The space has this already: add each thing once."),
-    (r"^TypeError: .*for \*\*.*Vector2'", explain_mixed),
-    (r"^TypeError: .*Vector2' and '(float|int)'", explain_mixed),
-    (r"^TypeError: .*'(?P<first>float|int)' and 'pygame.math.Vector2'", explain_mixed),
+    (
+        r"^TypeError: .*for \*\*.*Vector2'",
+        "A vector has no power: square a number, such as a length or a cross product.",
+    ),
+    (
+        r"^TypeError: .*Vector2' and '(float|int)'",
+        "A vector and a number cannot be added or compared: multiply the number by a vector that "
+        "gives it a direction, or take a coordinate or a length.",
+    ),
+    (
+        r"^TypeError: .*'(float|int)' and 'pygame.math.Vector2'",
+        "A number and a vector do not go together here: a number is needed, which is a coordinate, "
+        "a length or a dot product.",
+    ),
     (
         r"^TypeError: This operation is not supported by vectors",
         "Vectors have no < and no >. Where min, max or sorted find two equal first numbers they go "
