@@ -19,7 +19,7 @@ from grader.judge.asking import Asker, Judge, Noted, Observation
 from grader.judge.decode import Pair, Thing
 from grader.judge.failures import TRESPASS, Broke, NotYet
 from grader.judge.wall.children import Child
-from grader.judge.wall.connection import Connection, Send, ask_child
+from grader.judge.wall.connection import Connection
 from grader.protocol import (
     Argument,
     BodyValue,
@@ -59,10 +59,9 @@ class Lab(Asker):
         module: str,  # the program that the check imports
         open_child: Callable[[], Child],
         pieces: list[Piece],
-        send: Send = ask_child,
         secret: str | None = None,  # of the instructor, if there is one
     ) -> None:
-        super().__init__(Connection(module, open_child, pieces, send))
+        super().__init__(Connection(module, open_child, pieces))
         self.drawn = None if secret is None else random.Random(secret)
         self.factor = self.about(1.0)  # for all numbers of one kind in a check, such as masses
         self.module = module

@@ -28,8 +28,8 @@ from grader.source.regions import (
     MAX_SOURCE,
     Region,
     encode,
+    find_regions,
     python_files,
-    read_regions,
     read_source,
     shape_of,
 )
@@ -254,11 +254,10 @@ def find_todos(submission: Submission) -> None:
     note_remarks(submission, texts)
     for module in rubric.modules:
         main = program.definition(module, "main")
-        if main is not None:
-            file = program.paths[main.module].as_posix()
-            submission.starts[module] = Where(file, main.function.lineno if main.function else 1)
-        elif module in program.paths:
-            submission.starts[module] = Where(program.paths[module].as_posix(), 1)
+        path = program.paths.get(main.module if main else module)
+        if path is not None:
+            line = main.function.lineno if main and main.function else 1
+            submission.starts[module] = Where(path.as_posix(), line)
     for module, flaw in submission.outside.items():
         own = [todo.id for todo in rubric.todos if todo.function and todo.module == module]
         if not any(id in submission.functions for id in own):  # only code that is not Python
@@ -346,7 +345,7 @@ def note_place(
 
     A region counts only inside the function: a copy elsewhere does not run.
     """
-    region = next((each for each in read_regions(text)[0] if each.id == todo.id), None)
+    region = find_regions(text).get(todo.id)
     if function is not None:
         source = source_of(text, function)
         submission.functions[todo.id] = shape_of(source)
@@ -405,10 +404,10 @@ def find_copies(submission: Submission, ids: set[str], texts: dict[Path, str]) -
     others = [path for path in texts if path not in loaded and not path.stem.endswith("_old")]
     with_regions = (path for path in others if ids and "# END TODO" in texts[path])
     return {
-        region.id: path
+        id: path
         for path in islice(with_regions, MAX_COPIES)
-        for region in read_regions(texts[path])[0]
-        if region.id in ids and region.shape != load_stubs().get(region.id)
+        for id, region in find_regions(texts[path]).items()
+        if id in ids and region.shape != load_stubs()[id]
     }
 
 

@@ -57,7 +57,7 @@ class Recorder:
     """Records the requests of a lab: a line of a run for each."""
 
     translator: Translator
-    most_scenes: int = sys.maxsize  # further ones are not recorded
+    most_scenes: int  # further ones are not recorded
     experiment: str = ""
     scenes: list[list[Run]] = field(default_factory=lambda: [[]])
     steps: list[list[Step]] = field(default_factory=lambda: [[]])  # by scene
@@ -173,11 +173,12 @@ class RecordingLab(Lab):
         module: str,
         open_child: Callable[[], Child],
         pieces: list[Piece],
-        secret: str | None = None,
-        most_scenes: int = sys.maxsize,
+        secret: str | None,
+        most_scenes: int,
     ) -> None:
+        super().__init__(module, open_child, pieces, secret)
         self.recorder = Recorder(Translator(module), most_scenes)
-        super().__init__(module, open_child, pieces, self.recorder.send, secret)
+        self.connection.send = self.recorder.send
 
     def ran(self, text: str) -> None:
         super().ran(text)

@@ -20,7 +20,7 @@ from grader.source.regions import (
     START,
     Region,
     RegionError,
-    read_regions,
+    find_regions,
     regions_in,
     replace_regions,
     shape_of,
@@ -120,7 +120,7 @@ def keep_regions(text: str, given: str) -> str:
 def outside(text: str) -> list[str]:
     """Return the lines of a file outside its regions."""
     lines = text.splitlines()
-    for region in reversed(read_regions(text)[0]):
+    for region in reversed(find_regions(text).values()):
         del lines[region.start + 1 : region.stop]
     return lines
 
@@ -189,9 +189,9 @@ def compare_piece(
 
 def with_regions(given: tuple[str, ...], theirs: Sequence[str]) -> tuple[str, ...] | None:
     """Return a given function with the student's regions; None if a marker is missing."""
-    own = {region.id: region.lines for region in read_regions("\n".join(theirs))[0]}
-    needed = {region.id for region in read_regions("\n".join(given))[0]}
-    if not needed <= own.keys():
+    own = {id: region.lines for id, region in find_regions("\n".join(theirs)).items()}
+    needed = find_regions("\n".join(given))
+    if not needed.keys() <= own.keys():
         return None
     return tuple(replace_regions("\n".join(given) + "\n", own).splitlines()) if needed else given
 
@@ -252,7 +252,7 @@ def given_pieces(text: str) -> dict[str, Piece]:
 def with_markers(found: dict[str, Piece], text: str) -> dict[str, Piece]:
     """Return the pieces, each with a final region after its last statement."""
     lines = text.splitlines()
-    regions = sorted(read_regions(text)[0], key=lambda each: each.start)
+    regions = list(find_regions(text).values())
     code = list(accumulate(map(is_code, lines), initial=0))  # lines of code before each line
     return {name: with_last_region(piece, regions, lines, code) for name, piece in found.items()}
 

@@ -83,14 +83,19 @@ def regions_in(text: str, file: str = "") -> list[Region]:
     Raises RegionError, with the file and the line, for markers that are mistyped, nested, or do not
     pair up.
     """
-    found, wrong = read_regions(text)
+    found, wrong = pair_markers(text)
     if wrong:
         line, why = wrong[0]
         raise RegionError(f"{file}:{line}: {why}" if file else f"line {line}: {why}")
-    return found
+    return list(found.values())
 
 
-def read_regions(text: str) -> tuple[list[Region], list[tuple[int, str]]]:
+def find_regions(text: str) -> dict[str, Region]:
+    """Return the regions of a file by their ids, in order, without markers that do not pair up."""
+    return pair_markers(text)[0]
+
+
+def pair_markers(text: str) -> tuple[dict[str, Region], list[tuple[int, str]]]:
     """Return the regions of a file, and the faults of markers that do not pair up, by line."""
     found: dict[str, Region] = {}
     wrong: list[tuple[int, str]] = []
@@ -116,7 +121,7 @@ def read_regions(text: str) -> tuple[list[Region], list[tuple[int, str]]]:
             wrong.append((number + 1, f"`{line.strip()}` is no marker: {form}"))
     if opened is not None:
         wrong.append((opened[0] + 1, f"never ended: {lines[opened[0]].strip()}"))
-    return list(found.values()), wrong
+    return found, wrong
 
 
 def replace_regions(text: str, contents: dict[str, tuple[str, ...]]) -> str:

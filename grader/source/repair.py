@@ -15,8 +15,8 @@ from itertools import combinations, islice, pairwise
 
 from grader.source.definitions import statements
 from grader.source.flaws import MAX_LINE, UNDECODED, Flaw, find_flaw
-from grader.source.given import given_pieces, pieces, with_regions
-from grader.source.regions import parse, read_regions, regions_in, replace_regions
+from grader.source.given import given_pieces, indent_of, pieces, with_regions
+from grader.source.regions import find_regions, parse, replace_regions
 
 MAX_REPAIR = 4 * 1024 * 1024  # characters that are parsed to repair one submission
 MAX_FUNCTIONS = 200  # of a file
@@ -96,9 +96,9 @@ class Repairer:
 
     def _by_given_file(self, text: str, flaw: Flaw, original: str) -> Repaired | None:
         """Keep only the regions; a TODO without a region gets its stub."""
-        regions = {region.id: region.lines for region in read_regions(text)[0]}
+        regions = {id: region.lines for id, region in find_regions(text).items()}
         base = replace_regions(original, regions)
-        lost = {region.id: flaw for region in regions_in(original) if region.id not in regions}
+        lost = {id: flaw for id in find_regions(original) if id not in regions}
         again = self._flaw(base)
         if again is None:
             return Repaired(base, {OUTSIDE: flaw} | lost)
@@ -135,7 +135,7 @@ class Repairer:
     def _patches(self, file: str, text: str) -> Iterator[Patch]:
         """Yield the parts of a file that can be replaced, regions first."""
         yield from self._region_patches(text)
-        marked = {region.id for region in read_regions(text)[0]}
+        marked = find_regions(text)
         module = file.partition("/")[0].removesuffix(".py")
         for path, start, stop in islice(functions_in(text.splitlines()), MAX_FUNCTIONS):
             todo = next((t for t, p in self.given.functions.items() if p == f"{module}:{path}"), "")
@@ -153,7 +153,7 @@ class Repairer:
 
     def _region_patches(self, text: str) -> Iterator[Patch]:
         lines = text.splitlines()
-        for region in read_regions(text)[0]:
+        for region in find_regions(text).values():
             if region.id in self.given.stubs and region.lines:
                 stub = one_line(self.given.stubs[region.id])
                 new = fill_up(indent_like(stub, lines[region.start]), len(region.lines))
@@ -230,12 +230,12 @@ def move_into(patch: Patch, text: str, flaw: Flaw) -> Flaw:
 
 def flaw_in(text: str, todo: str) -> Flaw | None:
     """Return the flaw of a region, with its line in the file."""
-    for region in read_regions(text)[0]:
-        if region.id == todo:
-            own = textwrap.indent(textwrap.dedent("\n".join(region.lines)), "    ")
-            flaw = find_flaw(f"def region():\n{own}\n")
-            return flaw and replace(flaw, line=flaw.line + region.start)
-    return None
+    region = find_regions(text).get(todo)
+    if region is None:
+        return None
+    own = textwrap.indent(textwrap.dedent("\n".join(region.lines)), "    ")
+    flaw = find_flaw(f"def region():\n{own}\n")
+    return flaw and replace(flaw, line=flaw.line + region.start)
 
 
 def line_patches(text: str, flaw: Flaw) -> Iterator[Patch]:
@@ -283,7 +283,7 @@ def begins_next(line: str, indent: int) -> bool:
 
 def stands_left(line: str, indent: int) -> bool:
     text = line.strip()
-    return bool(text) and len(line) - len(line.lstrip()) <= indent and not CLOSES.match(line)
+    return bool(text) and indent_of(line) <= indent and not CLOSES.match(line)
 
 
 # ---------------------------------------------------------------- new lines
@@ -303,7 +303,7 @@ def one_line(source: str) -> str:
 
 
 def indent_like(source: str, like: str) -> str:
-    return textwrap.indent(source, like[: len(like) - len(like.lstrip())])
+    return textwrap.indent(source, like[: indent_of(like)])
 
 
 def fill_up(source: str, count: int) -> tuple[str, ...]:

@@ -14,7 +14,7 @@ from typing import TypeGuard
 
 from grader.source.definitions import find_function, statements
 from grader.source.flaws import quote
-from grader.source.regions import Region, read_regions
+from grader.source.regions import find_regions
 
 REBOUND = (
     "Line {line} gives `{name}` another value. From there on `{name}` is no longer what the "
@@ -72,9 +72,8 @@ class RegionCode:
     """
 
     def __init__(self, text: str, todo: str, path: str) -> None:
-        regions = (each for each in read_regions(text)[0] if each.id == todo)
         self.text, self.path = text, path
-        self.region: Region | None = next(regions, None)
+        self.region = find_regions(text).get(todo)
         code = textwrap.dedent("\n".join(self.region.lines)) if self.region else ""
         self.body = statements(code)
         self.before = self.region.start + 1 if self.region else 0  # lines before the first one

@@ -36,7 +36,7 @@ def so_far(child: Child, request: Request | Record) -> Asked:
 def answer_by(send: Send, patch: pytest.MonkeyPatch) -> None:
     """Let a function answer all requests of all labs, one by one."""
 
-    def connect(module: str, open_child: Callable[[], Child], pieces: list[Piece], _: Send):
+    def connect(module: str, open_child: Callable[[], Child], pieces: list[Piece]):
         return Connection(module, open_child, pieces, send)
 
     patch.setattr("grader.judge.lab.Connection", connect)

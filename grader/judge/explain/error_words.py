@@ -17,7 +17,7 @@ from grader.judge.submission import handed_out, load_given
 from grader.source.cut import list_names
 from grader.source.definitions import list_functions, statements
 from grader.source.given import given_pieces
-from grader.source.regions import read_regions
+from grader.source.regions import find_regions
 from grader.source.suspects import REBOUND
 from grader.text import join_words
 
@@ -286,8 +286,8 @@ def explain_not_callable(match: Match, error: Error) -> str:
 
 def explain_zero(match: Match, error: Error) -> str:
     """Explain a division by 0 outside the TODO's region, which gave that value."""
-    inside = (each for each in read_regions(error.text)[0] if each.id == error.todo)
-    if any(each.start < error.line - 1 < each.stop for each in inside):
+    region = find_regions(error.text).get(error.todo)
+    if region is not None and region.start < error.line - 1 < region.stop:
         return ""  # wrong answers show more
     for node in error.nodes():
         match node:

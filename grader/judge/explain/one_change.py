@@ -14,8 +14,9 @@ from itertools import chain, combinations, islice
 
 from grader.source import operators as make
 from grader.source.definitions import find_function, statements
+from grader.source.given import indent_of
 from grader.source.operators import Operator, Place, list_edits, names_in, walk_places
-from grader.source.regions import Region, regions_in, replace_regions
+from grader.source.regions import Region, find_regions, replace_regions
 
 MOST_TRIED = 150  # changes
 LONGEST, MOST_LETTERS = 80, 6000  # lines of a region, and letters; an answer has a dozen lines
@@ -58,10 +59,9 @@ def find_mend(
     """
     file, todo, path = about
     function = find_function(statements(text), path)
-    regions = [each for each in regions_in(text) if each.id == todo]
-    if function is None or len(regions) != 1:
+    region = find_regions(text).get(todo)
+    if function is None or region is None:
         return None
-    (region,) = regions
     parameters = frozenset(each.arg for each in function.args.args)
     try:
         for variant in islice(make_variants(region, parameters), MOST_TRIED):
@@ -148,7 +148,7 @@ def find_ends(tree: ast.AST) -> Iterator[int]:
 
 def put_into(text: str, region: Region, code: str) -> str:
     """Return a file's text with other code in the region."""
-    indents = [len(each) - len(each.lstrip()) for each in region.lines if each.strip()]
+    indents = [indent_of(each) for each in region.lines if each.strip()]
     new = textwrap.indent(code, " " * min(indents, default=0)).split("\n")
     return replace_regions(text, {region.id: tuple(new)})
 
