@@ -1,14 +1,12 @@
 """The lesson's experiments cost nothing, and the report mentions them."""
 
 import io
-from pathlib import Path
 
 import pytest
+from edited_trees import edit_file, grade_todos
 from rich.console import Console
 
-from grader.bank.verify import shared_worker
-from grader.judge.grade import grade
-from grader.judge.task import Options, shipped_reference
+from grader.judge.task import shipped_reference
 from grader.report.sinks.markdown import write_markdown
 from grader.report.terminal import Printer
 
@@ -35,12 +33,8 @@ SLEEPS = "An experiment: sleep_time_threshold is set, so bodies at rest may slee
 )
 def test_an_experiment_is_mentioned(hand_in, experiment: tuple[str, str, str, str], words: str):
     file, old, new, todo = experiment
-    tree: Path = hand_in("solution")
-    text = (tree / file).read_text("utf-8")
-    assert text.count(old) == 1
-    (tree / file).write_text(text.replace(old, new), "utf-8")
-    options = Options(shipped_reference(), only=frozenset({todo}), trusted=True)
-    result = grade(tree, options, shared_worker())
+    tree = edit_file(hand_in("solution"), file, old, new)
+    result = grade_todos(tree, todo, reference=shipped_reference())
     assert result.points == result.max_points
     assert result.todos[0].notes == [words]
     screen = io.StringIO()

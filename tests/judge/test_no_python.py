@@ -6,12 +6,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from edited_trees import edit_file, grade_todos
 
-from grader.bank.verify import shared_worker
-from grader.judge.grade import grade
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, load_stubs, take_in
-from grader.judge.task import KIT, Options, shipped_reference
+from grader.judge.task import KIT, shipped_reference
 from grader.source.flaws import find_bad_bytes, find_flaw
 from grader.source.regions import number_lines, read_source, regions_in
 from grader.source.repair import MAX_REPAIR, HandedOut, Repairer
@@ -32,14 +31,6 @@ def list_refused(tree: Path, copy: Path) -> tuple[set[str], set[str]]:
     for path in copy.rglob("*.py"):
         compile(path.read_bytes(), path.name, "exec")
     return set(taken.flaws), set(taken.outside)
-
-
-def edit_file(tree: Path, file: str, old: str, new: str) -> Path:
-    path = tree / file
-    text = path.read_text(encoding="utf-8")
-    assert text.count(old) >= 1
-    path.write_text(text.replace(old, new, 1), encoding="utf-8")
-    return tree
 
 
 @pytest.fixture
@@ -179,7 +170,7 @@ def test_a_todo_without_markers_is_found_by_its_function(programs, tmp_path: Pat
         lines = read_source(path).splitlines(keepends=True)
         kept = [line for line in lines if not line.strip().startswith(("# TODO", "# END TODO"))]
         path.write_text("".join(kept), encoding="utf-8")
-    edit_file(tree, "mini_engine/joints.py", "self.length", "self.(length")
+    edit_file(tree, "mini_engine/joints.py", "self.length = (", "self.(length = (")
     edit_file(tree, SOLVER, IN_2, "total += cross(ra, axis ** 2")
     todos, outside = list_refused(tree, tmp_path / "copy")
     assert todos == {"2"} and outside == {"mini_engine"}
@@ -220,8 +211,7 @@ def test_repair_of_a_file_is_limited():
 )
 def test_a_broken_todo_costs_its_own_points(hand_in, reference: Path | None):
     tree = edit_file(hand_in("solution"), SOLVER, IN_2, "total += cross(ra, axis ** 2")
-    options = Options(reference, only=frozenset("25"), trusted=True)
-    result = grade(tree, options, shared_worker())
+    result = grade_todos(tree, *"25", reference=reference)
     assert {todo.id: todo.state for todo in result.todos} == {"2": "error", "5": "passed"}
     broken = result.todos[0].checks
     assert {check.points for check in broken} == {0} and len({check.got for check in broken}) == 1
@@ -235,8 +225,7 @@ def test_code_outside_of_all_todos_costs_the_whole_alone(hand_in):
     tree = edit_file(
         hand_in("solution"), SOLVER, "slip = relative_velocity(a, b, ra, rb)", "slip = ("
     )
-    only = frozenset({"4", "8a", "whole"})
-    result = grade(tree, Options(shipped_reference(), only=only, trusted=True), shared_worker())
+    result = grade_todos(tree, "4", "8a", "whole", reference=shipped_reference())
     assert {todo.id for todo in result.todos if todo.state == "passed"} == {"4", "8a"}
     whole = next(todo for todo in result.todos if todo.id == "whole")
     assert 0 < whole.points < whole.max_points

@@ -4,11 +4,10 @@ import re
 import shutil
 from pathlib import Path
 
-from grader.bank.verify import shared_worker
-from grader.judge.grade import grade
+from edited_trees import grade_todos, set_regions
+
 from grader.judge.result import Result
-from grader.judge.task import KIT, Options, shipped_reference
-from grader.source.regions import read_source, replace_regions
+from grader.judge.task import KIT, shipped_reference
 
 BRANCHES = ["if x == 0:\n        return x, v"]
 BRANCHES += [f"elif x == {number}:\n        return x, v" for number in range(1, 1500)]
@@ -22,11 +21,8 @@ ODD = {
 def grade_code(folder: Path, regions: dict[str, str]) -> Result:
     """Grade the solution with other regions; its prints are read, too."""
     shutil.copytree(KIT / "solution", folder, ignore=shutil.ignore_patterns("__pycache__"))
-    lines = {todo: tuple(code.split("\n")) for todo, code in regions.items()}
-    file = folder / "integrators.py"
-    file.write_text(replace_regions(read_source(file), lines), encoding="utf-8")
-    only = frozenset({*regions, "5"})
-    return grade(folder, Options(shipped_reference(), only=only, trusted=True), shared_worker())
+    set_regions(folder, "integrators.py", regions)
+    return grade_todos(folder, *regions, "5", reference=shipped_reference())
 
 
 def test_odd_code_costs_its_own_points_alone(tmp_path: Path) -> None:

@@ -1,34 +1,26 @@
 """Test that running several checks at a time changes no result."""
 
-import shutil
 from dataclasses import replace
-from pathlib import Path
 
 import msgspec
 import pytest
+from conftest import HandIn
+from edited_trees import set_regions
 
 from grader.bank.verify import shared_worker
 from grader.judge.budget import Budget
 from grader.judge.grade import grade
 from grader.judge.result import CheckResult
-from grader.judge.task import KIT, Options, shipped_reference
-from grader.source.regions import replace_regions
+from grader.judge.task import Options, shipped_reference
 
 WRONG = "        keep_vel = keep_omega = 1 - self.linear_damping * dt"
-ENDLESS = "        while True:", "            pass"
-
-
-def break_todo_5(folder: Path, code: tuple[str, ...]) -> Path:
-    """Return the solution with other code in TODO 5."""
-    shutil.copytree(KIT / "solution", folder, ignore=shutil.ignore_patterns("notebooks"))
-    path = folder / "mini_engine" / "world.py"
-    path.write_text(replace_regions(path.read_text("utf-8"), {"5": code}), "utf-8")
-    return folder
+ENDLESS = "        while True:\n            pass"
+WORLD = "mini_engine/world.py"
 
 
 @pytest.mark.parametrize("jobs", [2, pytest.param(3, marks=pytest.mark.soak)])
-def test_results_are_the_same_and_come_in_order(tmp_path: Path, jobs: int):
-    tree = break_todo_5(tmp_path / "tree", (WRONG,))
+def test_results_are_the_same_and_come_in_order(hand_in: HandIn, jobs: int):
+    tree = set_regions(hand_in("solution"), WORLD, {"5": WRONG})
     told: dict[int, list[CheckResult]] = {1: [], jobs: []}
     results = [
         grade(
@@ -51,8 +43,8 @@ def test_results_are_the_same_and_come_in_order(tmp_path: Path, jobs: int):
 
 
 @pytest.mark.soak
-def test_a_todo_has_the_same_time_beside_others(tmp_path: Path):
-    tree = break_todo_5(tmp_path / "tree", ENDLESS)
+def test_a_todo_has_the_same_time_beside_others(hand_in: HandIn):
+    tree = set_regions(hand_in("solution"), WORLD, {"5": ENDLESS})
     alone = Options(shipped_reference(), only=frozenset({"5"}), trusted=True)
     first, second = (grade(tree, options) for options in (alone, replace(alone, jobs=3)))
     assert first == second and first.points == 0

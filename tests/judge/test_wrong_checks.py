@@ -30,15 +30,13 @@ WRONG = {
 RIGHT = '(end,) = lab.integrate("rk4", (1.0, 0.0), 0.1, [0.0])'
 
 
-def grade_check(
-    body: str, tree: Path, patched: pytest.MonkeyPatch, function: str = "integrators:rk4"
-) -> str:
+def grade_check(body: str, tree: Path, patched: pytest.MonkeyPatch) -> str:
     """Return the state of the check, or the sentence that refuses it."""
     checks = ModuleType("checks")
     exec(HEAD + body, vars(checks))
     patched.setattr(jobs, "load_checks", lambda todo: checks)
-    id, module = "8c" if "rk4" in function else "2", function.partition(":")[0]
-    todo = Todo(id, "Mine", module, function, "mine", [Check("mine", 1, "unit")])
+    check = Check("mine", 1, "unit")
+    todo = Todo("8c", "Mine", "integrators", "integrators:rk4", "mine", [check])
     options = Options(shipped_reference(), trusted=True)
     try:
         with grading(tree, options, shared_worker(), Rubric([todo])) as run:

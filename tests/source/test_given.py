@@ -6,15 +6,14 @@ from types import SimpleNamespace
 import pytest
 from command_line import run_grader
 from counting import count_calls
+from edited_trees import edit_file, grade_todos, set_regions
 
-from grader.bank.verify import shared_worker
 from grader.cli.restore import find_changes
 from grader.judge.explain.blame import MOST_RUNS, CauseSearch
 from grader.judge.failures import NotYet
-from grader.judge.grade import grade
 from grader.judge.result import CheckResult
 from grader.judge.submission import load_given
-from grader.judge.task import KIT, Options, shipped_reference
+from grader.judge.task import KIT, shipped_reference
 from grader.judge.wording import list_reasons
 from grader.source.definitions import statements
 from grader.source.given import (
@@ -25,16 +24,10 @@ from grader.source.given import (
     undo_changes,
     with_markers,
 )
-from grader.source.regions import regions_in, replace_regions
+from grader.source.regions import regions_in
 
 SOLVER, CONSTANTS = "mini_engine/solver.py", "mini_engine/constants.py"
 DOUBLED = (SOLVER, "    c.jn = total\n", "    c.jn += total\n")
-
-
-def change(tree: Path, file: str, old: str, new: str) -> None:
-    text = (tree / file).read_text(encoding="utf-8")
-    assert text.count(old) == 1
-    (tree / file).write_text(text.replace(old, new), encoding="utf-8")
 
 
 def restore(tree: Path, *names: str) -> str:
@@ -139,31 +132,19 @@ def test_another_change_in_a_file_says_nothing_of_its_todos():
 # ---------------------------------------------------------------- effects on checks
 
 
-def list_words(
-    tree: Path, *todos: str, reference: Path | None = None
-) -> dict[str, list[dict[str, str]]]:
-    """Return the named lines of each failed check, by TODO."""
-    options = Options(reference=reference, only=frozenset(todos), trusted=True)
-    result = grade(tree, options, shared_worker())
-    return {
-        todo.id: [dict(list_reasons(check, ", TODO")) for check in todo.failed]
-        for todo in result.todos
-    }
-
-
-def list_remarks(tree: Path, todo: str, reference: Path | None = None) -> list[CheckResult]:
-    """Return the checks of a passed TODO that still have a remark."""
-    options = Options(reference=reference, only=frozenset({todo}), trusted=True)
-    (result,) = grade(tree, options, shared_worker()).todos
-    assert result.state == "passed" and result.points == result.max_points
-    return [check for check in result.checks if check.meaning]
+def list_words(tree: Path, todo: str) -> list[dict[str, str]]:
+    """Return the named lines of each failed check of a TODO."""
+    (result,) = grade_todos(tree, todo).todos
+    return [dict(list_reasons(check, ", TODO")) for check in result.failed]
 
 
 def test_a_todo_keeps_its_points_where_given_code_is_to_blame(hand_in):
     tree = hand_in("solution")
-    change(tree, *DOUBLED)
-    change(tree, CONSTANTS, "MAX_BALLS = 40", "MAX_BALLS = 50")  # this does nothing here
-    mended = list_remarks(tree, "4")
+    edit_file(tree, *DOUBLED)
+    edit_file(tree, CONSTANTS, "MAX_BALLS = 40", "MAX_BALLS = 50")  # this does nothing here
+    (result,) = grade_todos(tree, "4").todos
+    assert result.state == "passed" and result.points == result.max_points
+    mended = [check for check in result.checks if check.meaning]
     assert len(mended) >= 4
     for each in mended:
         assert "`c.jn += total`, was `c.jn = total`" in each.meaning
@@ -175,12 +156,10 @@ def test_a_todo_that_is_done_in_given_code_earns_nothing_by_what_is_put_back(han
     """The region does nothing, and the damping of the step is in the code around it."""
     tree = hand_in("solution")
     world = "mini_engine/world.py"
-    text = (tree / world).read_text(encoding="utf-8")
-    empty = "        keep_vel = 1.0 + 0.0\n        keep_omega = 1.0 - 0.0".splitlines()
-    (tree / world).write_text(replace_regions(text, {"5": tuple(empty)}), encoding="utf-8")
-    change(tree, world, "        self.move(dt)\n", "        self.move(dt * 1.01)\n")
-    only = frozenset({"5"})
-    (todo,) = grade(tree, Options(shipped_reference(), only=only), shared_worker()).todos
+    empty = "        keep_vel = 1.0 + 0.0\n        keep_omega = 1.0 - 0.0"
+    set_regions(tree, world, {"5": empty})
+    edit_file(tree, world, "        self.move(dt)\n", "        self.move(dt * 1.01)\n")
+    (todo,) = grade_todos(tree, "5", reference=shipped_reference()).todos
     assert todo.points == 0
 
 
@@ -190,16 +169,15 @@ CALLS = "    x, v = explicit_euler(x, v, dt, accel)\n    return x, v"  # known: 
 
 def integrators(tree: Path, region: str, given: str) -> None:
     """Write TODO 8a so that it calls changed given code."""
-    path = tree / "integrators.py"
-    text = path.read_text(encoding="utf-8").replace(EULER, given, 1)
-    path.write_text(replace_regions(text, {"8a": tuple(region.splitlines())}), encoding="utf-8")
+    edit_file(tree, "integrators.py", EULER, given)
+    set_regions(tree, "integrators.py", {"8a": region})
 
 
 def test_a_mistake_beside_changed_given_code_is_named_as_well(hand_in):
     """The code to restore comes first, then the known mistake that remains."""
     tree = hand_in("solution")
     integrators(tree, CALLS, "return x + v, v + accel(x) * dt")
-    failed = list_words(tree, "8a")["8a"]
+    failed = list_words(tree, "8a")
     first = "puts it back: do that first. x moves with the old"
     assert any(first in each["Meaning"] for each in failed)
     assert all("x moves with the old velocity" in each["Meaning"] for each in failed)
@@ -207,9 +185,9 @@ def test_a_mistake_beside_changed_given_code_is_named_as_well(hand_in):
 
 def test_given_code_that_has_nothing_to_do_with_it_is_not_named(hand_in):
     tree = hand_in("starter")
-    change(tree, CONSTANTS, "MAX_BALLS = 40", "MAX_BALLS = 50")
+    edit_file(tree, CONSTANTS, "MAX_BALLS = 40", "MAX_BALLS = 50")
     integrators(tree, "    return x, v", EULER)
-    failed = list_words(tree, "8a")["8a"]
+    failed = list_words(tree, "8a")
     assert failed and not any("Given code" in each.get("Meaning", "") for each in failed)
     assert all(each["Look at"].endswith(", TODO") for each in failed)
 
@@ -243,7 +221,7 @@ def test_the_number_of_runs_that_look_for_a_cause_is_limited():
 
 def test_a_function_is_restored_and_a_copy_of_the_file_stays(hand_in):
     tree = hand_in("solution")
-    change(tree, *DOUBLED)
+    edit_file(tree, *DOUBLED)
     changed = (tree / SOLVER).read_bytes()
     out = restore(tree, "solve_normal")
     assert f"{SOLVER}: solve_normal is as it was handed out" in out
@@ -282,7 +260,7 @@ def test_a_function_that_is_gone_comes_back_and_regions_stay(hand_in):
 
 def test_an_unknown_name_is_refused_and_nothing_is_written(hand_in):
     tree = hand_in("solution")
-    change(tree, *DOUBLED)
+    edit_file(tree, *DOUBLED)
     before = {path: path.read_bytes() for path in tree.rglob("*.py")}
     out = restore(tree, "nothing_of_the_kind")
     done = run_grader("check", tree, "--restore=nothing_of_the_kind")
