@@ -81,13 +81,16 @@ class Friction(Effect):
 
     def solve(self, h: float) -> None:
         """Apply friction to contacts that press now; in relax alone, a pile would never rest."""
+        self.rub_all(h)
+
+    def relax(self, h: float) -> None:
+        self.rub_all(h)
+
+    def rub_all(self, h: float) -> None:
         for group in self.groups:
             self.rub(group, group.in_turn, h)
             for tie in group.ties:
                 tie.solve(self.rub, group, h)
-
-    def relax(self, h: float) -> None:
-        self.solve(h)
 
     def rub(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Slow the slip of each contact, as far as its normal impulse allows."""
