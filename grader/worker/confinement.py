@@ -47,16 +47,8 @@ CLONE_NEWPID, CLONE_NEWNET, CLONE_NEWUTS = 0x20000000, 0x40000000, 0x04000000
 EXECUTE, WRITE_FILE, READ_FILE, READ_DIR = 1 << 0, 1 << 1, 1 << 2, 1 << 3
 READ_ONLY = EXECUTE | READ_FILE | READ_DIR
 EVERY_RIGHT = (1 << 16) - 1
-FILE_RIGHTS = {
-    1: 13,
-    2: 14,
-    3: 15,
-    4: 15,
-    5: 16,
-}  # number of rights, by version of Landlock
-ON_FILES = (
-    EXECUTE | WRITE_FILE | READ_FILE | 1 << 14 | 1 << 15
-)  # the rights that a rule on a plain file may have
+FILE_RIGHTS = {1: 13, 2: 14, 3: 15, 4: 15, 5: 16}  # their number, by version of Landlock
+ON_FILES = EXECUTE | WRITE_FILE | READ_FILE | 1 << 14 | 1 << 15  # rights of a rule on a plain file
 TCP_BIND_AND_CONNECT = 0b11
 SCOPE_SOCKETS_AND_SIGNALS = 0b11
 
