@@ -82,8 +82,10 @@ class Bounds:
             self.low, self.high = self.left - hx - margin, self.right + hx
             self.side_low, self.side_high = self.top - hy - margin, self.bottom + hy
 
-    def wins_tie(self, other: "Bounds") -> bool:
-        """Return whether the sweep meets this box before another at the same position."""
+    def precedes(self, other: "Bounds") -> bool:
+        """Return whether the sweep meets this box before another."""
+        if self.low != other.low:
+            return self.low < other.low
         if self.side_low != other.side_low:
             return self.side_low < other.side_low
         return self.place < other.place
@@ -101,15 +103,15 @@ class BroadPhase:
 
     The sweep goes along the axis on which moving bodies are spread wider. A new box can
     only be near boxes that began before and have not ended. Lanes along the sweep leave few of
-    these to compare. Boxes that have ended are dropped now and then, which costs less than dropping
-    each at once.
+    these to compare. A lane is at least as wide as the mean room, or long rooms would cross many.
+    Boxes that have ended are dropped now and then, which costs less than dropping each at once.
     """
 
     def __init__(self) -> None:
         self.bounds: list[Bounds] = []  # of all bodies, in the order of the last sweep
         self.moving: list[Bounds] = []  # of those that can move
         self.widest = 0.0  # px, half of the widest that can move
-        self.lane = 0.0  # px, the width of a lane
+        self.narrowest = 0.0  # px, the least width of a lane
         self.pairs: list[Pair] = []
         self.is_stale = True
         self.is_sorted = False
@@ -123,7 +125,7 @@ class BroadPhase:
         self.bounds = [Bounds(body, place) for place, body in enumerate(bodies)]
         self.moving = [b for b in self.bounds if not b.body.idle or b.body.is_kinematic]
         halves = [max(b.body.hx, b.body.hy) for b in self.moving]
-        self.widest, self.lane = max(halves), LANE * sum(halves) / len(halves)
+        self.widest, self.narrowest = max(halves), LANE * sum(halves) / len(halves)
         self.is_stale, self.is_sorted = True, False
 
     def find_leavers(self, dt: float) -> list[Bounds]:
@@ -179,10 +181,14 @@ class BroadPhase:
         for one in self.bounds:
             one.near = False
             one.update_box(upright, margin)
+        breadth = 0.0  # px, the sum over all rooms
+        for one in self.moving:
+            breadth += one.right - one.left if upright else one.bottom - one.top
+        lane = max(self.narrowest, breadth / len(self.moving))
         self.sort(upright)
         if upright:
             left, right, top, bottom = top, bottom, left, right
-        count = min(int((bottom - top) / self.lane), int(sqrt(len(self.bounds)))) + 1
+        count = min(int((bottom - top) / lane), int(sqrt(len(self.bounds)))) + 1
         lanes: list[list[Bounds]] = [[] for _ in range(count + 1)]
         per_px = count / (bottom - top)
         pairs: list[Pair] = []
@@ -197,10 +203,10 @@ class BroadPhase:
             last = int((side_high - top) * per_px) if side_high < bottom else count
             one.first_lane = first
             for index in range(first, last + 1):
-                lane = lanes[index]
-                if len(lane) > FEW:
-                    lane = lanes[index] = [other for other in lane if other.high > low]
-                for other in lane:
+                met = lanes[index]
+                if len(met) > FEW:
+                    met = lanes[index] = [other for other in met if other.high > low]
+                for other in met:
                     if (
                         other.high > low
                         and other.side_low < side_high
@@ -211,14 +217,11 @@ class BroadPhase:
                         if a.idle and b.idle:
                             continue
                         one.near = other.near = True
-                        if spare:  # reused, which is cheaper than a new one
-                            pair = spare.pop()
-                            pair.a, pair.b = (a, b) if a.id > b.id else (b, a)
-                            pair.contact = None
-                            pairs.append(pair)
-                        else:
-                            pairs.append(Pair(a, b) if a.id > b.id else Pair(b, a))
-                lane.append(one)
+                        pair = spare.pop() if spare else Pair(a, b)  # reuse is cheaper
+                        pair.a, pair.b = (a, b) if a.id > b.id else (b, a)
+                        pair.contact = None
+                        pairs.append(pair)
+                met.append(one)
         return pairs
 
     def find_hull(self, edge: float) -> tuple[float, float, float, float]:
@@ -248,14 +251,10 @@ class BroadPhase:
             self.is_sorted, self.upright = True, upright
         highest = -inf
         for at, one in enumerate(bounds):
-            low = one.low
-            if low > highest:
-                highest = low
+            if one.low > highest:
+                highest = one.low
                 continue
-            while at > 0:
-                before = bounds[at - 1]
-                if low > before.low or (low == before.low and before.wins_tie(one)):
-                    break
-                bounds[at] = before
+            while at > 0 and one.precedes(bounds[at - 1]):
+                bounds[at] = bounds[at - 1]
                 at -= 1
             bounds[at] = one

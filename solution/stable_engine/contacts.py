@@ -182,9 +182,9 @@ class Contacts(Effect):
             else:
                 statics.append(c)
         self.touching, self.balls.contacts, self.statics.contacts = touching, balls, statics
-        was_idle = self.is_idle()
+        was_idle = not self.groups
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
-        if self.is_idle() != was_idle:
+        if (not self.groups) != was_idle:
             self.world.update_hooks()
         self.broad_phase.add_looks(len(self.broad_phase.pairs) - len(touching), dt)
         if self.unpaired:
@@ -379,9 +379,10 @@ class Contacts(Effect):
         self.begun = []
         self.flown, self.last_dt = {}, h * self.world.substep_count
         for one in self.broad_phase.find_leavers(self.last_dt):
-            if not one.near:
-                one.find_start(self.last_dt)
-            self.stop_core(one.body, h)
+            if self.world.statics:
+                if not one.near:
+                    one.find_start(self.last_dt)
+                self.stop_core(one.body, h)
         for body in self.beside_static:
             self.stop_core(body, h)
         for _ in range(CORNER_PASSES if self.statics.contacts else 0):

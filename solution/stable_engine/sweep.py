@@ -28,7 +28,8 @@ def stop_at_first_hit(
     x, y = start
     dx, dy = body.x - x, body.y - y
     fraction = first_hit(statics, radius, x, y, dx, dy)
-    fraction = min(fraction + overlap / hypot(dx, dy), 1.0)
+    if fraction < NO_HIT:
+        fraction = min(fraction + overlap / hypot(dx, dy), 1.0)
     if fraction == 1:
         return 1.0
     body.x, body.y = x + dx * fraction, y + dy * fraction
@@ -70,8 +71,10 @@ def first_hit(
     The time is a fraction of the step: 0 at its start, 1 at its end.
     """
     fraction = NO_HIT
+    reach_x, reach_y = abs(dx) + radius, abs(dy) + radius
     for s in statics:
-        fraction = min(fraction, hit_body(s, radius, x - s.x, y - s.y, dx, dy))
+        if abs(x - s.x) <= s.hx + reach_x and abs(y - s.y) <= s.hy + reach_y:
+            fraction = min(fraction, hit_body(s, radius, x - s.x, y - s.y, dx, dy))
     return fraction
 
 
