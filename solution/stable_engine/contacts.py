@@ -7,7 +7,7 @@ from .body import Body
 from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, the_way_it_came
 from .effect import Effect, WorldState
-from .order import Group, give_places, in_same_place, put_in_order
+from .order import Group, give_places, in_same_place, put_in_order, solve_ties
 from .soft import SAME_DIRECTION, Pace, softness
 from .sweep import NO_HIT, first_hit, moment_of_touch, stop_at_first_hit
 from .validate import refuse
@@ -278,10 +278,11 @@ class Contacts(Effect):
             g, grain = self.world.g, self.touching_gap
             if give_places(self.begun, g, grain, self.beginnings):
                 self.is_mirrored = True
-        for group in self.groups:
-            group.in_turn, group.ties = group.contacts, []
         if self.is_mirrored:
             self.is_mirrored = any([put_in_order(group) for group in self.groups])
+            return
+        for group in self.groups:
+            group.in_turn, group.ties, group.ordered = group.contacts, [], []
 
     def keep_forces(self, h: float) -> None:
         """Scale the kept impulses to a substep of h seconds, so that the forces stay the same."""
@@ -307,8 +308,7 @@ class Contacts(Effect):
     def solve(self, h: float) -> None:
         for group in self.groups:
             self.push(group, group.in_turn, h)
-            for tie in group.ties:
-                tie.solve(self.push, group, h)
+            solve_ties(self.push, group, h)
 
     def push(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Push overlapping bodies apart, and stop those that would overlap after the move."""
@@ -341,8 +341,7 @@ class Contacts(Effect):
     def relax(self, h: float) -> None:
         for group in self.groups:
             self.stop(group, group.in_turn, h)
-            for tie in group.ties:
-                tie.solve(self.stop, group, h)
+            solve_ties(self.stop, group, h)
 
     def stop(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Stop bodies that still come together, and take back the speed of a push."""

@@ -16,13 +16,18 @@ LEFT = 1e-9  # share of an impulse that is nothing but rounding
 class Group:
     """Contacts that are solved alike: ball against ball, or ball against static body."""
 
-    __slots__ = ("bias_rate", "contacts", "in_turn", "mass_scale", "moves_b", "ties")
+    __slots__ = (
+        *("bias_rate", "contacts", "in_turn", "is_mirrored", "mass_scale", "moves_b", "ordered"),
+        "ties",
+    )
 
     def __init__(self, moves_b: bool) -> None:
         self.moves_b = moves_b  # whether an impulse moves B
         self.contacts: list[Contact] = []
         self.in_turn: list[Contact] = []  # those of them that are solved one after the other
         self.ties: list[Tie] = []  # the others
+        self.ordered: list[Contact] = []  # the contacts when they were put in order
+        self.is_mirrored = False  # whether any two of them had the same place then
         self.bias_rate = self.mass_scale = 0.0  # see softness
 
 
@@ -43,10 +48,19 @@ class Tie:
     def solve(self, stage: Stage, group: Group, h: float) -> None:
         """Solve each contact as if it were alone, and add up a share of what that changes.
 
-        A contact that lets go does so wholly: what is left of an impulse would pull.
+        A contact that lets go does so wholly: what is left of an impulse would pull. Most often
+        none presses, as of a ball between two walls. Then one pass shows that, and changes nothing.
         """
         changes = []
         before = [(ball, ball.vx, ball.vy, ball.w) for ball in self.balls]
+        if not self.presses():
+            stage(group, self.contacts, h)
+            if not self.presses():
+                return
+            for ball, vx, vy, w in before:
+                ball.vx, ball.vy, ball.w = vx, vy, w
+            for c in self.contacts:
+                c.jn = c.jt = 0.0
         for c in self.contacts:
             jn, jt = c.jn, c.jt
             stage(group, [c], h)
@@ -61,6 +75,18 @@ class Tie:
             ball.vx += vx
             ball.vy += vy
             ball.w += w
+
+    def presses(self) -> bool:
+        """Return whether any of the contacts has an impulse."""
+        for c in self.contacts:
+            if c.jn or c.jt:
+                return True
+        return False
+
+
+def solve_ties(stage: Stage, group: Group, h: float) -> None:
+    for tie in group.ties:
+        tie.solve(stage, group, h)
 
 
 def give_places(
@@ -96,14 +122,17 @@ def give_places(
 
 def put_in_order(group: Group) -> bool:
     """Put the contacts of a group in order. Return whether any two have the same place."""
-    group.in_turn = []
+    if group.contacts == group.ordered:
+        return group.is_mirrored
+    group.ordered, group.in_turn, group.ties = group.contacts, [], []
     places = in_same_place(group.contacts)
     for same in places:
         if len(same) > 1 and share_of_each(same) < 1:
             group.ties.append(Tie(same))
         else:
             group.in_turn += same
-    return len(places) < len(group.contacts)
+    group.is_mirrored = len(places) < len(group.contacts)
+    return group.is_mirrored
 
 
 def in_same_place(contacts: list[Contact]) -> list[list[Contact]]:
