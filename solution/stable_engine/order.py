@@ -78,10 +78,7 @@ class Tie:
 
     def presses(self) -> bool:
         """Return whether any of the contacts has an impulse."""
-        for c in self.contacts:
-            if c.jn or c.jt:
-                return True
-        return False
+        return any([c.jn or c.jt for c in self.contacts])
 
 
 def solve_ties(stage: Stage, group: Group, h: float) -> None:
