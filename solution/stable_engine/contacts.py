@@ -279,7 +279,7 @@ class Contacts(Effect):
             if give_places(self.begun, g, grain, self.beginnings):
                 self.is_mirrored = True
         if self.is_mirrored:
-            self.is_mirrored = any([put_in_order(group) for group in self.groups])
+            self.is_mirrored = any([put_in_order(each, self.touching_gap) for each in self.groups])
             return
         for group in self.groups:
             group.in_turn, group.ties, group.ordered = group.contacts, [], []

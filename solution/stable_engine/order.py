@@ -40,27 +40,19 @@ class Tie:
     They are solved at once. One after the other, the first one would have to do more than the last.
     """
 
-    def __init__(self, contacts: list[Contact]) -> None:
+    def __init__(self, contacts: list[Contact], grain: float) -> None:
         self.contacts = contacts
+        self.least = grain / 4  # px and px/s; less counts as 0
         self.balls = list(dict.fromkeys(balls_of(contacts)))
         self.share = share_of_each(contacts)
 
     def solve(self, stage: Stage, group: Group, h: float) -> None:
         """Solve each contact as if it were alone, and add up a share of what that changes.
 
-        A contact that lets go does so wholly: what is left of an impulse would pull. Most often
-        none presses, as of a ball between two walls. Then one pass shows that, and changes nothing.
+        A contact that lets go does so wholly: what is left of an impulse would pull.
         """
         changes = []
         before = [(ball, ball.vx, ball.vy, ball.w) for ball in self.balls]
-        if not self.presses():
-            stage(group, self.contacts, h)
-            if not self.presses():
-                return
-            for ball, vx, vy, w in before:
-                ball.vx, ball.vy, ball.w = vx, vy, w
-            for c in self.contacts:
-                c.jn = c.jt = 0.0
         for c in self.contacts:
             jn, jt = c.jn, c.jt
             stage(group, [c], h)
@@ -76,14 +68,25 @@ class Tie:
             ball.vy += vy
             ball.w += w
 
-    def presses(self) -> bool:
-        """Return whether any of the contacts has an impulse."""
-        return any([c.jn or c.jt for c in self.contacts])
+    def is_idle(self, group: Group) -> bool:
+        """Return whether no contact presses or would: most ties are of a ball between two walls."""
+        least = -self.least
+        for c in self.contacts:
+            if c.jn or c.jt:
+                return False
+            a, b, nx, ny = c.a, c.b, c.nx, c.ny
+            if (b.vx - a.vx) * nx + (b.vy - a.vy) * ny < least:
+                return False
+            gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
+            if group.bias_rate * gap < least:
+                return False
+        return True
 
 
 def solve_ties(stage: Stage, group: Group, h: float) -> None:
     for tie in group.ties:
-        tie.solve(stage, group, h)
+        if not tie.is_idle(group):
+            tie.solve(stage, group, h)
 
 
 def give_places(
@@ -117,7 +120,7 @@ def give_places(
     return len(contacts) > 1 and len({c.place for c in contacts}) < len(contacts)
 
 
-def put_in_order(group: Group) -> bool:
+def put_in_order(group: Group, grain: float) -> bool:
     """Put the contacts of a group in order. Return whether any two have the same place."""
     if group.contacts == group.ordered:
         return group.is_mirrored
@@ -125,7 +128,7 @@ def put_in_order(group: Group) -> bool:
     places = in_same_place(group.contacts)
     for same in places:
         if len(same) > 1 and share_of_each(same) < 1:
-            group.ties.append(Tie(same))
+            group.ties.append(Tie(same, grain))
         else:
             group.in_turn += same
     group.is_mirrored = len(places) < len(group.contacts)
