@@ -91,7 +91,7 @@ def read_tokens(source: str) -> list[Token]:
 
 
 def list_runs(tokens: list[Token]) -> Iterator[tuple[int, int, int]]:
-    """Return each run as a number, with the first and last of its lines."""
+    """Return each RUN tokens in a row: their hash, first and last line."""
     words = [word for word, _ in tokens]
     for at in range(len(tokens) - RUN + 1):
         run = zlib.crc32("\0".join(words[at : at + RUN]).encode())

@@ -66,7 +66,7 @@ class Intake:
 
 @dataclass(frozen=True)
 class Upload:
-    """A file or folder of a class, with its owner by its name."""
+    """A handed-in file or folder, and whose it is by its name."""
 
     path: Path
     name: str  # as of `Work`

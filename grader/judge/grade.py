@@ -85,7 +85,7 @@ class Grading(Task):
     loop: "CheckLoop" = field(init=False)  # once it runs
 
     def run(self) -> Result:
-        """Run the checks, give back points that changed given code cost, and word the failures."""
+        """Run the checks, return points lost to edits of given code, and word the failures."""
         if self.options.isolation == "none":
             load_everything()
         # hypothesis takes 0.1 s to load: meanwhile, the worker loads and compiles the submission.

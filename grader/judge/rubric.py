@@ -35,7 +35,7 @@ class Todo(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def path(self) -> str:
-        """Return the function's name inside its module, as World.step; empty for the whole."""
+        """Return the function's name, such as World.step; empty for the TODO `whole`."""
         return self.function.partition(":")[2]
 
     @property

@@ -122,7 +122,7 @@ class Replays:
 
 @cache
 def load_expected() -> ExpectedRuns:
-    """Load the right runs of a student's copy of the checks; the kit itself has none."""
+    """Load the recorded right runs; only students' copies of the kit have them."""
     if not RECORDED.exists():
         return {}
     return msgspec.json.decode(RECORDED.read_bytes(), type=ExpectedRuns)

@@ -76,7 +76,7 @@ class Translator:
         self.makers.clear()
 
     def translate(self, request: Request, reply: Reply) -> list[str]:
-        """Return the code of a request; `recalled` is code that must come before it."""
+        """Return a request's code; set `recalled` to code that must come before it."""
         self.recalled = []
         code = self._translate(request, reply)
         made = list_refs(reply.value) if isinstance(reply, Returned) else []

@@ -113,9 +113,9 @@ class Impacts:
         return ago
 
     def look_back(self, c: Contact, since: float) -> tuple[float, float, float]:
-        """Return since (s) and the normal of two round bodies if they just touched so long ago.
+        """Return `since` (s) and the normal if two round bodies began to touch then, else zeros.
 
-        Else return 0 first. One of them was hit then, and rounding would decide whether they did.
+        One of them was hit then, so this has slack: rounding would decide it.
         """
         a, b = c.a, c.b
         vx, vy = b.vx - a.vx, b.vy - a.vy

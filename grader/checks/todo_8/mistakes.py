@@ -250,7 +250,7 @@ def take_samples(
 ) -> tuple[list[State], list[float]]:
     """Return the four samples, and the positions at which accel is called.
 
-    `speeds` replace the sources of their velocities.
+    `speeds` replaces `sources` for the velocities.
     """
     samples, places = [(v, accel(x))], [x]
     for (source, share), (other, reach) in zip(sources, speeds or sources, strict=True):

@@ -211,8 +211,7 @@ def is_plain(ring: list[tuple[int, ...]]) -> bool:
 
 
 def count_changes(before: list[tuple[int, ...]], after: list[tuple[int, ...]]) -> int:
-    """Count the samples of a ring that differ from all neighbours before: rounding may shift by
-    one."""
+    """Count samples unlike the old ones at their place and beside it: rounding may shift by one."""
     near = zip(before[-1:] + before[:-1], before, before[1:] + before[:1], strict=True)
     return sum(
         all(differ(now, each) for each in some) for now, some in zip(after, near, strict=True)

@@ -67,8 +67,7 @@ class Gradescope(Lms):
         return (folder / METADATA).is_file()
 
     def is_whole_export(self, folder: Path) -> bool:
-        """Return whether it is an export, not a submission with such a file, by the folder's
-        name."""
+        """Return whether its name is an export's too: a submission may hold such a file."""
         return self.is_export(folder) and bool(re.fullmatch(r"assignment_\d+_export", folder.name))
 
     def read_export(self, folder: Path, people: ClassList, intake: Intake) -> Iterator[Work]:

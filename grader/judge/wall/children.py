@@ -294,10 +294,10 @@ def explain(cpu_seconds: int, code: int | None) -> str:
 
 
 class WarmWorker:
-    """A process with everything loaded that forks a child per check.
+    """A process that loads everything once, then forks a child per check.
 
-    It loads while the judge does other work, until the first child is opened. Workers that serve at
-    the same time are forks of one process, which loads once. Layers of isolation in `without` are
+    It loads while the judge does other work; opening the first child waits for it. Workers started
+    together are forks of one loaded process. Layers of isolation in `without` are
     left out, to test the others.
     """
 
@@ -375,7 +375,7 @@ class WarmWorker:
         return ended.status
 
     def _hear(self) -> bytes:
-        """Return a message of the warm process, unless a child has stopped that process."""
+        """Await a message of the warm process; give up early if a child suspended it."""
         stopped = 0
         for _ in range(int(START_SECONDS)):
             if self.control.wait(1.0):
@@ -386,7 +386,7 @@ class WarmWorker:
         raise ChannelTimeout
 
     def _is_stopped(self) -> bool:
-        """Return whether the server is stopped; in a PID namespace it is an only child."""
+        """Return whether the server is suspended; in a PID namespace it is pid's only child."""
         try:
             process = psutil.Process(self.pid)
             if "pid-namespace" in self.layers:
