@@ -43,7 +43,7 @@ class Tested(NamedTuple):
         return subprocess.Popen(command, env=environment, **usual | how)
 
     def run(self, *words: str, look: Look = lambda _: None, **how: Any) -> tuple[float, float]:
-        """Run a command while looking at it; return its seconds, and those of the processor."""
+        """Run a command and call `look` on it; return its seconds and CPU seconds."""
         start, before = perf_counter(), sum(os.times()[2:4])
         process = self.start(*words, **how)
         look(process)
@@ -92,7 +92,7 @@ def bench(rounds: int, size: int, console: Console, against: Path | None = None)
 
 
 def prepare(tested: Tested, size: int) -> None:
-    """Lay out a kit's own solution, and a class of this kit's bank, spread over all of it."""
+    """Write the kit's solution, and a class picked evenly from the bank's members."""
     without = shutil.ignore_patterns("__pycache__")
     shutil.copytree(tested.kit / "solution", tested.work / "tree", ignore=without)
     chosen = [each for each in list_members() if each.kind in ("wrong", "right")]
@@ -127,8 +127,7 @@ def use_one_core() -> None:
 
 
 def grade_class(tested: Tested, jobs: int) -> tuple[float, float, float]:
-    """Grade a class on as many cores; return its seconds, those of the processor, and those until
-    the first result."""
+    """Grade a class in `jobs` jobs; return seconds: total, CPU, until the first result."""
     out = Path(mkdtemp(dir=tested.work), "results")  # in a new folder all are graded again
     words = ["--class", str(tested.work / "class"), "--jobs", str(jobs), "--out", str(out)]
     start, until_first = perf_counter(), list[float]()
@@ -144,7 +143,7 @@ def grade_class(tested: Tested, jobs: int) -> tuple[float, float, float]:
 
 
 def measure_outputs(tested: Tested, count: int) -> Iterator[tuple[str, float]]:
-    """Make the pages and the gradebook of a class of many, out of the results of the class."""
+    """Measure making pages and gradebook for `count` copies of the class's results."""
     book = next(tested.work.glob("*/results.class.jsonl"))
     lines = [msgspec.json.decode(line) for line in book.read_bytes().splitlines()]
     names = {f"student-{number:05}": lines[number % len(lines)] for number in range(count)}

@@ -39,7 +39,7 @@ Points = Annotated[int, Meta(ge=0)]
 
 
 class Adjust(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """A decision about one student or several: a reason, and exactly one of the other lines."""
+    """A decision about students: `student`, `reason`, and exactly one other field."""
 
     student: Words | Annotated[list[Words], Meta(min_length=1)]
     reason: Words
@@ -92,8 +92,7 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
     zone: str = ""
 
     def decide(self, found: Work, points: int | None) -> "FinalPoints":
-        """Return the final points for a submission that earned `points`; None if it was not
-        graded."""
+        """Return the final points for a submission; `points` is None if it is not graded."""
         decisions = self.find_decisions(found)
         reasons: list[str] = []
         if points is not None and self.late is not None:
@@ -188,12 +187,12 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         return call_within(READING, list[Remark], place) if about and files else place()
 
     def find_unused(self, names: Iterable[str]) -> list[str]:
-        """Return the students of decisions who are not among `names`."""
+        """Return the students that decisions name but `names` lacks."""
         here = list(names)
         return [who for who in self.students if not any(is_same_student(who, n) for n in here)]
 
     def resolve(self, names: Iterable[str], people: ClassList) -> "Adjustments":
-        """Return the decisions with each student under the class's name, one of `names`.
+        """Return the decisions, with each student called by one of the class's `names`.
 
         The file may use any name of the class list: address, login, number or full name. Raises
         Stop for a name that two students have.
@@ -212,7 +211,7 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
 
 @dataclass(frozen=True)
 class FinalPoints:
-    """The points that count, and the reasons why they differ from the checks'."""
+    """The points that count, and why they differ from the checks' points."""
 
     points: int | None  # None: there is no mark
     reasons: tuple[str, ...] = ()
@@ -267,7 +266,7 @@ RULES = {  # sentences by a part of msgspec's words
 
 
 def name_value(words: str, document: dict[str, Any]) -> str:
-    """Return msgspec's message with the key that it is about."""
+    """Reword msgspec's message to name the key and value."""
     found = re.fullmatch(r"(.*) - at `\$\.(late|(adjust|comment)\[(\d+)\])(?:\.(\w+))?.*`", words)
     if found is None:
         return words
@@ -280,7 +279,7 @@ def name_value(words: str, document: dict[str, Any]) -> str:
 
 
 def convert_dates(document: dict[str, Any]) -> None:
-    """Make a date without a time the end of that day, as in course.toml."""
+    """Change each date without a time to the end of that day."""
     decisions = document.get("adjust")
     for each in [document.get("late"), *(decisions if isinstance(decisions, list) else [])]:
         due = each.get("due") if isinstance(each, dict) else None
@@ -328,7 +327,7 @@ def find_faults(adjustments: Adjustments, course: Course) -> Iterator[str]:
 
 
 def find_set_twice(decisions: Iterable[Adjust]) -> Iterator[str]:
-    """Yield the students whose points two decisions set."""
+    """Yield notes on points that are set twice."""
     marked: set[str] = set()
     for each in decisions:
         if each.points is not None:

@@ -84,7 +84,7 @@ class Run:
             self.prints.append(attempt(partial(make_prints, package, first.team), nothing))
 
     def skip_kept(self, members: list[Work], package: Package, key: str) -> Iterator[Work]:
-        """Yield students without a valid earlier result; record the others."""
+        """Yield students to grade; record those with a valid old result."""
         for found in members:
             self.package_notes[found.name] = package.notes
             kept = self.book.find_kept(found.name, key)
@@ -116,7 +116,7 @@ class Run:
         self.outcomes.append(outcome)
 
     def decide(self, found: Work, outcome: Outcome) -> Outcome:
-        """Return an outcome with bonus, lateness, decisions, and its mark of an earlier run."""
+        """Return an outcome after bonus, lateness and decisions, with any earlier mark."""
         decisions = self.adjustments
         bonus = sum(each.bonus or 0 for each in decisions.find_decisions(found))
         outcome = msgspec.structs.replace(outcome, bonus_by_hand=bonus)
@@ -147,7 +147,7 @@ class Run:
                 self.record("by hand", found, Outcome(name, NOTHING))
 
     def scale_by_hand(self, outcomes: list[Outcome]) -> list[Outcome]:
-        """Return the outcomes; a mark that a person set gets the maximum of the other marks."""
+        """Return the outcomes; marks set by a person get the highest maximum."""
         most = max((each.max_points for each in outcomes), default=0)
         most = most or self.course.rubric.max_points
         return [
@@ -208,7 +208,7 @@ def grade_class(run: Run, executor: Executor, console: Console, absent: Iterable
 
 
 def grade_tasks(tasks: Iterator[Task], executor: Executor) -> Iterator[tuple[Task, Answer | str]]:
-    """Yield each task with its result or its trouble, in the order in which they end."""
+    """Yield each finished task, with its result or the reason for none."""
     under_way: dict[Future[Answer], Task] = {}
     for task in tasks:
         under_way[executor.submit(task.package)] = task
@@ -240,7 +240,7 @@ def read_future(future: Future[Answer]) -> Answer | str:
 
 
 def describe_error(error: Exception) -> str:
-    """Describe an exception; some only by their message."""
+    """Describe an error; omit the type of our own ones."""
     if isinstance(error, CannotTake | Exceeded | Failed):
         return str(error)
     return f"{type(error).__name__}: {say_error(error)}"

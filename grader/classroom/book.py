@@ -59,12 +59,12 @@ class Outcome(Struct, frozen=True):
 
     @property
     def label(self) -> str:
-        """Return a student's full name and name, for people."""
+        """Return `full name (name)`, or the name alone."""
         return f"{self.full_name} ({self.name})" if self.full_name else self.name
 
     @property
     def order(self) -> tuple[object, str]:
-        """Return a key to sort students as people do."""
+        """Return the sort key: full name, then name."""
         return sort_key(self.full_name or self.name), self.name
 
     @property
@@ -156,7 +156,7 @@ class Book:
         return msgspec.structs.replace(outcome, before=old.mark_in_words, changed=changed)
 
     def keep_earlier(self, name: str) -> None:
-        """Move a result to the earlier ones; the same content is stored once."""
+        """Move a result into `earlier`, which stores equal results once."""
         path = self.locate_result(name)
         if not path.exists():
             return
@@ -211,7 +211,7 @@ def compare_results(old: Result, new: Result) -> Iterator[str]:
 
 
 def compare_todos(old: TodoResult, new: TodoResult) -> Iterator[str]:
-    """Yield the changes; if only maximums of checks changed, name only the TODO."""
+    """Yield the changes; omit a check if only its maximum changed."""
     if old.max_points != new.max_points:
         points = f"{old.points} of {old.max_points} → {new.points} of {new.max_points}"
         yield f"TODO {new.id} has other points in the course: {points}"

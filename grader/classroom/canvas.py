@@ -81,11 +81,11 @@ class Delivery:
 
     @property
     def sign(self) -> str:
-        """Return the page's name or the comment's words, to find the comment again."""
+        """Return the text that identifies our comment: its page's name, or itself."""
         return f"feedback-{self.digest}" if self.page else self.comment
 
     def is_in(self, there: Any) -> bool:
-        """Return whether Canvas has the comment with its page."""
+        """Return whether Canvas has the comment or its page."""
         comments = getattr(there, "submission_comments", None) or []
         files = [file for each in comments for file in each.get("attachments") or []]
         said = [
@@ -117,7 +117,7 @@ class Plan:
         self.notes.append(f"{name}: skipped, {why}")
 
     def add(self, delivery: Delivery, there: Any, sent: list[str], over: bool) -> None:
-        """Compare a mark with Canvas's; only with `over` is a person's mark replaced."""
+        """Plan to send a mark; skip it if a person entered another, unless `over`."""
         if there is None:
             return self.skip(delivery.name, f"Canvas has no student {delivery.user} for it")
         if getattr(there, "excused", False):
@@ -185,7 +185,7 @@ def tabulate(changes: list[Change]) -> Table:
 
 
 def list_deliveries(known: ClassFolder, others_known: bool, plan: Plan) -> list[Delivery]:
-    """Return the delivery for each student, with the gradebook's marks; note skipped students."""
+    """Write all pages; return each student's delivery; note skipped ones in `plan`."""
     results, course = known.find_results(), known.course
     roster = read_roster(known.find_roster("an upload"))
     if "ID" not in roster.columns:
@@ -248,7 +248,7 @@ def read_record(path: Path, address: str) -> Record:
 
 
 def open_assignment(address: str, known: ClassFolder) -> Any:
-    """Return the assignment in Canvas; raises Stop unless it takes the marks of this class."""
+    """Return the assignment in Canvas; raises Stop if this class's marks do not fit it."""
     match, token = ADDRESS.fullmatch(address), os.environ.get(TOKEN, "").strip()
     if match is None:
         raise Stop(
@@ -350,7 +350,7 @@ def explain(done: str) -> Iterator[None]:
 
 
 def find_reason(error: BaseException) -> str:
-    """Return the reason of a failed request; its own words could hold the token."""
+    """Return why a request failed; the error's text could hold the token."""
     if is_throttled(error):
         return "it accepts no more requests for now (rate limit): wait some minutes"
     known = (words for kind, words in REASONS.items() if isinstance(error, kind))

@@ -34,7 +34,7 @@ ONE_AT_A_TIME = threading.Lock()  # a process has one worker for all its threads
 
 
 def grade_here(package: Package, options: Options, reference: Package | None, made: str) -> Answer:
-    """Grade one submission, if the fingerprint of this grader is `made`."""
+    """Grade one submission; refuse if our fingerprint is not `made`."""
     if fingerprint() != made:
         raise ExecutorFailed(describe_versions([socket.gethostname()]))
     if reference is not None:
@@ -106,7 +106,7 @@ def connect(address: str, options: Options) -> Iterator[Cluster]:
 
 
 def find_scheduler(address: str) -> None:
-    """Stop unless a scheduler answers: Dask's own client may wait for many minutes."""
+    """Raise Stop if no scheduler answers; Dask's client would wait for minutes."""
     from distributed import Security, rpc
 
     async def ask() -> None:
@@ -127,7 +127,7 @@ def describe_silence(address: str, error: Exception) -> str:
 
 
 def check_workers(client: Any, address: str) -> None:
-    """Stop unless all workers have the same version of the grader."""
+    """Raise Stop unless all workers have this grader version."""
     if not client.nthreads():
         raise Stop(f"the scheduler at {address} has no workers yet: start some")
     found = client.run(fingerprint, on_error="return")

@@ -51,7 +51,7 @@ def find_problems(known: ClassFolder) -> list[str]:
 
 @contextmanager
 def collect_stop(found: list[str]) -> Iterator[None]:
-    """Add the error that stops a step to the problems."""
+    """Catch Stop, and add its message to `found`."""
     try:
         yield
     except Stop as error:

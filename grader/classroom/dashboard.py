@@ -42,9 +42,9 @@ MARKS: dict[State, str] = {  # the class of a cell: passed, wrong, untouched
 
 @dataclass(frozen=True)
 class Entry:
-    """A submission: its line in the class book, and its result unless it is in trouble.
+    """A submission: its line in the class book, and a brief result if it was graded.
 
-    A result takes 50 kB, so a class holds only briefs and reads a whole result when it needs one.
+    A full result takes 50 kB, so it is read only when needed.
     """
 
     outcome: Outcome
@@ -57,7 +57,7 @@ class Entry:
         return self.folder / f"{self.outcome.name}.html"
 
     def read_result(self) -> Result:
-        """Read the whole result."""
+        """Read the full result."""
         return read_result(self.folder / f"{self.outcome.name}.json")
 
     def show_result(self, course: Course) -> Result | None:
@@ -130,7 +130,7 @@ def read_outcomes(results: Path) -> list[Outcome]:
 
 
 def read_entry(folder: Path, outcome: Outcome) -> Entry:
-    """Return an outcome with its result; one whose result cannot be read is in trouble."""
+    """Return an outcome with its result; if that is unreadable, set its trouble."""
     entry = Entry(outcome, folder=folder)
     if outcome.trouble:
         return entry

@@ -1,6 +1,6 @@
 """Change the file of decisions table by table, and keep a person's notes between them.
 
-Before writing, the whole new text is read back: it must hold what it held, and the change.
+Before writing, the new text is parsed: only the intended change may differ.
 """
 
 import re
@@ -41,7 +41,7 @@ class Decision:
 
     @property
     def what(self) -> str:
-        """Return the name of the line that decides: `points`, `take`, `comment`."""
+        """Return the field that decides, such as `points`, `take` or `comment`."""
         return next((n for n in self.values if n not in ("student", "reason")), self.kind)
 
     @property
@@ -83,7 +83,7 @@ class DecisionsFile:
         self.write(replace_lines(self.text, old, ""), found)
 
     def write(self, text: str, wanted: list[Decision]) -> None:
-        """Write the file if it has the intended decisions and is valid in this course."""
+        """Write `text`; raises Stop unless it is valid and has the `wanted` decisions."""
         tables = {kind: [e.values for e in wanted if e.kind == kind] for kind in NO_TABLES}
         if read_tables(text, self.path) != read_tables(self.text, self.path) | tables:
             raise Stop(f"{self.path} has {ODD_FORM}")

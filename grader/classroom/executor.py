@@ -45,7 +45,7 @@ class Executor(Protocol):
     """Processes that grade, on this machine or on others."""
 
     def capacity(self) -> int:
-        """Return how many submissions to submit at a time."""
+        """Return how many submissions to queue at once."""
         ...
 
     def submit(self, package: Package) -> "Future[Answer]": ...

@@ -49,7 +49,7 @@ def zip_files(files: dict[str, bytes]) -> bytes:
 def answer_export(
     lms: Lms, intake: Intake, graded: list[Entry], people: ClassList, course: Course
 ) -> Feedback:
-    """Return the pages under the LMS's names of the submissions, all of which are graded."""
+    """Return the pages, named as the LMS needs; all submissions must be graded."""
     made, entries = Feedback(), {each.outcome.name: each for each in graded}
     for name in sorted(entries.keys() - {each.name for each in intake.found}):
         participant = people.participants.get(name, "")
@@ -73,7 +73,7 @@ def answer_export(
 
 
 def make_page(found: Work, entry: Entry, people: ClassList, course: Course) -> Page:
-    """Return the page for one student; other group members get it beside the first one's."""
+    """Return a student's page, under their own file name if another member handed in."""
     content = entry.page.read_bytes()
     text = write_text(entry.outcome, entry.show_result(course), course)
     if not found.handed_in_by:
@@ -111,7 +111,7 @@ def find_address_column(roster: Roster) -> str:
 
 
 def address_pages(roster: Roster, key: str, graded: list[Entry]) -> Feedback:
-    """Return the pages by addresses, for mailing, and a list; each member of a group gets one."""
+    """Return pages named by address, and a list of them; each group member gets one."""
     column = find_address_column(roster)
     made, entries = Feedback(), {each.outcome.name: each for each in graded}
     absent = [name for name, each in entries.items() if each.outcome.trouble == NOTHING]
@@ -131,6 +131,6 @@ def address_pages(roster: Roster, key: str, graded: list[Entry]) -> Feedback:
 
 
 def place_for_nbgrader(graded: list[Entry]) -> Feedback:
-    """Return the pages beside nbgrader's own feedback, also of students without a notebook."""
+    """Return all pages, with their paths beside nbgrader's own feedback."""
     place = f"{ASSIGNMENT}/engine-{PAGE}"
     return Feedback({f"{each.outcome.name}/{place}": each.page.read_bytes() for each in graded})

@@ -156,7 +156,7 @@ class ClassFolder:
         return self.results
 
     def refuse_other_course(self, remedy: str) -> None:
-        """Stop if the results are of a course with other TODOs or points."""
+        """Raise Stop if the results' course has other TODOs or points."""
         if difference := find_difference(self.results, self.course):
             raise Stop(
                 f"{self.results} holds results of another course than {self.course_name}: "

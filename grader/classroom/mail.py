@@ -63,7 +63,7 @@ def find_decided(outcomes: list[Outcome], adjustments: Adjustments) -> Iterator[
 
 
 def write_mail(roster: Roster, key: str, outcomes: list[Outcome], title: str) -> Feedback:
-    """Return a draft for each student who needs one, and `mail.csv`, by the names of the files.
+    """Return each needed draft, and `mail.csv`, by file name.
 
     Students without an address get a note.
     """
@@ -118,7 +118,7 @@ def is_unedited(draft: bytes) -> bool:
 
 
 def keep_edited(folder: Path, made: Feedback) -> None:
-    """Remove earlier drafts, except edited ones, which stay instead of new ones."""
+    """Remove earlier drafts; keep edited ones instead of their new versions."""
     for path in sorted((folder / DRAFTS).glob("*.eml")):
         if is_unedited(path.read_bytes()):
             path.unlink()

@@ -77,7 +77,7 @@ def mark_engine(path: Path | None, course: Course) -> Marking:
 
 
 def compare_totals(marking: Marking, course: Course) -> Iterator[str]:
-    """Yield a note if students' pages, which follow the course, show other marks."""
+    """Yield a note if marks have another maximum than the students' pages."""
     total = course.out_of or USUAL_TOTAL
     if marking.total != total:
         pages = f"the students' pages count to {total:g}"
@@ -138,7 +138,7 @@ class Scores:
 
     @property
     def missing(self) -> str:
-        """Return the note on a student without any part."""
+        """Return the note on a student without work."""
         return "no answers to a sheet" if self.of_sheets else "nothing handed in"
 
     @property
@@ -170,8 +170,8 @@ def score_sheets(
 def make_marks(roster: Roster, key: str, scores: Scores) -> Marks:
     """Return the class list with a mark for each student.
 
-    A mark that needs manual review stays empty, unless `so_far`. Rows that several results fit
-    stay empty, so that no student gets another's mark or a wrong zero. While some work has no
+    A mark that needs manual review stays empty, unless `so_far`. A row stays empty if
+    several results fit it, so that no student gets a wrong mark. While some work has no
     owner, rows without work stay empty too, unless `others_known`.
     """
     marking = scores.marking

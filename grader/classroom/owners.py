@@ -17,7 +17,7 @@ Labels = Callable[[Row], Iterable[str]]
 
 @dataclass
 class Owners:
-    """Results by rows of a class list, and results with no owner or several possible ones."""
+    """The results of each row of a class list, and results without a clear owner."""
 
     rows: dict[int, list[str]] = field(default_factory=dict)  # names of results, by the row
     doubts: dict[str, list[Row]] = field(default_factory=dict)  # rows that may own a result
@@ -26,7 +26,7 @@ class Owners:
 
     @property
     def doubtful(self) -> list[Row]:
-        """Return the rows that only uncertain results may belong to."""
+        """Return the rows with uncertain results only."""
         rows = [row for rows in self.doubts.values() for row in rows]
         return [row for row in rows if not self.find_results(row)]
 
@@ -35,7 +35,7 @@ class Owners:
 
 
 def find_owners(roster: Roster, key: str, names: Iterable[str], absent: Iterable[str]) -> Owners:
-    """Find the row of each result, the surest way first; `absent` share no result."""
+    """Find the row of each result; results of `absent` students are not shared."""
     owners = Owners()
     ways = [(index_rows(roster, row_labels), labels) for row_labels, labels in list_ways(key)]
     for name in names:
@@ -64,7 +64,7 @@ def look_up(index: dict[str, list[Row]], labels: Iterable[str]) -> list[Row]:
 
 
 def share_results(roster: Roster, owners: Owners, absent: set[str]) -> None:
-    """Give the group's result to its members who handed in nothing."""
+    """Give a group's results to its members who have none."""
     for rows in roster.list_groups().values():
         handed_in = [name for row in rows for name in owners.find_results(row)]
         handed_in = [name for name in handed_in if name not in absent]

@@ -192,7 +192,7 @@ def respond(review: Review, request: Request) -> Response:
 
 
 def name_cookie(review: Review) -> str:
-    """Return the name of our cookie; browsers send a cookie to every port of a machine."""
+    """Return our cookie's name, with the port: browsers share cookies among ports."""
     return f"review-{review.host.rpartition(':')[2]}"
 
 
@@ -219,7 +219,7 @@ def change(review: Review, request: Request) -> Response:
 
 
 def decide_points(review: Review, name: str, form: Form) -> None:
-    """Write the mark, or points to add, in the position of an earlier one."""
+    """Write the mark or points to add; replace an earlier decision."""
     kind = form.get("kind", "")
     if kind not in ("points", "add"):
         raise Stop("choose what the points do")
@@ -228,7 +228,7 @@ def decide_points(review: Review, name: str, form: Form) -> None:
 
 
 def decide_work(review: Review, name: str, form: Form) -> None:
-    """Write which work counts, in place of an earlier answer."""
+    """Write which work counts; replace an earlier choice."""
     path = form.get("path", "")
     paths = next((each for each in review.list_choices(name) if path in each), None)
     if paths is None:
@@ -274,7 +274,7 @@ ACTS: dict[str, Callable[[Review, str, Form], None]] = {
 
 
 def put(review: Review, name: str, values: Table, is_old: Callable[[Decision], bool]) -> None:
-    """Write a decision, in the position of an old one about this student alone."""
+    """Write a decision; replace an old one about this student alone."""
     found = filter(is_old, review.list_decisions(name))
     old = next((each for each in found if isinstance(each.values["student"], str)), None)
     if old is not None and "take" not in values:

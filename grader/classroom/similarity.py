@@ -150,7 +150,7 @@ def find_pairs(
 ) -> list[Pair]:
     """Return the pairs that share more than `least`, the most similar first.
 
-    Members of a group are no pair. If `of` is given, each pair has one of its names. Raises
+    Members of a group are no pair. `of` keeps only pairs with one of these names. Raises
     Exceeded if a class has too much in common for the limits.
     """
     return call_within(COMPARING, list[Pair], partial(compare_all, list(prints), least, of))

@@ -116,7 +116,7 @@ def grade_command(
 
 
 def refuse_what_is_ignored(context: typer.Context, path: Path | None, class_: bool) -> None:
-    """Stop if an option would be ignored."""
+    """Raise Stop for an ignored option."""
     if path is None and class_:
         raise Stop("--class needs the submissions: name a folder or a zip of them")
     if class_ and not find_spec("grader.classroom"):
@@ -128,7 +128,7 @@ def refuse_what_is_ignored(context: typer.Context, path: Path | None, class_: bo
 
 
 def refuse_outputs(path: Path | None, class_: bool, output: Output, options: Options) -> None:
-    """Stop at files that cannot be written, and at points that cannot be reached."""
+    """Raise Stop if a file cannot be written or `at_least` cannot be reached."""
     require_folder_target(output.out, "--out")
     require_file_target(output.json, "--json")
     if class_ and path is not None and output.out is not None:

@@ -125,7 +125,7 @@ class Guide(Watch):
     # ------------------------------------------------------------ keys
 
     def give_hint(self) -> None:
-        """Give the next hint to the TODO on the screen, or the last one again."""
+        """Print the next hint for the shown TODO; after the last, repeat it."""
         name = self.todo.id if self.todo else ""
         hints = load_hints(name)
         if not hints:

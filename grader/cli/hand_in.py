@@ -86,7 +86,7 @@ def list_warnings(tree: Path, names: Sequence[str]) -> Iterator[str]:
 
 
 def has_no_answer(path: Path) -> bool:
-    """Return whether a notebook has cells to answer, and none has an answer."""
+    """Return whether a notebook has cells to answer, all without one."""
     try:
         cells = json.loads(path.read_bytes())["cells"]
         asked = [each for each in cells if each["metadata"].get("nbgrader", {}).get("solution")]

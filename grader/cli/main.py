@@ -25,7 +25,7 @@ EPILOG = (
 
 
 class Commands(TyperGroup):
-    """Commands that end with a sentence and an exit status at an error."""
+    """Commands that turn an error into a sentence and an exit status."""
 
     def invoke(self, context: Any) -> Any:
         try:
@@ -44,9 +44,9 @@ def say_why(cannot: str, words: str) -> None:
 
 
 def interrupt_again(ignored: "sys.UnraisableHookArgs") -> None:
-    """Raise Ctrl-C again if it came during a callback, such as a garbage collection's.
+    """Raise Ctrl-C again if it came during a callback, such as garbage collection.
 
-    Python only prints it there, so a timer raises it a moment later. On a busy machine, this
+    Python would only print it, so a timer raises it a moment later. On a busy machine, this
     function may still be running and starts another timer.
     """
     if not issubclass(ignored.exc_type, KeyboardInterrupt):

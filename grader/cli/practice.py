@@ -47,7 +47,7 @@ def questions_command(
 
 
 def make_questions(folder: Path, course: Course) -> tuple[Sheet, Path]:
-    """Make and describe the page of a tree; return the sheet and the page's path."""
+    """Write the page of a tree and print a summary; return sheet and path."""
     practice = load_practice()
     if practice is None:
         raise Stop("this copy has no cases for practice")

@@ -22,9 +22,9 @@ def find_changes(tree: Path) -> list[GivenChange]:
 
 
 def list_notes(tree: Path, result: Result) -> list[str]:
-    """Return lines on changed given code, unless a check names it.
+    """Return lines on changed given code, or none if a check names it.
 
-    The function around a TODO counts as changed only while the TODO fails; it cannot be restored.
+    Given code in a TODO's function counts only while the TODO fails; it cannot be restored.
     """
     checks = [check for todo in result.todos for check in todo.checks]
     if any(check.failed and check.where is not None and check.where.given for check in checks):

@@ -120,7 +120,7 @@ def grade_one(path: Path, options: Options, replays: Path | None = None) -> Resu
 
 @contextmanager
 def open_path(path: Path, programs: Collection[str] = ()) -> Iterator[Path]:
-    """Open a submission in any form, as for a class; a student's grader opens only its tree.
+    """Open a submission in any form; a student's copy of the grader opens only a tree.
 
     Two files for one program are an error only for the course's `programs`.
     """

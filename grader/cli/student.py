@@ -98,7 +98,7 @@ def show_first(result: Result, folder: Path, replays: Path | None) -> None:
 
 
 def make_options(todos: frozenset[str], course: Course) -> Options:
-    """Return the options of `check`: those of `grade` without a reference and confinement."""
+    """Return the options of `check`: like `grade`, but no reference or confinement."""
     return Options(only=todos, trusted=True, mends=True, course=course, jobs=count_cores())
 
 
@@ -194,5 +194,5 @@ def hint_command(
 
 
 def load_hints(id: str) -> list[str]:
-    """Return the three hints of a TODO; none of the whole program."""
+    """Return the three hints of a TODO; empty if it has none."""
     return next((todo.hints for todo in load_rubric().todos if todo.id == id), [])

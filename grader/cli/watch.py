@@ -187,7 +187,7 @@ def find_differences(before: Sources, after: Sources) -> set[str]:
 
 
 def read_functions(file: str, text: str) -> dict[str, str]:
-    """Return the source of each TODO's function that a file holds."""
+    """Return the functions' sources in a file, by their TODOs."""
     body = statements(text)
     found = {}
     for todo in load_rubric().todos:
@@ -199,7 +199,7 @@ def read_functions(file: str, text: str) -> dict[str, str]:
 
 
 def find_users(file: str) -> set[str]:
-    """Return the TODOs whose checks run a file: all, if it is a file the student added."""
+    """Return the TODOs whose checks run a file; all TODOs for an added file."""
     todos, module = load_rubric().todos, module_of(Path(file))
     users = {
         todo.id

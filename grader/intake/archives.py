@@ -45,7 +45,7 @@ CLOCK_PER_CPU = 4  # s on the clock for each of processor time: the last resort
 
 @dataclass
 class Bounds:
-    """The rest of a submission's allowance, over all of its zips."""
+    """The remaining limits of a submission with all its archives."""
 
     files: int = MAX_FILES
     bytes: int = MAX_UPLOAD
@@ -122,7 +122,7 @@ def unzip_class(path: Path, folder: Path) -> None:
 def find_place(folder: Path, parts: list[str], number: int) -> Path:
     """Return a free path for a file of a class.
 
-    Two names of a student may become the same: `a*`, a file, and `a_`, a folder. If a path is too
+    A file `a*` and a folder `a_` would get the same name: one gets `number`. If a path is too
     long for a system, all names but the student's are cut.
     """
     path, names = folder, [*map(make_portable, parts)]
@@ -202,9 +202,9 @@ def open_zip(path: Path, bounds: Bounds) -> Iterator[zipfile.ZipFile]:
 
 
 class ZipReader(io.BufferedReader):
-    """A file for `zipfile` that limits the size of one read, and so of the list of files.
+    """A file for `zipfile` that limits the size of one read.
 
-    A check of our own might find another list than `zipfile`, which reads its list at once.
+    This limits the list of files too, since `zipfile` reads that list at once.
     """
 
     def __init__(self, path: Path, most: int) -> None:
@@ -228,7 +228,7 @@ def list_members(archive: zipfile.ZipFile) -> Iterator[zipfile.ZipInfo]:
 
 
 def name_members(archive: zipfile.ZipFile) -> list[tuple[PurePosixPath, zipfile.ZipInfo]]:
-    """Return the files and their names; raises CannotTake if two differ but share a name."""
+    """Return files with their names; raises CannotTake if different files share one."""
     found: dict[str, tuple[PurePosixPath, zipfile.ZipInfo]] = {}
     for member in list_members(archive):
         name = PurePosixPath(check_name(decode_name(member)))

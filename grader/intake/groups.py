@@ -11,7 +11,7 @@ from grader.intake.roster import ClassList
 def share_work(intake: Intake, people: ClassList, hash_files: Callable[[Work], str]) -> None:
     """Enter the work of a group for its members who handed in nothing.
 
-    Where members handed in different work, by `hash_files`, the others need manual review.
+    If members' work differs by `hash_files`, members without work need manual review.
     """
     for group in people.groups.values():
         names = match_members(group, intake.names)

@@ -152,7 +152,7 @@ def list_uploads(paths: list[Path], people: ClassList, intake: Intake) -> Iterat
 
 
 def choose_attempt(name: str, uploads: list[Upload], intake: Intake) -> Iterator[Work]:
-    """Return a student's last attempt: one submission, or each file if people named them."""
+    """Yield the last attempt: one work if the LMS named all files, else one per file."""
     attempts = sorted({each.attempt for each in uploads})
     if len(attempts) > 1 and any(each.timeless for each in uploads):
         files = " and ".join(sorted({each.path.name for each in uploads}))
@@ -171,7 +171,7 @@ def choose_attempt(name: str, uploads: list[Upload], intake: Intake) -> Iterator
 
 
 def read_upload(path: Path, people: ClassList, systems: Iterable[Lms] = SYSTEMS) -> Upload | None:
-    """Return the owner of a file or folder; without a system, a folder or archive names it."""
+    """Return an upload; outside an LMS, a folder's or archive's name is its owner."""
     uploads = (each.read_upload(path, people) for each in systems)
     upload = next(filter(None, uploads), None)
     if upload is None and (path.is_dir() or is_archive(path)):
@@ -207,7 +207,7 @@ def mention_file(path: Path, intake: Intake, people: ClassList) -> None:
 
 
 def drop_doubles(found: Iterable[Work], intake: Intake) -> Iterator[Work]:
-    """Return each submission once; a person must choose between different ones of a student."""
+    """Yield one submission per student; refuse different ones of the same student."""
     groups: dict[str, list[Work]] = {}
     for each in found:
         groups.setdefault(fold(each.name), []).append(each)
@@ -265,7 +265,7 @@ def choose_work(intake: Intake, people: ClassList, name: str, path: str) -> bool
 
 
 def enter_source(work: Work, path: str) -> str:
-    """Return a path inside the work as its files are laid out; empty for all of it."""
+    """Return where `path` lies in the unpacked work; empty for all of it."""
     first, _, rest = path.partition("/")
     source = next((each for each in work.sources if each.name == first), None)
     if source is None or not rest:

@@ -29,7 +29,7 @@ def sort_key(words: str) -> list[tuple[int, int, str]]:
 
 
 def split_login(cell: str) -> list[str]:
-    """Return an identifier and, of an address, its first half."""
+    """Return an identifier, and the part before any @."""
     return [name for name in dict.fromkeys([fold(cell), fold(cell).partition("@")[0]]) if name]
 
 

@@ -211,7 +211,7 @@ def unpack(found: Work, folder: Path, bounds: Bounds, asked: Collection[str] = (
 
 
 def copy_all(found: Work, folder: Path, bounds: Bounds) -> None:
-    """Copy a submission under its own names, the same file only once."""
+    """Copy a submission's files; copy equal uploads only once."""
     copied: set[tuple[str, str]] = set()
     for source in found.sources:
         if source.is_dir():
@@ -262,7 +262,7 @@ def copy_file(file: BufferedReader, name: str, target: Path, bounds: Bounds) -> 
 
 
 def find_free_name(path: Path) -> Path:
-    """Return a free name: a second file of one name gets a number."""
+    """Return a free path; add a number if the name is taken."""
     number = 1
     while path.exists():
         number += 1
@@ -272,7 +272,7 @@ def find_free_name(path: Path) -> Path:
 
 
 def read_first_name(path: Path) -> str:
-    """Return a file's name as the student gave it; `pieces` recognises the lab's own."""
+    """Return the name that the student gave a file, before the LMS changed it."""
     name = next(filter(None, (each.read_own_name(path) for each in SYSTEMS)), None)
     if name is None or match_name(name, [f"{module}.py" for module in list_modules()]):
         return make_portable(name or path.name)

@@ -72,7 +72,7 @@ def strip_additions(name: str) -> str:
 
 
 def match_name(name: str, names: Iterable[str]) -> str | None:
-    """Return which of `names` a file's name means; None if it means none."""
+    """Return the one of `names` that `name` stands for, or None."""
     plain = fold(strip_additions(name))
     return next((each for each in names if each == name), None) or next(
         (each for each in names if fold(each) == plain), None
@@ -150,7 +150,7 @@ def list_choices(folder: Path, asked: Collection[str] = ()) -> list[list[PurePos
 def arrange_rest(folder: Path, asked: Collection[str], left_out: set[PurePosixPath]) -> Layout:
     """Arrange all files except those `left_out`.
 
-    If a program is not required, either of two will do: no mark depends on it.
+    Two files for an optional program are no problem: either is taken.
     """
     found_paths = (PurePosixPath(p.relative_to(folder).as_posix()) for p in plain_files(folder))
     paths = sorted(path for path in found_paths if not is_covered(path, left_out))
@@ -224,7 +224,7 @@ def find_renamed(paths: list[PurePosixPath], found: list[Piece]) -> list[Piece]:
 
 
 def is_renamed(name: str, module: str) -> bool:
-    """Return whether a name that Python cannot import contains the program's as a whole word.
+    """Return whether a file name that Python cannot import has `module` as a word.
 
     A text file counts too: some systems refuse names that end in `.py`.
     """
@@ -241,7 +241,7 @@ def is_covered(path: PurePosixPath, taken: set[PurePosixPath]) -> bool:
 
 
 def is_package(folder: PurePosixPath, inside: list[PurePosixPath]) -> bool:
-    """Return whether it is a package, not a folder of its name around all programs."""
+    """Return whether `folder` is a package, not just a folder around programs."""
     direct = {path.relative_to(folder).parts[0] for path in inside}
     around = any(match_name(name.removesuffix(".py"), list_modules()) for name in direct)
     return INIT in direct or (not around and any(name.endswith(".py") for name in direct))
@@ -287,7 +287,7 @@ def is_backup(name: str) -> bool:
 def refuse_two(
     what: str, paths: list[PurePosixPath], choices: Iterable[PurePosixPath] = ()
 ) -> NoReturn:
-    """Raise ManyPrograms, so that a person chooses one of the paths or `choices`."""
+    """Raise ManyPrograms: a person must choose one of `choices`, or else `paths`."""
     at = sorted({path.parent.as_posix() for path in paths})
     places = ", ".join(at if len(at) == len(paths) else sorted(map(str, paths)))
     raise ManyPrograms(

@@ -27,7 +27,7 @@ def is_system_file(name: str) -> bool:
 
 
 def is_archive(path: Path) -> bool:
-    """Return whether it is an archive, by its name or, without a suffix, by its first bytes."""
+    """Return whether a path is an archive, by its suffix or, without one, its first bytes."""
     if path.suffix or not path.is_file():
         return is_packed(path, b"")
     real = path.resolve()
@@ -43,7 +43,7 @@ def is_packed(name: PurePath, head: bytes) -> bool:
 
 
 def cut_suffix(path: Path) -> str:
-    """Return a file's name without its suffix, or both of `work.tar.gz`."""
+    """Return a name without an archive's suffix, such as `.tar.gz`."""
     packed = path.suffix.lower() in ARCHIVES
     stem = path.stem if packed else path.name
     return stem[:-4] if packed and stem.lower().endswith(".tar") else stem

@@ -156,7 +156,7 @@ class ClassList:
                 self._students.setdefault((column, spelled), set()).add(name)
 
     def find(self, columns: Iterable[str], *labels: object) -> str | None:
-        """Return the only student whom one of the labels means; None for none or several."""
+        """Return the first student that a label identifies alone; None if none does."""
         for spell in (fold, strip_zeros):
             for column in columns:
                 for label in filter(None, labels):
@@ -174,12 +174,12 @@ class ClassList:
         return [name for name in self.names if name in found]
 
     def find_in_group(self, group: str) -> str:
-        """Return the first student of a group, from whom the others get the work."""
+        """Return a group's first student, whose work the others share."""
         groups = self.groups.items()
         return next((names[0] for name, names in groups if names and fold(name) == fold(group)), "")
 
     def has_column(self, column: str) -> bool:
-        """Return whether the list has such identifiers, so that names are not needed."""
+        """Return whether the list has identifiers in this column."""
         return column in self._columns
 
     def list_absent(self, handed_in: Iterable[str]) -> list[str]:

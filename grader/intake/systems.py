@@ -68,7 +68,7 @@ def read_table(path: Path) -> Roster:
 
 
 def decode(content: bytes, path: Path) -> tuple[str, str, str]:
-    """Return a table's text, the encoding to write it in, and a doubt for a person."""
+    """Return a table's text, the encoding to write, and a warning or empty text."""
     if content.startswith((b"\xff\xfe", b"\xfe\xff")):
         return content.decode("utf-16", "replace"), "utf-16", ""  # as Blackboard's .xls
     with suppress(UnicodeDecodeError):

@@ -33,7 +33,7 @@ def own_error(program: Program, method: str, steps: int, seconds: float) -> floa
 
 
 def compute_error(method: str, steps: int, seconds: float) -> float:
-    """Compute the same error by the closed form of one step."""
+    """Compute that error from the closed form of one step."""
     step, state = getattr(exact, method), (X0, 0.0)
     for _ in range(steps):
         state = step(*state, seconds / steps, lambda x: -(OMEGA**2) * x)

@@ -209,13 +209,13 @@ def can_tell_apart(films: Mapping[Change, Film]) -> bool:
 
 
 def is_clear(most: float, other: float) -> bool:
-    """Return whether one sign is visibly more than another; negative: visibly less."""
+    """Return whether the sign `most` is visibly more than the sign `other`."""
     less, more = sorted((abs(most), abs(other)))
     return most - other > 1 and more > CLEAR * less
 
 
 def compare_with_reference(films: Mapping[Change, Film], reference: Tree, scene: int) -> None:
-    """Raise CannotAsk if a film is not most similar to the reference's film of the same change."""
+    """Raise CannotAsk if a film is nearer to another change's film of the reference."""
     right = {each: make_film(reference, each, scene) for each in films}
     for change, film in films.items():
         if len(film.looks) != len(right[change].looks):

@@ -26,7 +26,7 @@ class Unsuited(Exception):
 
 @dataclass(frozen=True)
 class Case:
-    """One case: the answer in two ways, and known wrong ones."""
+    """A case: the answer, got in two ways, and wrong answers."""
 
     text: str
     answer: float  # in closed form

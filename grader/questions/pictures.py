@@ -29,7 +29,7 @@ class Look:
 
 @dataclass(frozen=True)
 class Film:
-    """The rows of bodies, x, y, vx, vy, angle, omega, at equal distances in time."""
+    """Rows at regular times: x, y, vx, vy, angle and omega of each body."""
 
     looks: Sequence[Look]
     rows: Sequence[Sequence[float]]
@@ -44,7 +44,7 @@ class Film:
         return self.rows[row][6 * body + 4]
 
     def spoke(self, row: int, body: int) -> tuple[float, float]:
-        """Return the end of the spoke of a ball."""
+        """Return where a ball's spoke ends."""
         (x, y), angle = self.place(row, body), self.angle(row, body)
         long = SPOKE * self.looks[body].radius
         return x + long * math.cos(angle), y + long * math.sin(angle)

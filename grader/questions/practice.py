@@ -27,7 +27,7 @@ class Cases(Struct, frozen=True):
     questions: tuple[Question, ...]
 
     def ask(self, program: Program, seed: str, points: int) -> Question:
-        """Choose one of them by the seed; raises CannotAsk if there is none."""
+        """Choose a question by the seed; raises CannotAsk if none exists."""
         if not self.questions:
             raise CannotAsk("this release has no case of it")
         chosen = random.Random(f"{seed}/{self.name}").choice(self.questions)

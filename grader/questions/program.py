@@ -126,8 +126,7 @@ class Program:
 def open_program(
     path: Path, options: Options, worker: Worker | None = None, result: Result | None = None
 ) -> Iterator[Program]:
-    """Grade the TODOs that questions may be about, unless a result exists, and keep the program
-    open."""
+    """Open a program for questions; grade its TODOs unless `result` is given."""
     asked = list_askable(options.course)
     with grading(path, replace(options, only=asked), worker) as run:
         found = result or run.run()

@@ -80,10 +80,10 @@ def explain_refusal(error: Exception) -> str:
 
 
 def take_turns(makers: Iterable[Asks], program: Program) -> Iterator[Asks]:
-    """Yield makers whose TODOs are all right: the first of each slot, then each second one.
+    """Yield makers whose TODOs pass: first one from each slot, then a second from each.
 
     A maker whose TODOs were already used comes after all others, so that a sheet repeats a TODO
-    only if nothing else is left. No question is only about a given TODO.
+    only if nothing else is left. No question is about given TODOs alone.
     """
     able = [
         each

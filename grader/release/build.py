@@ -80,7 +80,7 @@ def release(out: Path, console: Console, fresh: bool = False, course: Course = F
 
 
 def build_wrong_members(folder: Path, course: Course) -> Iterator[Tree]:
-    """Build the bank's wrong members of a course one after the other."""
+    """Build and yield a course's wrong members of the bank."""
     for member in list_members(course):
         if member.kind == "wrong" and member.form == "package" and member.replaced_todos:
             member.build(folder / member.name)

@@ -173,7 +173,7 @@ def drop_lines(lines: list[str], todos: dict[str, Todo], left_out: set[str]) -> 
 
 
 def choose_examples(text: str, course: Course) -> str:
-    """Show commands and markers with a TODO that the course has."""
+    """Change the TODO of examples to one that the course has."""
     for example, bonus in ((EXAMPLE, False), (BONUS_EXAMPLE, True)):
         ids = [todo.id for todo in course.rubric.todos if todo.function and todo.bonus == bonus]
         if ids and example not in ids:

@@ -218,7 +218,7 @@ def find_notebook_secrets(folder: Path, course: Course) -> Iterator[list[Secret]
 def find_statement_secrets(
     what: str, source: str, scope: ast.FunctionDef | ast.Module, within: range
 ) -> Iterator[list[Secret]]:
-    """Yield the secrets of each statement: its value, and itself with any names and its own."""
+    """Yield each statement's secrets: its value, and itself with and without its names."""
     chosen = find_chosen_names(scope)
     for node in ast.walk(scope):
         if isinstance(node, ast.stmt) and node.lineno in within:
@@ -241,7 +241,7 @@ def is_telling(text: str, chosen: set[str]) -> bool:
 
 
 def find_telling_parts(node: ast.stmt) -> list[ast.AST]:
-    """Return the value of a statement and the statement; of a compound statement its head."""
+    """Return a statement and its value, or only the head of a compound one."""
     match node:
         case ast.Expr(value=ast.Constant()):  # a docstring
             return []

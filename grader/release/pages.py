@@ -40,7 +40,7 @@ STYLE = (HERE / "handout.css").read_text(encoding="utf-8")
 def write_pages(
     handouts: Path, folder: Path, course: Course = FULL, measured: bool = False
 ) -> None:
-    """Write a course's handouts that students get with the lab, or those about engines.
+    """Write a course's handouts of the lab or, if `measured`, those about engines.
 
     The pages about engines link to those of the lab, which do not link to them.
     """

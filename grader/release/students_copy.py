@@ -166,7 +166,7 @@ def cut_course_files(course: Course) -> dict[str, str]:
 
 
 def cut_checks(rubric: Rubric, sources: dict[str, str] | None = None) -> dict[str, str]:
-    """Return the files of the checks that a rubric needs, cut to what those use."""
+    """Return the check files that a rubric needs, cut to the code it uses."""
     shown: dict[str, set[str]] = {}
     for todo in rubric.todos:
         module = f"{PACKAGE}.{todo.folder}.checks"
@@ -177,7 +177,7 @@ def cut_checks(rubric: Rubric, sources: dict[str, str] | None = None) -> dict[st
 
 @cache
 def read_checks() -> dict[str, str]:
-    """Return the sources of all checks by their modules, without those of known mistakes."""
+    """Return the sources below checks/ by module, without the known mistakes."""
     return {
         ".".join([PACKAGE, *path.relative_to(CHECKS).with_suffix("").parts]): read_source(path)
         for path in CHECKS.rglob("*.py")
@@ -255,7 +255,7 @@ def observe(tree: Tree, rubric: Rubric, worker: Worker | None = None) -> list[Ob
 
 @contextmanager
 def note_oracles() -> Iterator[dict[str, Answers]]:
-    """Record the oracles' answers; call oracles with listed inputs for all of these."""
+    """Call the oracles with all listed inputs, and record all their answers."""
     notes: dict[str, Answers] = {name: {} for name in oracles}
     usual = {name: getattr(exact, name) for name in oracles}
     for name, values in oracles.items():

@@ -180,7 +180,7 @@ def build_tab(
 
 
 def look_for_own_leaks(folder: Path, secrets: list[Secret]) -> None:
-    """Raise Refused if a file gives the solution away; published packages may."""
+    """Raise Refused if a file of our own gives the solution away."""
     found = find_leaks(folder, secrets)
     own = [str(each) for each in found if not each.file.startswith(PUBLISHED)]
     if own:
@@ -280,7 +280,7 @@ def put_tree(archive: zipfile.ZipFile, place: str, folder: Path) -> None:
 
 
 def write_compiled(sources: Path, site: Path, pyodide: Path) -> None:
-    """Write the archives in `sources` into the page: loaded modules compiled, the rest apart."""
+    """Write the page's archives from `sources`: compiled modules, and the rest apart."""
     words = [str(PARTS / "compile.mjs"), str(pyodide), str(PARTS / "compile.py"), str(sources)]
     run_tool(["node", *words], sources)
     lab, compiled, stdlib, booted, loaded = (

@@ -25,9 +25,9 @@ MACHINES = ("manylinux_2_28_x86_64", "manylinux_2_17_x86_64", "manylinux2014_x86
 
 
 def write_autograder(path: Path, settings: Settings, wheels: str = "") -> None:
-    """Write the zip, with all packages for the Python of version `wheels`, if given.
+    """Write the zip; with `wheels`, a Python version, include all packages for it.
 
-    Then Gradescope installs nothing over the network except that Python.
+    Gradescope then downloads only that Python.
     """
     with tempfile.TemporaryDirectory() as temporary:
         work = Path(temporary)

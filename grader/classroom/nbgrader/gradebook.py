@@ -30,7 +30,7 @@ class EngineMark:
 
 
 def read_results(paths: Iterable[Path]) -> Iterator[tuple[str, Result | str]]:
-    """Yield the results in files or folders, by their students; a sentence for an invalid one."""
+    """Yield each student and the result, or a sentence if it is invalid."""
     for path in paths:
         for file in sorted(path.glob("*.json")) if path.is_dir() else [path]:
             try:
@@ -123,7 +123,7 @@ def write_mark(book: Any, cell: Any, student: str, todo: TodoResult | None) -> b
 
 
 def await_result(book: Any, cells: list[Any], student: str) -> bool:
-    """Mark an ungraded engine for manual grading; return whether it was ungraded."""
+    """Mark an engine for manual grading if it is ungraded; return whether it is."""
     grades = [book.find_grade(cell.name, ENGINE, ASSIGNMENT, student) for cell in cells]
     if all(grade.auto_score is not None for grade in grades):
         return False

@@ -73,7 +73,7 @@ def take_submission(
 ) -> StudentFolder:
     """Put one student's files into nbgrader's folder, unless they are there already.
 
-    `files` has them by their names in the lab; `folder` has all submitted files.
+    `files` has the lab's files by name; `folder` has all submitted files.
     """
     if not NAME.fullmatch(student):
         return StudentFolder(student, "nbgrader cannot work with this name: rename it", False)

@@ -57,7 +57,7 @@ class Brightspace(Lms):
         return END_OF_LINE in columns or "OrgDefinedId" in columns
 
     def read_row(self, row: Row) -> Row:
-        """Remove the sign before an identifier; `make_table` needs it again."""
+        """Remove the identifiers' sign; keep signed ones for `make_table`."""
         return (
             row
             | {f"{SIGN}{name}": row[name] for name in OWN if name in row}
@@ -65,14 +65,14 @@ class Brightspace(Lms):
         )
 
     def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:
-        """Return an identifier, the points, and a sign at the end of each row."""
+        """Return rows of identifiers, points, and the sign that ends a row."""
         own = [name for name in OWN if name in roster.columns]
         written = [f"{SIGN}{name}" for name in own]  # as it was exported
         table = [[*own, f"{marks.title} Points Grade", END_OF_LINE]]
         return [*table, *([*pick(each.row, written), each.mark, SIGN] for each in marks.rows)]
 
     def name_pages(self, source: Path, pages: list[Page]) -> Iterator[tuple[str, bytes]]:
-        """Return the folders of the download, with other files in them."""
+        """Yield the pages, in folders named as in the download."""
         if match := self.match(source):
             folder = f"{match['ids']} - {match['name']} - {match['when']}"
             yield from ((f"{folder}/{each.file}", each.content) for each in pages)

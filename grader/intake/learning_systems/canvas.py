@@ -75,7 +75,7 @@ class Canvas(Lms):
     def name_pages(
         self, source: Path, pages: list[Page]
     ) -> Iterator[tuple[str, bytes | dict[str, bytes]]]:
-        """Yield files with the names that Canvas gave: a zip for a zip, a text for any other."""
+        """Yield pages under the upload's name: as a zip for a zip, or else as text."""
         if self.match(source) is None:
             return
         if source.suffix.lower() == ".zip":

@@ -67,11 +67,11 @@ class Gradescope(Lms):
         return (folder / METADATA).is_file()
 
     def is_whole_export(self, folder: Path) -> bool:
-        """Return whether its name is an export's too: a submission may hold such a file."""
+        """Return whether it is an export; a submission with a list is named otherwise."""
         return self.is_export(folder) and bool(re.fullmatch(r"assignment_\d+_export", folder.name))
 
     def read_export(self, folder: Path, people: ClassList, intake: Intake) -> Iterator[Work]:
-        """Return the submissions of an export: one for each student, also of a group."""
+        """Return the submissions of an export; each group member gets one."""
         for place, entry in read_metadata(folder).items():
             path = folder / make_portable(place)
             names = [person.find_name(people) for person in entry.submitters]

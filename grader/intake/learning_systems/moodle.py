@@ -1,4 +1,4 @@
-"""Moodle: a folder or a file for each student and kind of upload, both in the name."""
+"""Moodle: a folder or file for each upload; its name has student and kind."""
 
 import re
 from collections.abc import Iterator

@@ -1,7 +1,7 @@
 """Compile what the page loads: by the page's own Python, when the page is made.
 
-lab.pyc.zip holds the compiled files of /parts/lab.zip that the page loads. Of python_stdlib.zip,
-booted.pyc.zip holds the modules that Python loads at its start, and loaded.pyc.zip those that the
+lab.pyc.zip holds the compiled files of /parts/lab.zip that the page loads. Two archives split
+python_stdlib.zip: booted.pyc.zip holds what Python loads at its start, loaded.pyc.zip what the
 page loads later. Docstrings that are titles of checks stay. The page does not check whether a file
 is newer.
 """

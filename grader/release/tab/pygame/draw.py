@@ -43,7 +43,7 @@ def find_bounds(surface, points, more=0):
 
 
 def circle(surface, color, center, radius, width=0):
-    """Draw a circle, filled without a width."""
+    """Draw a circle; width 0 fills it."""
     return add_circle(surface, color, center, radius, width, 0.0)
 
 
@@ -107,7 +107,7 @@ def add_line(surface, numbers, css, width):
 
 
 def polygon(surface, color, points, width=0):
-    """Draw a polygon, filled without a width."""
+    """Draw a polygon; width 0 fills it."""
     css, points = check(surface, color), [read_point(each) for each in points]
     if len(points) < 3:
         raise ValueError("points argument must contain more than 2 points")
@@ -120,7 +120,7 @@ def polygon(surface, color, points, width=0):
 
 
 def rect(surface, color, rect, width=0, border_radius=-1, *_, **__):
-    """Draw a rectangle, filled without a width; a border lies inside."""
+    """Draw a rectangle; width 0 fills it, a border lies inside."""
     css, (x, y, w, h), width = check(surface, color), read_rect(rect), int(width)
     if width < 0 or w < 0 or h < 0:
         return Rect(x, y, 0, 0)
@@ -137,7 +137,7 @@ def rect(surface, color, rect, width=0, border_radius=-1, *_, **__):
 
 
 def ellipse(surface, color, rect, width=0):
-    """Draw the ellipse in a rectangle, filled without a width."""
+    """Draw the ellipse in a rectangle; width 0 fills it."""
     points = list_arc(rect, 0, tau, width)
     return polygon(surface, color, points, width)
 

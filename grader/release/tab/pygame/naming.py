@@ -11,8 +11,8 @@ def full_name(value):
 class Named(type):
     """The type of classes that messages name in full.
 
-    Python puts `type.__name__` into "unsupported operand type(s) for +: 'float' and …". Of a class
-    in C it says "pygame.math.Vector2" there, though the class's own `__name__` is "Vector2".
+    Python puts `type.__name__` into "unsupported operand type(s) for +: 'float' and …". For a class
+    in C, this is "pygame.math.Vector2" there, though `Vector2.__name__` is "Vector2".
     """
 
     __name__ = property(lambda cls: cls.__qualname__)

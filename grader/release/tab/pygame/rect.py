@@ -41,7 +41,7 @@ def to_int(value):
 
 
 def side(get, put):
-    """Make an attribute that moves or sizes a rectangle, which both functions take as `r`."""
+    """Make an attribute of a rectangle from `get` and `put`, which take it first."""
 
     def set_to(r, value):
         put(r, *map(to_int, value)) if hasattr(value, "__getitem__") else put(r, to_int(value))
@@ -80,7 +80,7 @@ class Rect(metaclass=Named):
     centery = side(lambda r: r._y + half(r._h), lambda r, y: r._place(r._x, y - half(r._h)))
 
     def corner(one, two):
-        """Make an attribute from two others."""
+        """Join two attributes into a pair."""
 
         def put(r, x, y):
             setattr(r, one, x)

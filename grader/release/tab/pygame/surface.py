@@ -106,7 +106,7 @@ class Surface(metaclass=Named):
     def set_clip(self, rect):
         """Draw inside this rectangle only; None for the whole surface.
 
-        The pixels of a clip of one pixel are never seen, so drawing there costs nothing.
+        A clip of at most one pixel is too small to see: drawing does nothing.
         """
         whole = Rect(0, 0, self._width, self._height)
         self._clip = None if rect is None else whole.clip(rect)

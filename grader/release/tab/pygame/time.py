@@ -11,10 +11,10 @@ LAST = 10  # ticks that get_fps counts
 
 
 class Clock(metaclass=Named):
-    """Ends frames and measures them.
+    """A clock that ends frames and measures them.
 
-    The page sets `wait_hook(fps, last)`: it rests until 1/fps seconds after `last`, a time of
-    perf_counter, and posts what events have come meanwhile.
+    The page sets `wait_hook(fps, last)`, which rests until 1/fps seconds after `last` (a time
+    of perf_counter) and posts new events.
     """
 
     wait_hook = None
