@@ -219,7 +219,7 @@ def change(review: Review, request: Request) -> Response:
 
 
 def decide_points(review: Review, name: str, form: Form) -> None:
-    """Write the mark or points to add; replace an earlier decision."""
+    """Write a mark or added points; replace an earlier one of its kind."""
     kind = form.get("kind", "")
     if kind not in ("points", "add"):
         raise Stop("choose what the points do")

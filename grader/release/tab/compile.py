@@ -1,6 +1,6 @@
 """Compile what the page loads: by the page's own Python, when the page is made.
 
-lab.pyc.zip holds the compiled files of /parts/lab.zip that the page loads. Two archives split
+lab.pyc.zip holds the compiled files of /parts/lab.zip that the page loads. Two more are of
 python_stdlib.zip: booted.pyc.zip holds what Python loads at its start, loaded.pyc.zip what the
 page loads later. Docstrings that are titles of checks stay. The page does not check whether a file
 is newer.
