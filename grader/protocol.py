@@ -325,7 +325,7 @@ class Record(Struct, frozen=True, tag="record"):
 
 
 class Change(Struct, frozen=True, array_like=True):
-    """A change by a call. `ref` is an object, minus the number of an argument, or 0: a constant."""
+    """A change by a call. `ref`: an object's ref, a negated argument number, or 0: a constant."""
 
     ref: int
     name: Name
@@ -390,7 +390,7 @@ class Photo(Struct, frozen=True, array_like=True):
 
 
 class Played(Struct, frozen=True, tag="played"):
-    """The record of a program, frame by frame; the last entry covers the time after them."""
+    """The record of a program by frame; the last entry covers the time after all frames."""
 
     steps: Annotated[list[int], STATES]  # that ran in each frame
     clock: Annotated[list[float], STATES]  # scripted ms since the start, at the end of each frame
@@ -586,7 +586,7 @@ class Channel:
     def complete(self, seconds: float | None = None) -> bool:
         """Wait up to `seconds` for all of a message; return whether it is there.
 
-        Stops at a message that is too long, which `receive` refuses.
+        The header suffices for one too long: `receive` refuses it.
         """
         deadline = None if seconds is None else time.monotonic() + seconds
         while (missing := self._end - len(self.unread)) > 0:

@@ -17,7 +17,7 @@ def defuse(words: str) -> str:
 
 
 class Harmless(dict[int, int]):
-    """The code of the letter to show for each code; it is computed at first use."""
+    """Maps each character code to the code to show; computed at first use."""
 
     def __missing__(self, number: int) -> int:
         letter = chr(number)

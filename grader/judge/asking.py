@@ -29,8 +29,8 @@ class Observation:
 class Asker(Decoder):
     """Asks a child.
 
-    A question with a function `then` that judges its answer goes into one message with the next
-    ones. They are judged in order, before the next question without one, and when the check ends.
+    A question with `then`, a function that judges its answer, is posted: one message has several.
+    Their answers are judged in order: before a question without `then`, and as the check ends.
     """
 
     together = TOGETHER
@@ -44,7 +44,7 @@ class Asker(Decoder):
 
     @contextmanager
     def settled(self) -> Iterator[None]:
-        """Judge all answers at the end; after a failure, forget the questions."""
+        """Judge all posted answers on exit; after a failure, drop them."""
         try:
             yield
             self.settle()
@@ -63,7 +63,7 @@ class Asker(Decoder):
         noted: Noted | None = None,
         then: Judge | None = None,
     ) -> Value:
-        """Return the answer, converted by `read`, or post the question and judge it later."""
+        """Return the answer, converted by `read`; with `then`, post the question instead."""
         running, wait = self.running, self._post(request)
 
         def answer() -> Value:
@@ -84,7 +84,7 @@ class Asker(Decoder):
         return None
 
     def settle(self) -> None:
-        """Judge the answers to all questions that were posted with a function for it."""
+        """Judge the answers to all posted questions, each by its function `then`."""
         posted, self.posted, running = self.posted, [], self.running
         self.is_judging = True
         try:
@@ -120,7 +120,7 @@ class Asker(Decoder):
         return self._guard(lambda: self.connection.post(request, self.running))
 
     def _guard(self, act: Callable[[], Result]) -> Result:
-        """Return the result of an act; remember a failure that it raises."""
+        """Return the result of `act`; remember a failure that it raises."""
         try:
             return act()
         except (Broke, NotYet) as failure:

@@ -96,7 +96,7 @@ class Budget:
 
 
 def for_words(open_child: Callable[[int], Child]) -> Callable[[int], Child]:
-    """Return a function that opens children with less time to sleep: no points depend on them."""
+    """Return an `open_child` with less time to sleep, for runs that only affect messages."""
 
     def opened(cpu_seconds: int) -> Child:
         child = open_child(cpu_seconds)

@@ -66,7 +66,7 @@ class Late(Struct, frozen=True, forbid_unknown_fields=True):
         return structs.replace(self, cap=most * read_share(self.cap) // 100)
 
     def find_faults(self, most: int) -> Iterator[str]:
-        """Yield the values that are too high for a course with `most` points, in words."""
+        """Yield a message for each value above the `most` points of the course."""
         for name in ("per_day", "at_most", "cap"):
             value = getattr(self, name)
             if isinstance(value, int) and value > most:
@@ -80,7 +80,7 @@ def read_share(share: str) -> int:
 
 
 class Asked(Struct, frozen=True, forbid_unknown_fields=True):
-    """The numbers of questions on a sheet about the student's own program."""
+    """Question counts by kind for a sheet about the student's program."""
 
     number: Annotated[int, Meta(ge=0, le=10)] = 3
     film: Annotated[int, Meta(ge=0, le=10)] = 1
@@ -169,10 +169,10 @@ FULL = Course()
 
 @cache
 def choose_todos(todos: tuple[str, ...] | None, points: tuple[tuple[str, int], ...]) -> Rubric:
-    """Return the rubric with these TODOs alone, in its own order, and with these points.
+    """Return the rubric cut to `todos`, in the rubric's order, with these `points`.
 
-    Keep those checks of the whole that run a program with a TODO. A check that needs none of the
-    TODOs counts only if another one passes.
+    Checks of the whole program stay if they run a program with a TODO. One that needs only omitted
+    TODOs counts only if another passes.
     """
     every = load_rubric().todos
     asked = [todo for todo in every if todos is None or todo.id in todos]
@@ -252,9 +252,9 @@ def read_course(path: Path | None = None) -> Course:
 
 
 def instant(when: date, at: time) -> datetime:
-    """Complete a date with the time `at` and the last time zone, if it has none.
+    """Add the time `at` to a date, and the world's last time zone if it has none.
 
-    So it does not depend on the zone of any machine.
+    So no machine's time zone matters.
     """
     exact = when if isinstance(when, datetime) else datetime.combine(when, at)
     return exact if exact.tzinfo else exact.replace(tzinfo=ANYWHERE)
@@ -288,7 +288,7 @@ MUST = {  # the rule for each value, by its position in the file; * is any key o
 def convert(document: Any, kind: type[Read]) -> Read:
     """Return a table of the file as a struct; raises WrongCourse with a sentence.
 
-    msgspec names the position of an error, but not the key in a table of numbers.
+    msgspec does not name the wrong key of a points table, so this looks for it.
     """
     try:
         return msgspec.convert(document, kind)
@@ -325,7 +325,7 @@ def fits(points: dict[str, Any], kind: type[Struct]) -> bool:
 
 
 def faults_before(document: dict[str, Any]) -> Iterator[str]:
-    """Yield faults that types do not find, of keys and TODOs, in the order to correct them."""
+    """Yield faults that types allow: keys below the wrong table, a `late` without rules."""
     points, late = document.get("points"), document.get("late")
     for table, name in ((points, "points"), (late, "late")):
         known = Course.__struct_fields__ if name == "points" else ("due",)

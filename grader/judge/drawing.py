@@ -1,8 +1,8 @@
 """Draw the examples of properties: by explicit seeds, the same on every machine.
 
 Only the public interface of hypothesis is used. The examples do not depend on the text of a check,
-nor on other modules: hypothesis mixes in integers that it finds in modules, but none below 100, so
-strategies are made of smaller ones (see `between`).
+nor on other modules: hypothesis draws integers that it finds in modules, but none below 100, so
+`between` builds its integers from smaller ones.
 """
 
 import hashlib
@@ -48,7 +48,7 @@ def given(
 
 
 def settled(function: Property) -> Property:
-    """Judge all answers before an example ends."""
+    """Make each example judge all its answers."""
 
     @wraps(function)
     def example(lab: Any, **drawn: Any) -> None:
@@ -70,7 +70,7 @@ def between(low: int, high: int) -> st.SearchStrategy[int]:
 
 @contextmanager
 def kept_examples(function: Any, seed: int | None) -> Iterator[list[Example]]:
-    """Collect the examples that a property draws, by its name and seed."""
+    """Seed a property by its name; collect the examples that it draws."""
     examples: list[Example] = []
     if not hasattr(function, "hypothesis"):
         yield examples

@@ -167,7 +167,7 @@ class Grading(Task):
         return search.causes
 
     def pass_spoilt_scenes(self, todo: Todo) -> list[CheckResult]:
-        """Return the results of a TODO; scenes that others spoil pass if all other checks do.
+        """Return a TODO's results; scenes that other TODOs spoil pass if all other checks do.
 
         A TODO spoils a scene if it is wrong and no right version could replace it, as in a
         program without its function. The other checks run no such TODO, and for the
@@ -206,9 +206,9 @@ def keeps_points(todo: Todo, names: "Names") -> bool:
 
 
 def charge_whole(loop: "CheckLoop", cause: "GivenCause") -> None:
-    """Fail a check of the whole program for changed given code that a TODO needs.
+    """Fail a check of the whole program because a TODO needs changed given code.
 
-    Nothing changes unless all checks of the whole program have passed.
+    If some check of the whole program failed already, change nothing.
     """
     whole = loop.list_outcomes("whole")
     passed = [each for each in whole if each.result.state == "passed"]

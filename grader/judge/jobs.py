@@ -30,7 +30,7 @@ class Job:
 
     @property
     def part(self) -> tuple[str, str]:
-        """Return the TODO and the program; its jobs with the same ones run the same code."""
+        """Return the TODO and the program: jobs that share both run the same code."""
         return self.todo.id, self.module
 
     @property

@@ -133,10 +133,10 @@ class Lab(Asker):
         """Call `name` of the TODO's module, or `module:name`.
 
         `changes` names the fields that the call may change, as in {a: "vel"}; NOTHING is for a
-        function that changes none. Without `changes` nothing is compared. A function called `twice`
-        must give the same answer. See `overstepped`. The answer
-        brings the state of the things that it may change and of those in `sees`. `marks` are
-        fields to set in the returned contact. An exception becomes an observation of `noted`.
+        function that changes none. Without `changes` nothing is compared. `twice`: a second call
+        must give the same answer. See `overstepped`. The answer brings the state of the things in
+        `changes` and `sees`. `marks` are fields to set in the returned contact. An exception
+        becomes an observation of `noted`.
         """
         request = make_call(
             self._target(name),
@@ -224,9 +224,9 @@ class Lab(Asker):
         return f"the {name_fields(change.name)} of {self.names.get(change.ref, 'another object')}"
 
     def advance(self, world: Thing, accumulator: float, seconds: float) -> "Advance":
-        """Call the program's `advance` for a frame so short that no step runs.
+        """Call the program's `advance`; count its steps without running them.
 
-        It must not change anything.
+        The call must change nothing.
         """
         args = (world, accumulator, seconds)
         request = make_call(self._target("advance"), args, framed=True, stepping=True)
@@ -454,7 +454,7 @@ class Lab(Asker):
         return reply
 
     def deal(self, number: int) -> None:
-        """From now on, add a number to the seeds of the submission's random generators."""
+        """Add `number` to the seeds of the submission's random generators from now on."""
         self.connection.deal = number
         self.start_anew()
 

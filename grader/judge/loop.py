@@ -102,7 +102,7 @@ class CheckLoop:
             self.grading.options.progress(outcome.result)
 
     def _find_blocked(self, job: Job) -> CheckResult | None:
-        """Return the result of a check that need not run."""
+        """Return a check's result if it need not run."""
         if flaw := self._flaw_of(job):
             return refuse(job, flaw)
         todo, begun = job.todo, self.submission.begun
@@ -201,7 +201,7 @@ class CheckLoop:
 
     @property
     def replaceable(self) -> frozenset[str]:
-        """Return the failed TODOs: the whole runs with right versions of them.
+        """Return the failed TODOs; the whole program runs right versions.
 
         Return none if all started TODOs have failed: the program would have nothing of its own.
         """

@@ -50,8 +50,8 @@ class RecordedAnswers(Struct, frozen=True):
 def oracle(*values: Sequence[float]) -> Callable[[Function], Function]:
     """Mark a function whose answers students get, but not its code.
 
-    Without `values`, a run of the checks on the solution decides which answers are recorded. A
-    check with random inputs is hidden from students, unless `values` lists each argument's.
+    `values` lists the values of each argument. Without it, the answers that the checks ask of the
+    solution are recorded, and checks with random inputs are hidden from students.
     """
 
     def mark(function: Function) -> Function:

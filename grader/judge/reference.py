@@ -43,7 +43,7 @@ class Reference:
             self.pieces[todo.id], self.shapes[todo.id] = found[todo.function]
 
     def is_that_of(self, submission: Submission, todo: Todo) -> bool:
-        """Return whether a submission has the reference's code for a TODO, or for the whole."""
+        """Return whether a submission has reference code for `todo`; `whole` means all."""
         asked = [todo.id] if todo.function else [each.id for each in self.todos if each.function]
         mine = [submission.functions.get(id) for id in asked]
         return bool(self.shapes) and mine == [self.shapes.get(id) for id in asked]
@@ -85,7 +85,7 @@ class Reference:
 
 
 def drop_function(function: str, piece: Piece) -> Piece:
-    """Return a piece of code without this function, which the check tests.
+    """Return a piece of code without the `function` that the check tests.
 
     A piece includes the functions that it calls, and a child can read everything sent to it.
     """

@@ -52,7 +52,7 @@ class CheckResult(Struct, frozen=True):
 
 
 def in_bounds(check: CheckResult, most: int = TEXT_LENGTHS[0]) -> CheckResult:
-    """Return a check with short texts and no control characters: some quote a submission."""
+    """Return a check with short, clean texts, since some quote a submission."""
     names = [*TEXTS, "printed"] if check.printed else TEXTS
     texts = {name: defuse(cut(getattr(check, name), most)) for name in names}
     where = check.where if check.where and len(check.where.file) <= MAX_FILE else None

@@ -112,10 +112,10 @@ class Runner:
         return survey.observations
 
     def find_wrong_check(self, job: Job, lab: Lab) -> str:
-        """Return how the reference fails a check too, or an empty text if it passes.
+        """Describe how the reference fails a check too; empty if not.
 
-        It runs only if the check may be wrong: after an unexpected error, or if the submission has
-        the reference's code.
+        The reference runs only if the check may be wrong: after an unexpected error, or if the
+        submission has the reference's code.
         """
         grading = self.grading
         likely = lab.unforeseen or grading.reference.is_that_of(grading.submission, job.todo)
@@ -161,7 +161,7 @@ class Runner:
     # ------------------------------------------------------------ once more
 
     def run_again(self, job: Job, opener: Opener) -> Lab:
-        """Run a check in other children; return observations of the unchanged program."""
+        """Run a check in other children; its lab has the unchanged program's answers."""
         with kept_examples(job.function, self.grading.options.seed):
             lab = self._ask(job, job.function, Conditions(isolated=True, opener=opener))
             if lab.connection.pieces:
@@ -183,7 +183,7 @@ class Runner:
         return all(self._passes(each, opener) for each in chosen)
 
     def _passes(self, outcome: Outcome, opener: Opener) -> bool:
-        """Run the failed example first, and alone, since most changes do not help."""
+        """Return whether a check passes; first run only the example that failed."""
         how = Conditions(isolated=True, opener=opener, cpu_for_words=LITTLE_CPU)
         job, failing = outcome.job, outcome.failing
         with kept_examples(job.function, self.grading.options.seed):

@@ -212,8 +212,7 @@ def plain_files(path: Path) -> Iterator[Path]:
 
 
 def explain_unreadable(error: OSError, within: Path) -> str:
-    """Return the reason why a file or folder cannot be read, with its name inside the
-    submission."""
+    """Return the reason why a file or folder cannot be read, with its name in the submission."""
     why = error.strerror or type(error).__name__
     name = os.fspath(error.filename) if isinstance(error.filename, (str, os.PathLike)) else ""
     if not name or name == os.fspath(within):
@@ -365,7 +364,7 @@ def note_place(
 def note_misplaced(
     submission: Submission, todo: Todo, file: str, text: str, function: Function
 ) -> None:
-    """Note the first line of a TODO's function that was written outside its region."""
+    """Note the first line that was written in a TODO's function outside its region."""
     own, given = source_of(text, function), handed_out().stubs[f"def {todo.id}"]
     number, theirs, _ = first_difference(own.splitlines(), given.splitlines())
     if theirs and shape_of(own) != shape_of(given):
@@ -397,7 +396,7 @@ def note_remarks(submission: Submission, texts: dict[Path, str]) -> None:
 
 
 def find_copies(submission: Submission, ids: set[str], texts: dict[Path, str]) -> dict[str, Path]:
-    """Return by TODO a file that no program loads and whose code is not the stub."""
+    """Return, by TODO, an unloaded file with code for it that is not the stub."""
     program = submission.program
     modules = load_rubric().modules
     loaded = {program.paths[part] for module in modules for part in program.list_loaded(module)}

@@ -24,8 +24,7 @@ NAMES = 10  # columns before the words of *Got* and other labels
 
 
 def list_reasons(check: CheckResult, task: str = "") -> list[tuple[str, str]]:
-    """Return the reasons of a failed check, in named lines; `task` follows a position in the TODO's
-    code."""
+    """Return a failed check's reasons, as named lines; `task` follows a line of the TODO's code."""
     place = place_of(check) + task * (not check.where.given) if check.where else ""
     words = (
         ("We ran", check.ran),

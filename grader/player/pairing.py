@@ -49,7 +49,7 @@ class PairedRequest(NamedTuple):
 
 
 def pair_runs(yours: Sequence[Run], expected: Sequence[Run], exact: bool = True) -> Replay:
-    """Return the replay of both runs. `expected` may be shorter; unless `exact`, it is rounded."""
+    """Return the replay of both runs; `expected` may be shorter, and is rounded if not `exact`."""
     runs = [(one, other or Run("")) for one, other in zip_longest(yours, expected[: len(yours)])]
     rows = [list(pair_requests(*pair)) for pair in runs]
     scenes = [make_scene(*pair, each) for pair, each in zip(runs, rows, strict=True)]
@@ -80,7 +80,7 @@ def pair_requests(run: Run, other_run: Run) -> Iterator[PairedRequest]:
 
 
 def moment_at(line: Line, number: int) -> Moment | None:
-    """Return a moment of a line, or its last one."""
+    """Return a line's nth moment, or its last."""
     return line.moments[min(number, len(line.moments) - 1)] if line.moments else None
 
 
@@ -106,7 +106,7 @@ def make_scene(yours: Run, expected: Run, rows: Sequence[PairedRequest]) -> Scen
 
 
 def list_tolerances(speed: float) -> list[Tolerance]:
-    """Return tolerances for visible differences, for these with other masses, and for rounding.
+    """Return tolerances: for visible differences, for masses as well, and for rounding.
 
     The effect of another mass is visible only later. `speed` is the highest of both runs, px/s.
     """

@@ -113,7 +113,7 @@ class Recorder:
         self.scenes[-1].append(Run(self.experiment))
 
     def _leave_room(self) -> None:
-        """Forget the latest scene once half of all moments are used, since the last is shown."""
+        """Forget the latest scene once half of all moments are used: the last needs room."""
         if self._count > MAX_MOMENTS // 2:
             lines = [line for run in self.scenes[-1] for line in run.lines]
             self._count -= sum(len(line.moments) for line in lines)
@@ -160,7 +160,7 @@ class Recorder:
         return step
 
     def scenes_to_show(self) -> slice:
-        """Return the last scene, or all; a check that fails between scenes needs all."""
+        """Return the last scene, or all if the check fails between scenes."""
         is_between = self._new_scene and self.scenes[-1] != []
         return slice(None) if is_between else slice(-1, None)
 

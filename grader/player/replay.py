@@ -114,7 +114,7 @@ class Replays:
         return shown, both
 
     def _expected_scenes(self, failing: Failing, count: int) -> list[list[Run]]:
-        """Return the first scenes of the right run, of the reference or from a recording."""
+        """Return the right run's first scenes, from the reference or from a recording."""
         if self.open_reference is not None:
             return record_again(failing, self.open_reference, [], count).recorder.scenes
         return load_expected().get(f"{failing.todo.id}/{failing.check.id}", [])

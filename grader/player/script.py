@@ -156,7 +156,7 @@ class Translator:
         return self.names[ref]
 
     def _assign(self, value: Value, code: str, target: str = "") -> str:
-        """Assign the result of the code to a name if it is a new object."""
+        """Return code that names its result if that is a new object."""
         match value:
             case None if target.rpartition(":")[2] in FINDERS:
                 name = "contact"
@@ -254,7 +254,7 @@ class Translator:
 
 
 def overrides(later: Set, earlier: Request) -> bool:
-    """Return whether a request sets all the fields that an earlier one has set."""
+    """Return whether `later` sets all the fields that `earlier` has set."""
     return isinstance(earlier, Set) and earlier.fields.keys() <= later.fields.keys()
 
 
@@ -313,7 +313,7 @@ def write_script(
 
 
 def end_with_answer(steps: Sequence[Step]) -> Sequence[Step]:
-    """Leave out changes that a check made after the answer that it judged, the last one."""
+    """Leave out changes that a check made after its last answer, which it judged."""
     last = len(steps)
     while last and isinstance(steps[last - 1].request, Set) and steps[last - 1].silent:
         last -= 1

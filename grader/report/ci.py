@@ -39,7 +39,7 @@ def write_reports(result: Result, folder: Path) -> None:
 
 
 def tell_github(result: Result, path: Path, environment: Mapping[str, str]) -> None:
-    """On GitHub, print annotations and write the summary and the outputs of the step."""
+    """Print annotations if on GitHub; write the step's summary and outputs."""
     if environment.get("GITHUB_ACTIONS") == "true":
         folder = locate_in_repository(path, environment)
         print(write_annotations(result, folder), end="", flush=True)

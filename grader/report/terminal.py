@@ -50,7 +50,7 @@ def show_isolation(result: Result, console: Console) -> None:
 
 @dataclass
 class Printer:
-    """A printer of results, which prints a reason that several checks share only once."""
+    """A printer of results; it prints a shared reason once."""
 
     console: Console
     replays: Path | None = None  # their folder

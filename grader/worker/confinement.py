@@ -145,7 +145,7 @@ def wipe_variables() -> None:
 
 
 def bound_namespace() -> None:
-    """Limit the number of processes and threads in here: rlimits do not bind root.
+    """Limit processes and threads in this namespace: rlimits do not bind root.
 
     A PID namespace has its own limit since Linux 6.14; before, the limit is the machine's.
     """
@@ -269,7 +269,7 @@ def enter_own_namespaces(setup: ChildSetup, root: bool) -> tuple[list[str], Chil
 
 
 def enter_user_namespace(others: int) -> bool:
-    """Enter a user namespace, and the `others` (CLONE_ flags), which it allows to any user.
+    """Enter a user namespace and, as it allows this, the `others` (CLONE_ flags).
 
     User and group are mapped to themselves. Returns whether the kernel allowed it.
     """

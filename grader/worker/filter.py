@@ -181,7 +181,7 @@ def unless_equal(value: int, then: list[Instruction]) -> list[Instruction]:
 
 
 def null(index: int) -> list[Instruction]:
-    """Allow a call where this pointer is NULL."""
+    """Allow a call if this argument is NULL."""
     lower = argument(index) + unless_equal(0, answer(REFUSE))
     return lower + argument(index, upper=True) + unless_equal(0, answer(REFUSE)) + answer(ALLOW)
 

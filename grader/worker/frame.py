@@ -71,7 +71,7 @@ class Frame:
         return found
 
     def changes(self) -> list[Change]:
-        """Return the changes since then."""
+        """Return changes since `before`."""
         after = self.state()
         if after == self.before:  # the usual case
             return []

@@ -64,7 +64,7 @@ class ImportRule(MetaPathFinder):
 def hide_modules() -> None:
     """Hide the modules that only the grader may import.
 
-    The warm process does this before it forks: in a child, it would copy the memory of hundreds of
+    The warm process does this before it forks: each child would copy the memory of hundreds of
     modules.
     """
     if not HIDDEN:

@@ -73,7 +73,7 @@ class LineCounter:
         return self.counted
 
     def trace(self, frame: FrameType, event: str, _: object) -> Trace | None:
-        """Return the function that Python calls for each line of a function that begins."""
+        """Return the trace of a function that begins; Python calls it for each line."""
         if frame.f_code in UNCOUNTED:
             return None
         self.begun += 1

@@ -205,7 +205,7 @@ def play(session: Session, request: Play) -> Played:
 class Window:
     """The program's window, of which only one pixel is drawn unless pictures are wanted.
 
-    Here pygame.quit() closes only the window: the whole takes long, and the process ends soon.
+    Here pygame.quit() closes only the window: quitting takes long, and the process ends soon.
     """
 
     def __init__(self, pictures: bool, photos: list[int]) -> None:

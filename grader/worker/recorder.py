@@ -165,7 +165,7 @@ class Recorder:
     def _append(
         self, rows: list[Any], most: int, describe: Callable[[Any], Any], thing: Any
     ) -> None:
-        """Add a row, unless there are `most`, the row exists, or describing it fails."""
+        """Add a row; skip it if `rows` is full or has it, or if describing it fails."""
         with suppress(Exception):
             row = describe(thing)
             if len(rows) < most and row not in rows:

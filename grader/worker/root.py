@@ -93,7 +93,7 @@ class Root:
     def enter(self, setup: ChildSetup) -> ChildSetup:
         """Make it the root of this process, in its own mount namespace; return the new paths.
 
-        Raises OSError; then nothing has changed unless one of the last two calls failed.
+        Raises OSError; only failures of the last two calls leave changes behind.
         """
         mount(self.place, self.place, None, MS_BIND | MS_REC)  # of this namespace
         own = self.place + self.top

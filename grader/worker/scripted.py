@@ -155,7 +155,7 @@ class ScriptedClock:
         return pygame.event.poll()
 
     def _ending_frames(self, show: Callable[..., Any]) -> Callable[..., Any]:
-        """Make showing the picture end a frame, unless a Clock ends it.
+        """Return a `show` that ends a frame if no Clock ends it.
 
         Whether a Clock ends frames is known in the second frame only: the Clock may tick after the
         first picture, or never.
@@ -277,7 +277,7 @@ class ScriptedDatetime(datetime.datetime):
 
 
 def shift_seeds(number: int) -> None:
-    """Add `number` to each whole seed of a random.Random from now on."""
+    """Add `number` to each int seed of a random.Random from now on."""
     draw = random.Random.seed
 
     def seed(self: random.Random, a: Any = None, version: int = 2) -> None:

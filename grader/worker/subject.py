@@ -139,7 +139,7 @@ class Subject:
             replace_function(original, wanted)
 
     def _is_asked(self, piece: Piece, original: types.FunctionType) -> bool:
-        """Return whether this is also the function that the check is about."""
+        """Return whether `original` is the function that the check tests."""
         try:
             return bool(piece.asked) and plain_function(self.find(piece.asked)) is original
         except ContractError:

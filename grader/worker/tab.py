@@ -224,7 +224,7 @@ class TabChannel(InnerChannel):
         self.answers.append(pack_message(message)[4:])
 
     def _answer(self, asked: Asked) -> None:
-        """Answer, unless a process would have ended meanwhile."""
+        """Answer; set `status` if a process would have ended."""
         most = self.setup.limits.cpu_seconds
         began = now()
         if self.tenant is None:

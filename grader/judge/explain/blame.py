@@ -33,7 +33,7 @@ class GivenCause:
 
     @property
     def is_all(self) -> bool:
-        """Return whether this explains a failure completely; missing code may just be renamed."""
+        """Return whether this is the only cause; missing code may be renamed, so it never is."""
         return self.mended and all(each.theirs for each in self.changes)
 
     @property
@@ -43,7 +43,7 @@ class GivenCause:
 
     @property
     def is_experiment(self) -> bool:
-        """Return whether only the solver's passes differ: the lesson suggests trying that."""
+        """Return whether only the number of solver passes differs, as the lesson suggests."""
         return all(each.name in EXPERIMENTS for each in self.changes)
 
     def place(self, check: CheckResult) -> Where:
@@ -101,7 +101,7 @@ class CauseSearch:
     answers: dict[Key, list[Observation]] = field(default_factory=dict)  # with all changes undone
 
     def look_into(self, failed: Mapping[Key, CheckResult]) -> None:
-        """Undo all changes; then undo each one alone for the checks whose results this changed."""
+        """Run checks with all changes undone; where results differ, undo each change alone."""
         differ: dict[Key, bool] = {}
         open_child = self.open_with(self.changes)
         for key, check in failed.items():
@@ -143,14 +143,14 @@ class CauseSearch:
 
 
 def find_first_like(failed: Mapping[Key, CheckResult], key: Key) -> Key:
-    """Return the first check with the same error, or the check itself."""
+    """Return the first check with `key`'s error; `key` if it has none."""
     if failed[key].state != "error":
         return key
     return next(k for k, check in failed.items() if check.got == failed[key].got)
 
 
 def makes_a_difference(lab: Lab, check: CheckResult) -> bool:
-    """Return whether a check passes now, or got something else without the reference."""
+    """Return whether it passes now or, with no reference code, got another answer."""
     failure = lab.failure
     if failure is None:
         return True

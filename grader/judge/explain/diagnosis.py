@@ -144,7 +144,7 @@ class Diagnosis:
         )
 
     def group(self, numbers: list[int], kinds: tuple[str, ...]) -> list[tuple[str, list[int]]]:
-        """Return the questions by their traits of these kinds."""
+        """Group questions by their traits of these `kinds`."""
         found: dict[str, list[int]] = {}
         for number in numbers:
             traits = self.questions[number].traits
@@ -182,16 +182,16 @@ class Diagnosis:
         return found if self.is_complete(found, wrong, covered) else []
 
     def is_complete(self, found: list[Finding], wrong: list[int], covered: frozenset[str]) -> bool:
-        """Return whether findings predict every number of their wrong answers."""
+        """Return whether `found` explains all that is wrong in its answers."""
         decided = [n for n in wrong if any(self.predict(each.mistake, n) for each in found)]
         return all(self.questions[n].wrong <= covered for n in decided)
 
     def find_changed(
         self, mistake: Mistake, numbers: list[int], covered: frozenset[str]
     ) -> frozenset[str]:
-        """Return the parts that a mistake changes; none if the answers contradict it in one.
+        """Return the parts that a mistake changes; none if answers contradict one of them.
 
-        Another mistake explains the parts in `covered`.
+        It omits `covered` parts, which others explain.
         """
         both = [(self.questions[n], self.predict(mistake, n)) for n in numbers]
         decided = [(each, predicted) for each, predicted in both if predicted is not None]
@@ -216,7 +216,7 @@ class Diagnosis:
         return frozenset[str]().union(*(each.wrong for each in predicted if each is not None))
 
     def predict(self, mistake: Mistake, number: int) -> Question | None:
-        """Return a question with a mistake's answer to it; None if the mistake has none."""
+        """Return a question as a mistake answers it; None if it has no answer."""
         if (mistake, number) not in self.predictions:
             each, found = self.questions[number], None
             if each.about == mistake.about:
@@ -231,7 +231,7 @@ class Diagnosis:
     ) -> tuple[Mistake, frozenset[str]] | None:
         """Choose the mistake that changes most parts; among equals, one that fits all answers.
 
-        If several still fit, no other mistake is named for the parts that they change.
+        If several still fit, none is named, nor any other for the same parts.
         """
         tied: frozenset[str] = frozenset()
         order = sorted({changed for _, changed in fit}, key=lambda c: (-len(c), sorted(c)))

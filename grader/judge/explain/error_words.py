@@ -65,7 +65,7 @@ class Error:
 
     @cached_property
     def values(self) -> dict[str, int]:
-        """Return the names to which the function gives a value, with the first line that does."""
+        """Return the names that the function assigns, each with the first line that does."""
         found: dict[str, int] = {}
         for node in ast.walk(self.function) if self.function else ():
             if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
@@ -93,7 +93,7 @@ class Error:
 
     @property
     def targets(self) -> set[str]:
-        """Return the names to which the line gives a value: none of them has one before."""
+        """Return the names that the line assigns; they have no value before it."""
         names = (node for node in self.nodes() if isinstance(node, ast.Name))
         return {node.id for node in names if isinstance(node.ctx, ast.Store)}
 
@@ -285,7 +285,7 @@ def explain_not_callable(match: Match, error: Error) -> str:
 
 
 def explain_zero(match: Match, error: Error) -> str:
-    """Explain a division by 0 outside the TODO's region, which gave that value."""
+    """Explain a division by a 0 that the TODO gave to code outside its region."""
     region = find_regions(error.text).get(error.todo)
     if region is not None and region.start < error.line - 1 < region.stop:
         return ""  # wrong answers show more
@@ -297,7 +297,7 @@ def explain_zero(match: Match, error: Error) -> str:
 
 
 def explain_key(match: Match, error: Error) -> str:
-    """Explain a missing key of a dictionary, by the way in which the line uses its value."""
+    """Explain a missing dictionary key by the way the line uses the key's value."""
     for node in error.nodes():
         match node:
             case ast.Attribute(ast.Subscript(ast.Name(name)), "append" | "add" | "extend"):
@@ -325,7 +325,7 @@ def explain_arguments(match: Match, error: Error) -> str:
 
 
 def explain_none(match: Match, error: Error) -> str:
-    """Name a method that changes an object in place and returns None, whose result is used."""
+    """Name a method whose result is used, though it returns None and works in place."""
     for node in ast.walk(error.function) if error.function else ():
         match node:
             case ast.Assign(value=ast.Call(func=ast.Attribute(attr=name))) if (

@@ -137,7 +137,7 @@ def find_line(failure: Failure, meaning: str) -> int:
 
 
 def blame_given_code(failure: Failure) -> str:
-    """Name changed given code, and the next explanation if it is not the only reason."""
+    """Name changed given code; if not the only cause, add the next explanation."""
     cause = failure.given_cause
     if cause is None:
         return ""
@@ -190,7 +190,7 @@ def explain_names(failure: Failure) -> str:
 
 
 def name_suspect(kind: str, is_all: bool = False) -> "Explainer":
-    """Name a suspect line; after other reasons, unless it explains everything (`is_all`)."""
+    """Return an explainer that names a suspect line, alone if `is_all`, or after others."""
 
     def name(failure: Failure) -> str:
         words = "" if failure.is_error else failure.evidence.suspect(kind)
@@ -271,7 +271,7 @@ def name_rebound(failure: Failure) -> str:
 
 
 def repeat_remark(failure: Failure) -> str:
-    """Repeat why there is no code; a missing program has none."""
+    """Repeat why there is no code, or name a missing program."""
     ran, remark = failure.check.ran, failure.evidence.remark
     program = ran.removeprefix("import ")
     if remark or failure.start is not None or program == ran:
@@ -280,7 +280,7 @@ def repeat_remark(failure: Failure) -> str:
 
 
 def point_outside(failure: Failure) -> str:
-    """Say for the whole program that the reason is in no TODO."""
+    """Say that no TODO is the cause, for the whole program."""
     return "" if failure.evidence.todo.function else OUTSIDE
 
 

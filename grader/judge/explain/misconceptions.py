@@ -43,10 +43,10 @@ class Kind:
     """A kind of question.
 
     `traits` describes a question by a dict of clauses, such as {"place": "the centre is inside the
-    box"}. Mistakes are searched in questions with the same trait, in this order. A trait that
-    begins with _ only helps to locate wrong answers. `parts` names the parts of an answer by the
-    positions of their numbers, or all numbers without positions. Parts computed by separate code
-    are `apart`: a mistake may affect only one of them.
+    box"}. Mistakes are sought among questions that share a trait, in this order. A trait that
+    begins with _ only helps to locate wrong answers. `parts` maps the name of each part of an
+    answer to the positions of its numbers; no positions mean all. `apart`: separate code computes
+    the parts, so a mistake may affect only one.
     """
 
     right: Model
@@ -62,7 +62,7 @@ kinds: dict[str, Kind] = {}  # by their names
 def mistake(
     todos: str, about: str, name: str, meaning: str, *models: Model, apart: bool = True
 ) -> None:
-    """Register a mistake by models of its answers; one of them must explain a submission's.
+    """Register a mistake by models; it is found if one of them explains the answers.
 
     Several TODOs are separated by spaces. If two mistakes explain the same answers, the first one
     is named. With `apart` False, it never affects a single part of an answer, even if its kind of
@@ -142,7 +142,7 @@ def says_nothing(observations: Sequence[Observation]) -> bool:
 
 
 def keep_simplest(ids: Collection[str]) -> list[str]:
-    """Drop combined ids, `one+other`, if one of the two is also in the list alone."""
+    """Drop a combined id, `one+other`, if `one` or `other` is in the list too."""
     return [each for each in ids if "+" not in each or not set(each.split("+")) & set(ids)]
 
 

@@ -88,7 +88,7 @@ def read_questions(observations: Sequence[Observation]) -> Iterator[Question]:
 
 
 def split(about: str, answer: Any) -> dict[str, Any]:
-    """Split an answer into parts; an answer of another kind stays whole in each."""
+    """Split an answer into parts; a part without numbers is the whole answer."""
     numbers, found = flatten(answer), {WHOLE: answer}
     for name, places in kinds[about].parts.items():
         has = places and len(numbers) > max(places)
@@ -170,7 +170,7 @@ def word(numbers: list[float]) -> str:
 
 
 def narrow(questions: Sequence[Question], first: Question, parts: frozenset[str]) -> Narrowing:
-    """Find the questions in which these parts are wrong as in the first one, and how."""
+    """Find where these `parts`, wrong in `first`, are wrong too, and how they differ."""
     same = [each for each in questions if each.about == first.about]
     if first.misfit:
         return narrow_misfit(same, first)
@@ -257,7 +257,7 @@ def is_readable(clauses: Counter[Any], is_short: bool = True) -> bool:
 
 
 def count_traits(questions: list[Question], *kinds: str) -> Counter[Any]:
-    """Count the questions by their traits of these kinds; None for those that lack one."""
+    """Count questions by their traits of `kinds`; those that lack one count as None."""
     found: Counter[Any] = Counter()
     for each in questions:
         clauses = [each.traits.get(kind) for kind in kinds]

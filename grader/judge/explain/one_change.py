@@ -117,7 +117,7 @@ def find_places(tree: ast.AST) -> Iterator[Place]:
 
 
 def find_twins(tree: ast.AST) -> Iterator[tuple[Place, Place]]:
-    """Yield pairs of nodes at which two statements differ that are otherwise alike."""
+    """Yield pairs of matching nodes in two statements that differ only in names."""
     twins: dict[str, list[ast.stmt]] = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.Assign | ast.AugAssign):

@@ -87,7 +87,7 @@ class Reasons:
 
     @cached_property
     def outside(self) -> dict[str, Suspect]:
-        """Return by TODO the changed line of its function outside its region."""
+        """Return by TODO the line of its function changed outside the region."""
         found = attempt(lambda: find_changes(self.submission), list[GivenChange]())
         return {each.todo: Suspect(each.line, each.outside) for each in found if each.outside}
 
@@ -158,7 +158,7 @@ class Reasons:
         )
 
     def _own_names(self, todo: Todo, names: list[str]) -> list[str]:
-        """Return the names used by a TODO's code that kept a value from call to call."""
+        """Return those of these `names` with kept values that a TODO's code uses."""
         if not names or not todo.function:
             return []
         used = self.submission.program.names_used(*todo.function.split(":"))

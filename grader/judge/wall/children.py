@@ -101,7 +101,7 @@ class Child:
             raise ChildEnded(f"the worker could not start a child: {error}") from error
 
     def ask(self, request: Request | Record) -> Answered:
-        """Return the answer to a request; raises ChildEnded, as any other error ends the child."""
+        """Return the answer to a request; any error ends the child and raises ChildEnded."""
         return self.answer_at_once(request) or self.answer(self.post(request))
 
     def answer_at_once(self, request: Request | Record) -> Answered | None:
@@ -123,7 +123,7 @@ class Child:
         return None
 
     def post(self, request: Request | Record) -> Asked:
-        """Return a question that is sent when an answer is needed, with others in one message."""
+        """Queue and return a question; one message sends all when an answer is needed."""
         if self.over:
             raise ChildEnded(self.over, self.late)
         self.asked += 1
@@ -182,7 +182,7 @@ class Child:
         self._wait_for(self.channel.flush, deadline)
 
     def _wait_for(self, happens: Callable[[float], bool], deadline: float) -> None:
-        """Wait until something happens; a child that sleeps has less time than one that works."""
+        """Wait until `happens` holds; a child that sleeps has less time than one that works."""
         while self.waited < deadline:
             began = time.monotonic()
             happened = happens(min(LOOK_SECONDS, self.rest_seconds))
@@ -196,7 +196,7 @@ class Child:
         raise ChannelTimeout
 
     def _look(self) -> None:
-        """Add up its sleep: the time for its answers minus work and queueing."""
+        """Update `rested`: the time for its answers minus work and queueing."""
         busy = busy_seconds(self.worker.pid_of(self))
         if busy is None:  # it has ended
             return
@@ -214,7 +214,7 @@ class Child:
             self._give_up("the child was ended", gone=False)
 
     def finish(self) -> None:
-        """Wait for a child without requests to end, within its time."""
+        """Wait within its time until a child without requests ends."""
         with suppress(ChannelClosed, ChannelTimeout, *NOT_A_MESSAGE):
             self.channel.receive(self.wall_seconds)
         self.end()
@@ -225,8 +225,7 @@ IDLE = {psutil.STATUS_SLEEPING, *STOPPED}
 
 
 def busy_seconds(pid: int) -> float | None:
-    """Return the time for which a process has worked or waited for a processor, s; None if it is
-    gone.
+    """Return the seconds that a process worked or waited for a processor; None if it is gone.
 
     If the system does not measure waiting, a process that is not asleep counts as busy.
     """
@@ -275,13 +274,13 @@ class Worker(Protocol):
     def pid_of(self, child: Child) -> int: ...
 
     def end(self, child: Child, gone: bool) -> int | None:
-        """Return the exit status, negative for a signal; None if the worker ended with it."""
+        """End a child; return its status, a signal as negative; None if the worker ended."""
 
     def close(self) -> None: ...
 
 
 def explain(cpu_seconds: int, code: int | None) -> str:
-    """Return the reason why a child ended, by its exit status; None if its worker has ended too."""
+    """Return the reason why a child ended, by its status `code`: None if its worker ended too."""
     if code is None:
         return "it took the worker down with it"
     if code in OUT_OF_TIME:

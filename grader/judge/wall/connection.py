@@ -33,7 +33,7 @@ def ask_child(child: Child, request: Request) -> Answered:
 
 @dataclass
 class Connection:
-    """Asks a child; at the first need, it opens the child, which imports the submission.
+    """Asks a child; opens it when first needed, and has it import the submission.
 
     All requests and answers pass through `send`; a replay puts a recorder there. `ran` describes
     the experiment that a request belongs to, and becomes the line *We ran* of a failure.
@@ -116,7 +116,7 @@ class Connection:
         return self._read(self._try(lambda: self.send(child, request), ran), ran)
 
     def _try(self, act: Callable[[], Result], ran: str) -> Result:
-        """Return the result of an act on the child; raises Broke if the child is gone."""
+        """Return the result of `act`, which asks a child; raises Broke if it is gone."""
         if self.over is not None:
             raise self.over
         try:

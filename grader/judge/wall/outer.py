@@ -193,7 +193,7 @@ def call_within(
     work: Callable[[], Reply],
     errors: tuple[type[Exception], ...] = (),
 ) -> Reply:
-    """Run `work` in a fork, and return its value, which is of this kind.
+    """Run `work` in a fork; return its value, of type `kind`.
 
     Raises Exceeded at a limit, one of `errors` if `work` does, and Failed for any other exception.
     If forks cannot be watched, or this process is watched already, `work` runs here.
@@ -227,7 +227,7 @@ def call_within(
 def call_each_within(
     allowance: Allowance, kind: Any, works: Sequence[Callable[[], Reply]]
 ) -> "Iterator[Reply | Exceeded | Failed]":
-    """Run pieces of work that may run twice; yield each value or the reason why there is none.
+    """Run each of `works`, maybe twice; yield its value or the reason why there is none.
 
     Several run in one process. If that fails, each gets a process of its own.
     """
@@ -418,10 +418,9 @@ def take_calls(calls: "queue.SimpleQueue[bytes]") -> NoReturn:
 
 
 def go_on_within(allowance: Allowance) -> None:
-    """Continue in a child process, which this one watches, if forks can be watched.
+    """Continue in a child that this process watches; do nothing if forks cannot be watched.
 
-    This process ends as the child does, and forwards signals. Raises Exceeded in it when the child
-    reached a limit.
+    This process forwards signals. It ends as the child does, or raises Exceeded at a limit.
     """
     if not WATCHES_FORKS:
         return
@@ -446,7 +445,7 @@ def go_on_within(allowance: Allowance) -> None:
 
 
 def wait_for(pid: int, over: int, watch: Watch) -> int:
-    """Return the exit status of a child when `over` is at its end; raises Exceeded at a limit."""
+    """Wait until pipe `over` ends; return the child's status, or raise Exceeded at a limit."""
     while not select.select([over], [], [], LOOK_SECONDS)[0]:
         if why := watch.look():
             os.kill(pid, signal.SIGTERM)  # it may still clean up

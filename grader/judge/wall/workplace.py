@@ -38,7 +38,7 @@ def work_folder() -> Iterator[Path]:
 
 @cache
 def remove_leftovers(place: str) -> None:
-    """Remove the folders of killed processes from a folder, once."""
+    """Remove from `place` the folders of killed processes, once."""
     if fcntl is None:
         return
     for folder in Path(place).glob(f"{PREFIX}*"):
