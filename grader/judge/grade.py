@@ -208,7 +208,7 @@ def keeps_points(todo: Todo, names: "Names") -> bool:
 def charge_whole(loop: "CheckLoop", cause: "GivenCause") -> None:
     """Fail a check of the whole program because a TODO needs changed given code.
 
-    If some check of the whole program failed already, change nothing.
+    If some check of the whole program has not passed, change nothing.
     """
     whole = loop.list_outcomes("whole")
     passed = [each for each in whole if each.result.state == "passed"]

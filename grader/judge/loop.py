@@ -201,7 +201,7 @@ class CheckLoop:
 
     @property
     def replaceable(self) -> frozenset[str]:
-        """Return the failed TODOs; the whole program runs right versions.
+        """Return the failed TODOs; `whole` runs with right versions of them.
 
         Return none if all started TODOs have failed: the program would have nothing of its own.
         """

@@ -189,9 +189,9 @@ class Diagnosis:
     def find_changed(
         self, mistake: Mistake, numbers: list[int], covered: frozenset[str]
     ) -> frozenset[str]:
-        """Return the parts that a mistake changes; none if answers contradict one of them.
+        """Return the parts that a mistake changes; none if answers contradict one.
 
-        It omits `covered` parts, which others explain.
+        Omit `covered` parts: other mistakes explain them.
         """
         both = [(self.questions[n], self.predict(mistake, n)) for n in numbers]
         decided = [(each, predicted) for each, predicted in both if predicted is not None]

@@ -117,7 +117,7 @@ def find_places(tree: ast.AST) -> Iterator[Place]:
 
 
 def find_twins(tree: ast.AST) -> Iterator[tuple[Place, Place]]:
-    """Yield pairs of matching nodes in two statements that differ only in names."""
+    """Yield node pairs of two statements that differ only in names and numbers."""
     twins: dict[str, list[ast.stmt]] = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.Assign | ast.AugAssign):
