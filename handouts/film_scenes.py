@@ -28,7 +28,7 @@ class Film:
         self.looks, self.frames, self.last = {}, [], {}
 
     def look(self, number, points, radius=0.0, mass=1.0):
-        """Describe how a body looks: one point and a radius are a disc, more points its corners."""
+        """Describe a body's looks by its centre and a radius (a disc), or by its corners."""
         self.looks[number] = {"shapes": [[points, radius]], "mass": mass, "moment": None, "ref": 0}
 
     def shoot(self, time, rows, rods=()):

@@ -273,7 +273,7 @@ BARS = {"at equal substeps": (0, 1.0), "at equal time": (17, 0.4)}  # px down, a
 
 
 def leaderboard():
-    """Draw how many of its rows each engine holds: two bars for each, the best one on top."""
+    """Draw the share of its rows that each engine holds: two bars each, the best on top."""
     lines = json.loads((HERE / "results.json").read_text(encoding="utf-8"))["hard-cases.md"]
 
     def share(name, words):

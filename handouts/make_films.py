@@ -40,7 +40,7 @@ DOCUMENTED = ast.Module, ast.ClassDef, ast.FunctionDef
 
 
 def tree_of(todo, variant, folder):
-    """Copy the solution, with a mistake in one TODO; return the folder."""
+    """Copy the solution with `todo` in this variant; return the folder."""
     tree = folder / "tree"
     shutil.copytree(
         KIT / "solution", tree, ignore=shutil.ignore_patterns("__pycache__", "notebooks")
@@ -173,7 +173,7 @@ def still_of_tower(data):
 
 
 def whole(first, frames):
-    """Return the last shot with everything in it."""
+    """Return the last shot with all bodies."""
     rows = {row[0]: row for row in first[2]}
     for frame in frames:
         rows |= {row[0]: row for row in frame[2]}

@@ -45,7 +45,7 @@ def make_lab(target):
 
 
 def record(done, folder):
-    """Return the frames that a starter with these TODOs done draws, as images."""
+    """Return as images the frames drawn by a starter with these TODOs done."""
     from PIL import Image
 
     frames = folder / "frames"

@@ -57,7 +57,7 @@ def tree_with(done, folder):
 
 
 def done_before(todo):
-    """Return the TODOs that are solved in the picture before."""
+    """Return the TODOs that are solved in the before picture."""
     program = ENGINE if todo in ENGINE else PYMUNK
     if "thrown" in SHOTS[todo]:
         return [other for other in program if other != todo]
@@ -100,7 +100,7 @@ def take_all(only):
 
 
 def shoot(order):
-    """Take one picture with the code of the folder we are in."""
+    """Take one picture with the code of the current folder."""
     import pygame
 
     pygame.display.init()

@@ -3,7 +3,7 @@
     python handouts/make_site.py [--out DIR] [--course FILE]
 
 The pages for students are made from sources without the instructor's folder, so nothing of it can
-be in them. They ask what the course has; those for instructors tell of everything. Both open from a
+be in them. They cover what the course has; those for instructors cover all. Both open from a
 folder, without a server and without the internet. Needs zensical.
 """
 
@@ -51,7 +51,7 @@ def sources(folder, instructors, course):
 
 
 def settings(instructors, there):
-    """Return the text of mkdocs.yml with the pages that exist; students get no last part."""
+    """Return mkdocs.yml with the pages that exist; without its last part for students."""
     text = (OURS / "mkdocs.yml").read_text(encoding="utf-8")
     before, found, _ = text.partition(f"  - {INSTRUCTORS}:\n")
     assert found, f"mkdocs.yml has no part of the menu named {INSTRUCTORS}"
@@ -62,7 +62,7 @@ def settings(instructors, there):
 
 
 def build(folder):
-    """Run zensical there; a link that leads nowhere stops it."""
+    """Run zensical in `folder`; exit if a link is broken."""
     command = [sys.executable, "-m", "zensical", "build", "--strict"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     if done.returncode:
@@ -71,7 +71,7 @@ def build(folder):
 
 
 def without_the_internet(site):
-    """Put our own script in the place of the one that would be fetched."""
+    """Replace the script that pages would fetch by our own."""
     for page in site.rglob("*.html"):
         up = "../" * (len(page.relative_to(site).parts) - 1)
         text = page.read_text(encoding="utf-8").replace(SHIM, f"{up}site/search-worker.js")

@@ -14,7 +14,7 @@ TABLE = re.compile(rf"^{re.escape(HEAD)}\n(?:\|.*\n)*", re.M)
 
 
 def renew(text):
-    """Return the page with the table as the systems have it."""
+    """Return the page with a table of the present systems."""
     rows = [
         f"| {each.title} | {each.class_list} | {each.download} | {each.marks_file} |"
         for each in sorted(SYSTEMS, key=lambda each: each.title)

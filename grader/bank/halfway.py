@@ -8,8 +8,8 @@ that was changed (see members.py), and regular expressions:
     change = [["if total < -limit:\\n    total = -limit", ""]]
     says = ["upper|one way"]
 
-Code at a position where it does not count has a `place`; `moved` names a copy of the TODO's file
-with the work, beside the handed-out one.
+`place` puts the code where it does not count. `moved` renames the TODO's file with the work, and
+puts the handed-out one in its place.
 
 All in `says` must be found, none in `never` may be. They are searched in the *Meaning* of the first
 failure, or in its *Got* without one. A wrong member with `says` is a state as well.

@@ -188,8 +188,8 @@ class Outcome:
 def grade_mutant(mutant: Mutant, alone: bool = False) -> Outcome:
     """Grade it on all TODOs of its program, and test the name of its mistake.
 
-    `alone` grades its own TODO up to the first check that fails, and names nothing: that shows
-    survivors in a fraction of the time.
+    With `alone`, grade only its own TODO up to the first check that fails, and test no name: that
+    finds survivors much faster.
     """
     with tempfile.TemporaryDirectory(prefix="mutant-") as folder:
         submission = Path(folder).resolve() / "mutant"

@@ -1,6 +1,6 @@
 """Make the slips of students: changes to a whole region that look right in most scenes.
 
-An operator of `operators.py` changes one node without its meaning. A slip does extra work, or fails
+Operators in `operators.py` change one node and ignore its meaning. A slip does extra work, or fails
 for some inputs or after some calls. `slips.toml` lists them; `scopes.toml` says what is a body or a
 number in each region, and how large it usually is.
 """

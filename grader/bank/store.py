@@ -1,6 +1,6 @@
 """Store the members with the expected grade, in build/verify.
 
-Each file has a key of all its sources, and is ignored once one changes.
+A file has a hash of its sources; it is ignored once a source changes.
 """
 
 import hashlib
@@ -38,7 +38,7 @@ class Store:
         self.keys: dict[Path, str] = {}
 
     def key(self, member: Member) -> str:
-        """Return the key of the first call: files may change during grading."""
+        """Return the key, computed once: files may change during grading."""
         path = self.file(member)
         if path not in self.keys:
             self.keys[path] = make_key(member)

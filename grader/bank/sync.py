@@ -81,7 +81,7 @@ def mark_check_folders(write: bool) -> list[str]:
 
 
 def list_new_todos(before: bytes, stubs: dict[str, str], course: Path | None) -> list[str]:
-    """Name new TODOs in the course; return a line for each that is new to the checks, or gone."""
+    """Add new TODOs to the course file; return a line for each TODO that is new or gone."""
     known = {id for id in json.loads(before) if not id.startswith("def ")}
     now = {id for id in stubs if not id.startswith("def ")}
     lines = [f"TODO {id} is new" for id in sorted(now - known)]
@@ -91,7 +91,7 @@ def list_new_todos(before: bytes, stubs: dict[str, str], course: Path | None) ->
 
 
 def name_in_course(course: Path, todos: list[str]) -> bool:
-    """Add TODOs to a course's list if it has one of several lines; return whether it changed."""
+    """Add TODOs to a course's list if it spans several lines; return whether it changed."""
     names = "".join(f'  "{id}",\n' for id in todos)
     text = course.read_text(encoding="utf-8")
     named = re.sub(r"(?ms)^(todos = \[\n.*?)^\]", rf"\g<1>{names}]", text, count=1)

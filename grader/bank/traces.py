@@ -3,9 +3,9 @@
 Other programs write files meanwhile, also into the home folder and shared memory. So only files
 that are certainly of the grade count:
 
-- all in a folder that is its temporary and its home folder while it runs;
-- files where every account may write that have the submission's name in their own. A submission of
-  the bank that tries to leave a file there names it after itself.
+- all in the folder that the grade uses as temporary and home folder;
+- files in folders open to every account, if named after the submission. Submissions of the bank
+  that try to leave a file there name it after themselves.
 """
 
 import os

@@ -109,7 +109,7 @@ def verify(
     fresh: bool = False,
     course: Course = FULL,
 ) -> Report:
-    """Grade the bank of a course, as far as its names contain `only`; print a table.
+    """Grade the members of a course whose names contain `only`; print a table.
 
     Sound results of an earlier run are reused unless `fresh`, and no program runs twice. Points are
     those of the rubric: a course may give a check none, and it must still tell right from wrong.
@@ -249,8 +249,8 @@ def grade_member(
 ) -> Verdict:
     """Grade it on all TODOs that may judge it, or on those in `only`.
 
-    Programs that have `passed` are not run again. After the first line of a hostile program, all
-    are: an attack begins in the checks of its TODO, other hostile programs with their import.
+    Programs that have `passed` are not run again, except from the first hostile line on: an attack
+    begins in the checks of its TODO, other hostile programs with their import.
     """
     if member.kind == "hostile" and passed:
         passed = PassedBefore(passed) if isinstance(member.entry, Attack) else None

@@ -22,8 +22,8 @@ def want_answer(
 ) -> None:
     """Fail the check unless it `holds`; print the answer and the right one with enough digits.
 
-    `words` say an answer, with a field such as `{:.{n}f}` for each of its numbers; `expected` is a
-    template for the right one.
+    `words` is a template of an answer, with a field such as `{:.{n}f}` per number; `expected` is
+    one of the right answer.
     """
     if not holds:
         wanted, came = say_apart(words, right, got, digits)

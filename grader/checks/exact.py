@@ -105,7 +105,7 @@ def cross(first: Pair, second: Pair) -> float:
 
 @recorded.oracle()
 def effective_mass(a: Lever, b: Lever, axis: Pair) -> float:
-    """Return the sum that effective_mass returns, in 1/kg."""
+    """Return inverse masses plus spin terms, in 1/kg."""
     turning = (cross((each.rx, each.ry), axis) ** 2 * inverse(each.inertia) for each in (a, b))
     return inverse(a.mass) + inverse(b.mass) + sum(turning)
 
@@ -156,8 +156,7 @@ class Rod(NamedTuple):
 
 @recorded.oracle()
 def push_ends(rod: Rod, impulse: float) -> tuple[Pair, Pair]:
-    """Return the velocities of A and B after an impulse along the axis; above 0, it pushes them
-    apart."""
+    """Return the velocities of A and B after an impulse along the axis; above 0 it parts them."""
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
     a, b = impulse * inverse(rod.mass_a), impulse * inverse(rod.mass_b)
     return (ax - a * x, ay - a * y), (bx + b * x, by + b * y)
@@ -190,7 +189,7 @@ def apply_spring(spring: Spring) -> tuple[Pair, Pair]:
 
 
 class Discs(NamedTuple):
-    """Two discs that touch; the normal leads from A to B, and a mass of 0 is a static body's."""
+    """Two discs that touch; the normal leads from A to B, and mass 0 marks a static body."""
 
     mu: Pair
     mass: Pair  # kg
@@ -234,7 +233,7 @@ def semi_implicit_euler(x: float, v: float, dt: float, accel: Accel) -> State:
 
 @recorded.oracle()
 def velocity_verlet(x: float, v: float, dt: float, accel: Accel) -> State:
-    """Take half a kick (a change of velocity), the whole way, half a kick."""
+    """Kick half a step (change v), move a whole one, kick half a step."""
     half_way = v + dt / 2 * accel(x)
     x += dt * half_way
     return x, half_way + dt / 2 * accel(x)
@@ -255,8 +254,7 @@ def rk4(x: float, v: float, dt: float, accel: Accel) -> State:
 
 
 def pymunk_fall(gravity: float, dt: float, steps: int) -> tuple[float, float]:
-    """Return distance and speed of a fall from rest; pymunk moves a body before it accelerates
-    it."""
+    """Return distance and speed of a fall from rest; pymunk moves bodies, then accelerates them."""
     return gravity * dt**2 * steps * (steps - 1) / 2, gravity * dt * steps
 
 
@@ -276,6 +274,6 @@ Place = tuple[float, float, float]  # x and y in px, an angle in rad
 
 @recorded.oracle()
 def part_of_the_way(before: Place, now: Place, share: float) -> Place:
-    """Return the position and angle at this share of the way from one to the other."""
+    """Return position and angle at this share of the way from `before` to `now`."""
     x, y, angle = (begin + (end - begin) * share for begin, end in zip(before, now, strict=True))
     return x, y, angle

@@ -30,8 +30,8 @@ def register(
 ) -> None:
     """Register the models of mistakes in answers to one kind of question.
 
-    The first of the TODOs has the sentences. `view` returns what the models take, from the inputs
-    of a question. See `mistake` for `apart`.
+    The first of the `todos` has the sentences. `view` turns the inputs of a question into those
+    of the models. See `mistake` for `apart`.
     """
     for name, model in models:
         seen = model if view is None else look_through(view, model)

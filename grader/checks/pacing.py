@@ -29,9 +29,7 @@ LONGEST_UNCUT, LONGEST_WAIT = 66, 50  # ms: below the cap of 66.7, and with room
 
 
 def frames_at(rate: int, seconds: float) -> list[int]:
-    """Return the frames of these seconds at a frame rate, such as 7, 7, 7, 7, 7, 7, 7, 7, 7, 6
-    ms.
-    """
+    """Return the frames (ms) of these seconds at a frame rate, such as 7, 7, 7, 7, 7, 7, 6."""
     ends = [round(1000 * number / rate) for number in range(round(rate * seconds) + 1)]
     return [end - begin for begin, end in pairwise(ends)]
 
@@ -72,8 +70,7 @@ class Pace:
         return sum(self.lengths[-len(SETTLE) :])
 
     def out_of_step(self, frames: int | None = None) -> int | None:
-        """Return the first frame whose simulated time is too long, or over a step too short, or
-        None.
+        """Return the first frame with too much simulated time, or over a step too little; or None.
 
         With `frames`, only that many count.
         """
@@ -115,7 +112,7 @@ def pace(lab: Lab, frames: list[int], step_ms: float = 0.0) -> Pace:
 
 
 def beyond(waits: float, frame: int) -> int:
-    """Return a frame's length (ms), adapted to a program that itself waits for some time.
+    """Return a frame's length (ms), made longer than the program's own wait.
 
     Frames below the cap stay below it, and the order of lengths is preserved.
     """
@@ -125,9 +122,7 @@ def beyond(waits: float, frame: int) -> int:
 
 
 def play_at(lab: Lab, asked: list[int], step_ms: float) -> tuple[Pace, float]:
-    """Return the program's steps in these frames, and the longest frame that it lengthened, ms, or
-    0.
-    """
+    """Return the steps in these frames, and the longest frame (ms) that was lengthened, or 0."""
     frames = [*OFF_BEAT, *asked, *SETTLE]
     played = lab.play(frames, physics=False, step_ms=step_ms)
     count = len(frames)

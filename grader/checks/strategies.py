@@ -49,8 +49,8 @@ frame_lists = st.builds(
 def frames_to_advance(draw: st.DrawFn) -> list[tuple[float, float]]:
     """Return the accumulator, and frames from 1 ms to 2 s in any order; all in s.
 
-    Up to the cap each is a tenth longer than another one, so that no range is left out. Some are
-    exactly as long as nothing, a step, or as many steps as may run, and some hardly longer.
+    Up to the cap each is a tenth longer than another, so that no range is left out. Some last
+    exactly 0, a step or MAX_STEPS steps, and some a little more or less.
     """
     shift = draw(st.integers(0, 15)) / 16
     numbers = draw(st.permutations([*range(45), *range(45, 80, 6)]))

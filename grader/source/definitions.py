@@ -265,7 +265,7 @@ class Program:
         return next((found for found in inherited if found is not None), None)
 
     def _limit(self, tries: Iterable[Try]) -> Iterator[Try]:
-        """Yield these up to the limit of one search."""
+        """Yield `tries` up to a search's limit."""
         for each in tries:
             self.tried += 1
             if self.tried > MAX_TRIED:

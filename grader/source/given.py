@@ -93,7 +93,7 @@ class GivenChange:
 
 
 def compare_files(theirs: Mapping[str, str], given: Mapping[str, str]) -> list[GivenChange]:
-    """Return the changes in the given files that a submission has, both by their names."""
+    """Return the submission's changes to given files; both map names to texts."""
     found: list[GivenChange] = []
     for name, text in given.items():
         own = theirs.get(name)
@@ -199,7 +199,7 @@ def with_regions(given: tuple[str, ...], theirs: Sequence[str]) -> tuple[str, ..
 def first_difference(mine: Sequence[str], given: Sequence[str]) -> tuple[int, str, str]:
     """Return the index of the first line that differs, that line, and the given one.
 
-    A line that occurs as often as in the given code was moved; then it is both of these.
+    A line that occurs as often as in the given code was moved; then return it as both.
     """
     own, right = list(islice(code_lines(mine), MAX_COMPARED)), list(code_lines(given))
     matcher = SequenceMatcher(None, [line for _, line in own], [line for _, line in right], False)

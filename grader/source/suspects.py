@@ -99,7 +99,7 @@ class RegionCode:
         return quote(self.text.splitlines()[line - 1].strip())
 
     def suspect_first(self, lines: Sequence[int], words: str) -> Suspect | None:
-        """Return the first of some lines of the region, in words about its number and text."""
+        """Return the first of these lines of the region as a suspect, described in `words`."""
         if not lines:
             return None
         line = self.before + min(lines)
@@ -118,7 +118,7 @@ def find_suspects(code: RegionCode) -> Mapping[str, Suspect]:
 
 
 def find_leftover(code: RegionCode, stub: str) -> Leftover | None:
-    """Return the stub's statements at one end of a region; None where there is nothing else."""
+    """Return the stub's statements at one end of a region; None if they are all of it."""
     old = [*map(dump, statements(textwrap.dedent(stub)))]
     left = [each for each in code.body if dump(each) in old]
     at_an_end = bool(left) and (left[0] is code.body[0] or left[-1] is code.body[-1])
@@ -235,7 +235,7 @@ def find_rebound(code: RegionCode) -> Suspect | None:
 
 
 def name_first(found: Collection[tuple[int, str]], words: str) -> Suspect | None:
-    """Return the first of some lines with a name in words about both."""
+    """Return the first of `found` as a suspect, described in `words`."""
     line, name = min(found, default=(0, ""))
     return Suspect(line, words.format(line=line, name=name)) if line else None
 
@@ -278,7 +278,7 @@ def find_needed(node: ast.AST, assigned: str = "") -> Iterator[str]:
 
 
 def find_assigned(node: ast.AST) -> str:
-    """Return the one name that an assignment, or an `if` of assignments, sets; or None."""
+    """Return the name that an assignment, or an `if` of assignments, sets; else empty."""
     match node:
         case ast.Assign([ast.Name(name)]) | ast.AugAssign(ast.Name(name)):
             return name

@@ -38,7 +38,7 @@ OUT = Path("build/effects")
 
 @dataclass
 class Row:
-    """One line of the price list: a scene with these effects, minus the scene with base."""
+    """One line of the price list: a scene's cost with `effects`, minus that with `base`."""
 
     title: str
     effects: tuple
@@ -130,7 +130,7 @@ def packed(count):
 class RepeatedStep:
     """An engine that starts every step from the scene's positions: each step costs the same.
 
-    kind "still": the engine may know that nothing has moved since the last step. "asleep": it
+    `kind` "still": the engine may know that nothing moved since the last step. "asleep": it
     runs freely until all sleep.
     """
 

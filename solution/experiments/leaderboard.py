@@ -91,9 +91,9 @@ def ask_at_equal_time(row, contestant, substeps, first):
 
 
 def ask_all(row, contestants, untimed=()):
-    """Return each engine's errors in a row, in both modes. Skip engines that lack its needs.
+    """Return engines' errors in a row, in both modes. Skip those that lack what it needs.
 
-    Engines named in untimed are asked at equal substeps alone.
+    Ask engines in `untimed` at equal substeps only.
     """
     cells = {}
     for one in contestants:
@@ -108,7 +108,7 @@ def ask_all(row, contestants, untimed=()):
 
 
 def run(rows, contestants, recorded=None):
-    """Return the cells of all rows by their titles, in the modes that were recorded, if any."""
+    """Return the cells of all rows by title; a `recorded` row keeps its modes."""
     found, progress = {}, Progress(len(rows))
     for row in rows:
         progress.step(1, row.title)

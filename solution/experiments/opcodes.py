@@ -48,8 +48,8 @@ def files_run(call):
 def count_calls(call, watched):
     """Count the calls of watched functions while call() runs.
 
-    watched has rows of (name, function, amount). Each start of the function adds the amount to the
-    count of that name, or amount(first argument) if that is a function.
+    `watched` has rows of (name, function, amount). Each call adds `amount` to the count of `name`,
+    or amount(first argument) if that is a function.
     """
     counts = Counter({name: 0 for name, _, _ in watched})
     rows = defaultdict(list)
@@ -68,7 +68,7 @@ def count_calls(call, watched):
 
 
 def profiled(call, look):
-    """Run call() and show look() the frame of every Python function that starts."""
+    """Run call(), and call look(frame) for every Python function that starts."""
     before = sys.getprofile()
     sys.setprofile(lambda frame, event, _: look(frame) if event == "call" else None)
     try:

@@ -158,7 +158,7 @@ def overlapping(overlap=30.0, mass=1.0):
 
 
 def squeezed(by=8.0, mass=1.0):
-    """Make two balls, the upper of another mass, between floor and ceiling, too close for them."""
+    """Make two balls, the upper with `mass`, between a floor and a ceiling too close for them."""
     low = [Ball((0, -20 + by / 4), 20), Ball((0, -60 + 3 * by / 4), 20, mass)]
     return Scene([floor(), Block((0, -100 + by), (100, 20)), *low])
 
@@ -176,8 +176,8 @@ def inside_ledge(pos=(0, 0)):
 def closed_box(seed=1, half=150.0, thick=50.0, radii=(6, 22), fast=400.0, pairs=4):
     """Make a box filled by 55 % with flying balls of up to 1000:1 in mass, some on rods.
 
-    Their radii lie between these two, their speeds along x and y are at most fast (px/s), and
-    pairs of them are tied by a rod. Every ball and wall has a restitution of its own.
+    Radii lie between these two, speeds along x and y are at most `fast` (px/s), and `pairs` pairs
+    are tied by rods. Every ball and wall has a restitution of its own.
     """
     rng = random.Random(seed)
     out, long = half + thick, half + 2 * thick
@@ -200,7 +200,7 @@ def closed_box(seed=1, half=150.0, thick=50.0, radii=(6, 22), fast=400.0, pairs=
 
 
 def rammer(mass=1000.0, speed=600.0, degrees=0.0, start=50.0, restitution=0.3, thick=20.0):
-    """Make a ball of 1 kg that flies at a wall start px away, with mass kg on a rod behind it.
+    """Make a ball of 1 kg that flies at a wall `start` px away, `mass` kg on a rod behind it.
 
     The rod is 30 px long and turned by `degrees` from the flight. There is no gravity.
     """
@@ -233,14 +233,14 @@ LEDGE = Block((0, 0), (150, 10))
 
 
 def shot(speed=2448.0, start=100.0, restitution=0.0, radius=10.0, thick=20.0, bullet=True):
-    """Make a bullet, or another ball, that flies at a ledge start px below; no gravity."""
+    """Make a bullet, or a ball, that flies at a ledge `start` px below; no gravity."""
     ledge = Block((0, thick / 2), (150, thick / 2), restitution)
     ball = Ball((0, -radius - start), radius, 1.0, (0, speed), 0.0, restitution, bullet=bullet)
     return Scene([ledge, ball], BULLETS, gravity=(0, 0))
 
 
 def near_miss(speed=10_000.0, start=100.0, miss=0.5):
-    """Make a bullet that flies past the right upper corner of the ledge at 45°, miss px away."""
+    """Make a bullet that flies past the right upper corner of a ledge at 45°, `miss` px away."""
     way = math.sqrt(0.5)
     off = (10 + miss) * way - start * way, -(10 + miss) * way - start * way
     pos = (150 + off[0], -10 + off[1])
@@ -321,7 +321,7 @@ def find_pendulum_angle(seconds, length):
 
 
 def chain(links=20, step=(0.0, 20.0), bob=1.0):
-    """Make balls on rods from a peg, each `step` further; the last one has mass bob."""
+    """Make balls on rods from a peg, each `step` further; the last has mass `bob`."""
     balls = [Ball((step[0] * i, step[1] * i), 4) for i in range(1, links + 1)]
     balls[-1].mass = bob
     rods = [(i, i + 1) for i in range(links)]
@@ -329,7 +329,7 @@ def chain(links=20, step=(0.0, 20.0), bob=1.0):
 
 
 def oscillator(stiffness=(2 * math.pi) ** 2, stretch=50.0):
-    """Make a ball of 1 kg on a spring of 100 px, pulled out by stretch px, with no gravity."""
+    """Make a ball of 1 kg on a spring of 100 px, pulled out by `stretch` px, no gravity."""
     balls = [Ball((0, 0), mass=0), Ball((100 + stretch, 0))]
     springs = [Spring(0, 1, stiffness, length=100)]
     return Scene(balls, ("Springs",), springs=springs, gravity=(0, 0))

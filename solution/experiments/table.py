@@ -38,7 +38,7 @@ class Table:
 def write_markdown(path, tables, lines, **more):
     """Put the tables between the two markers of a file, or into a file of their own.
 
-    lines and more go into results.json beside it; lines support the text around the tables.
+    `lines` and `more` go into results.json beside it; `lines` support the text near tables.
     """
     block = "\n".join(table.markdown() for table in tables)
     text = path.read_text(encoding="utf-8") if path.exists() else f"{BEGIN}\n{END}\n"

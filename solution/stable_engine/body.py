@@ -288,7 +288,7 @@ class Body:
     def apply_force(self, force: Iterable[float], at: Iterable[float] | None = None) -> None:
         """Push with a force in kg px/s² during the whole next step, and no longer.
 
-        at is a position in px: the centre, unless given. The torque about the centre is worked out
+        `at` is a position in px, by default the centre. The torque about the centre is worked out
         now and stays the same. Forces add up. A force that should follow the position needs one
         substep and short steps. Raises ValueError for a static body, or one that is in no world.
         """

@@ -49,7 +49,7 @@ class Bounds:
         self.first_lane = 0
 
     def make_room(self, back: float, ahead: float) -> None:
-        """Make room for the path of a body, from so many seconds ago to so many ahead."""
+        """Make room for a body's path, from `back` seconds ago to `ahead` s from now."""
         body, margin = self.body, self.margin
         x, y, vx, vy = body.x, body.y, body.vx, body.vy
         if vx > 0:
@@ -67,7 +67,7 @@ class Bounds:
         self.top, self.bottom = self.top + min(fall_y, 0.0), self.bottom + max(fall_y, 0.0)
 
     def find_start(self, dt: float) -> None:
-        """Work out the position dt seconds ago of a body that flew straight out of its room."""
+        """Set the last position of a body that flew straight out of its room in dt seconds."""
         body = self.body
         body.last_x = max(self.left, min(body.x - body.vx * dt, self.right))
         body.last_y = max(self.top, min(body.y - body.vy * dt, self.bottom))
@@ -174,7 +174,7 @@ class BroadPhase:
         return self.looks > SWEEP * len(self.moving)
 
     def sweep(self, margin: float) -> list[Pair]:
-        """Return pairs of boxes within margin px of which at least one can move."""
+        """Return pairs of boxes within margin px, if at least one can move."""
         left, right, top, bottom = self.find_hull(self.widest + margin)
         taller = (bottom - top) / (right - left)
         upright = taller > (1 / WIDER if self.upright else WIDER)

@@ -38,7 +38,7 @@ class Contacts(Effect):
 
     on_hit(a, b, speed) is called at the end of a step for each pair that began to touch in it, with
     the speed (px/s) at which the two met. on_part(a, b) is called for each pair that no longer
-    touches. a is a ball with mass, b may be any body. Both functions may add and remove
+    touches. `a` is a ball with mass, `b` any body. Both functions may add and remove
     bodies, and can be set later on. Bodies that are removed do not part.
 
     Each stage solves contacts of static bodies last, so that these hold best.
@@ -269,9 +269,9 @@ class Contacts(Effect):
             c.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - c.gap
 
     def find_order(self) -> None:
-        """Find the contacts that are solved in turn, and in what order, and those at once.
+        """Find the contacts solved in turn, with their order, and those solved at once.
 
-        In a mirrored scene one that looks the same in the mirror; else any order will do.
+        In a mirrored scene the order looks the same in the mirror; else any order will do.
         """
         if self.begun:
             self.beginnings += 1
@@ -436,8 +436,8 @@ class Contacts(Effect):
     def let_no_deeper(self, c: Contact, gap: float) -> bool:
         """Put back and stop a ball whose core entered a static body, or went deeper into it.
 
-        Returns whether it did. gap is along the normal at the start of the step; after a corner
-        a new normal counts, but not after the ball went through the body.
+        Return whether it did. `gap` is along the normal at the start of the step; past a corner
+        the new normal counts, unless the ball went through the body.
         """
         a, b = c.a, c.b
         nx, ny, now = the_way_it_came(c, *collide(a, b))
@@ -454,9 +454,7 @@ class Contacts(Effect):
         return True
 
     def went_through(self, c: Contact) -> bool:
-        """Return whether the centre of a ball was in a static body in this step, at its start or
-        later.
-        """
+        """Return whether the centre of a ball was in a static body at any time in this step."""
         if c.found < -c.a.r:
             return True
         a = c.a
@@ -479,7 +477,7 @@ class Contacts(Effect):
     def sweep(
         self, body: Body, start: tuple[float, float], radius: float, overlap: float, h: float
     ) -> None:
-        """Stop a ball at the first static body on its way from start, except bodies it ignores.
+        """Stop a ball at the first static body on its way from `start` that it heeds.
 
         See stop_at_first_hit.
         """

@@ -47,7 +47,7 @@ class WorldState(Listeners):
         ]
 
     def update_hooks(self) -> None:
-        """Call only effects that are not idle in substeps."""
+        """Leave idle effects out of the substeps."""
         raise NotImplementedError
 
     def need(self, name: str, user: object) -> Any:

@@ -264,7 +264,7 @@ class Impacts:
         return [c for c in early if due[c].speed >= hardest], earliest
 
     def settle(self, body: Body, ago: float, reached: dict[Body, float]) -> None:
-        """Stop all pairs that close in slowly in the island of a ball that was hit, at once.
+        """Stop at once all pairs that close in slowly, in the island of a ball that was hit.
 
         The solver stops islands with joints or static bodies. Where anything was fast at the hit,
         stopping it would take energy.
@@ -307,7 +307,7 @@ class Impacts:
         return list(found)
 
     def resolve(self, group: list[Contact], law: Law, frames: list[Frame], turns: int = 1) -> None:
-        """Make contacts separate at least at the given speeds (px/s).
+        """Make contacts separate at the speeds of `law`, or faster.
 
         Normal impulses come first, then friction limited by them, so no energy is created.
         In further turns, normal impulses stop motion that friction has caused.

@@ -57,7 +57,7 @@ class Joint:
         self.changed()
 
     def fitting(self, length: float) -> float:
-        """Return a length as a float. Raises ValueError if such a joint cannot have it."""
+        """Return a length as a float. Raises ValueError if the joint cannot have it."""
         return not_negative(f"{type(self).__name__}.length", length)
 
     def changed(self) -> None:

@@ -77,8 +77,8 @@ class Network(Generic[AnyJoint]):
     def solve(self) -> None:
         """Find the impulses that together give each joint its speed.
 
-        Each joint has pivot, the change of its speed per unit of its impulse (1/kg), and rhs, the
-        change of speed to reach (px/s). Afterwards rhs holds its impulse (kg px/s).
+        Each joint has `pivot`, its change of speed per unit of impulse (1/kg), and `rhs`, the
+        change of speed to reach (px/s). Afterwards `rhs` holds its impulse (kg px/s).
         """
         for c in self.couplings:
             one, other = c.one, c.other

@@ -69,7 +69,7 @@ class Tie:
             ball.w += w
 
     def is_idle(self, group: Group) -> bool:
-        """Return whether no contact presses or would: most ties are of a ball between two walls."""
+        """Return whether no contact presses or would press, as mostly with a ball between walls."""
         least = -self.least
         for c in self.contacts:
             if c.jn or c.jt:
@@ -94,8 +94,8 @@ def give_places(
 ) -> bool:
     """Give new contacts their places: from below upwards, and from the middle of all outwards.
 
-    Without gravity, only the latter. A grain (px) is what rounding may make of equal places. The
-    number of this call comes last, so that only contacts that begin together have the same place.
+    Without gravity, only the latter. Rounding may part equal places by a `grain` (px). The
+    `number` of this call comes last, so that only contacts that begin together have the same place.
     Return whether any two have, as in a mirrored scene.
     """
     middle_x = middle_y = 0.0
@@ -136,7 +136,7 @@ def put_in_order(group: Group, grain: float) -> bool:
 
 
 def in_same_place(contacts: list[Contact]) -> list[list[Contact]]:
-    """Return the contacts in their order, and those in the same place together."""
+    """Return the contacts in order, as lists of those in the same place."""
     ordered = sorted(contacts, key=PLACE)
     return [list(same) for _, same in groupby(ordered, key=PLACE)]
 
@@ -147,5 +147,5 @@ def share_of_each(contacts: list[Contact]) -> float:
 
 
 def balls_of(contacts: list[Contact]) -> list[Body]:
-    """Return the balls of contacts, one for each contact that it has."""
+    """Return the balls of contacts, each as often as it has contacts."""
     return [body for c in contacts for body in (c.a, c.b) if not body.is_static]

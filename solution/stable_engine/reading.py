@@ -44,7 +44,7 @@ def refuse_change(vector: Vector2) -> None:
 
 
 def guarded(name: str) -> Any:
-    """Return that method of Vector2, which raises an error if it would change a Reading."""
+    """Return a method of Vector2 made to raise an error if it would change a Reading."""
     change = getattr(Vector2, name)
 
     def method(self: Vector2, *arguments: Any) -> Any:

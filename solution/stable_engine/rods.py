@@ -49,8 +49,9 @@ class Rod(Joint):
 
     @property
     def impulse(self) -> float:
-        """Return the impulse (kg px/s) of the latest substep: positive if it pushes, negative if it
-        pulls. Divide it by the length of a substep for the force.
+        """Return the latest substep's impulse (kg px/s): above 0 it pushes, below 0 it pulls.
+
+        Divide it by the length of a substep for the force.
         """
         return self.given
 
@@ -61,7 +62,7 @@ class Rod(Joint):
 
 
 class Rods(Joints[Rod]):
-    """Rods on the length they will have after the move, solved together (SHAKE and RATTLE).
+    """Rods with the right length after the move, solved together (SHAKE and RATTLE).
 
     If only the speed along the axis were removed, a swinging rod would stretch in every move. relax
     uses the axis after the move: with the one before, a pendulum would lose energy.
@@ -161,7 +162,7 @@ class Frame:
     def keep_lengths(self, h: float, bias: float, soft: float) -> None:
         """Choose velocities with which all rods have their lengths after the move.
 
-        bias is the share of an error of length corrected per second; soft is how much more a rod
+        `bias` is the share of a length error corrected per second; `soft` is how much more a rod
         gives way if a substep cannot be cut finely enough.
         """
         if self.find_impulses(h, bias):
@@ -262,7 +263,7 @@ class Frame:
         return sum([2 * b.m * (gx * b.x + gy * b.y) for b in self.balls])
 
     def scale_speeds(self, wanted: float) -> None:
-        """Scale the balls' speeds about the centre of mass to twice an energy (kg px²/s²)."""
+        """Scale the speeds about the centre of mass until twice their energy is `wanted`."""
         vx, vy = self.velocity()
         energy = self.energy(vx, vy)
         if energy > 0 and wanted != energy:

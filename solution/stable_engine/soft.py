@@ -22,8 +22,8 @@ class Pace:
     A constraint is as stiff as the substep allows, so a long substep lets bodies overlap more. A
     short one after it would push them apart violently at its full stiffness. So the pace follows
     longer substeps at once and shorter ones gradually, slowly enough for gravity to keep a rising
-    pile together. In equal steps the pace is the substep. stiffening is the share of a substep by
-    which a step may shorten the pace.
+    pile together. In equal steps the pace is the substep. A step may shorten the pace by the share
+    `stiffening` of a substep.
     """
 
     def __init__(self, stiffening: float) -> None:

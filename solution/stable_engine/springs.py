@@ -10,7 +10,7 @@ LEAST_DRAG = 1e-12  # share of the mass: a spring without drag would have no row
 
 
 class Spring(Joint):
-    """Pull or push a and b to a distance of length px, by default their first one.
+    """Pull or push a and b to `length` px apart, by default the initial distance.
 
     stiffness is force per px of stretch (kg/s²), damping is force per px/s (kg/s).
     """
@@ -49,8 +49,9 @@ class Spring(Joint):
 
     @property
     def impulse(self) -> float:
-        """Return the impulse (kg px/s) of the latest substep: positive if it pushes, negative if it
-        pulls. Divide it by the length of a substep for the force.
+        """Return the latest substep's impulse (kg px/s): above 0 it pushes, below 0 it pulls.
+
+        Divide it by the length of a substep for the force.
         """
         return self.j
 

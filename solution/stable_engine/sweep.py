@@ -23,7 +23,7 @@ def stop_at_first_hit(
 
     The step counts as one straight flight of a ball of this radius (px). There it overlaps
     by overlap px, so that the next step finds the contact and resolves the impact. It keeps its
-    velocity, without the speed from gravity on the rest of the way.
+    velocity, less the speed from gravity on the rest of the way.
     """
     x, y = start
     dx, dy = body.x - x, body.y - y

@@ -52,8 +52,8 @@ def want_touch(
 ) -> None:
     """Insist on a right answer of circle_box for this pair, at the positions of disc and rect.
 
-    An answer that is not `noted` is not compared with the known mistakes. The impulses that mark
-    each contact must not appear in the next one.
+    Unless `noted`, do not compare the answer with known mistakes. Impulses mark each contact; the
+    next contact must not have them.
     """
     if lab.running != describe_question(disc, rect):
         lab.ran(describe_question(disc, rect))  # both have moved since

@@ -48,7 +48,7 @@ def want_exact(
 ) -> None:
     """Insist on the right effective_mass of two discs.
 
-    Unless `framed`, only the number counts, not whether the bodies change.
+    Unless `framed`, do not check whether the bodies change.
     """
     lab.ran(f"effective_mass along ({axis[0]:g}, {axis[1]:g}): A {say(a)}; B {say(b)}")
     arms = (a.rx, a.ry), (b.rx, b.ry)
@@ -70,7 +70,7 @@ def want_about(lab: Lab, a: Lever, b: Lever, axis: Pair) -> None:
 
 
 def make_similar(lab: Lab, lever: Lever) -> Lever:
-    """Return a lever as heavy and as large, with the arm in the same direction."""
+    """Return a lever of similar mass and size, its arm in the same direction."""
     size = lab.about(1.0)
     return Lever(lab.about(lever.mass), *(size * each for each in lever[1:]))
 
@@ -168,9 +168,9 @@ def a_sliding_ball_comes_to_roll_on_a_large_one(lab: Lab) -> None:
 
 
 def want_to_roll(lab: Lab, ground: Thing, pos: Pair, radius: float, mass: float, name: str) -> None:
-    """Insist that the lowest point of the ball rests on the ground after a second and a half.
+    """Insist that the ball rolls: after 1.5 s its lowest point no longer slips.
 
-    Friction of 0.6 removes 588 px/s in a second, and a third of 300 must be removed.
+    Friction of 0.6 removes 588 px/s in a second; rolling takes a third of 300 px/s.
     """
     mass, speed = lab.about(mass), lab.about(300.0)
     lab.ran(f"a ball of {mass:g} kg, r {radius:g}, slid at {speed:g} px/s on a {name}, 2 seconds")

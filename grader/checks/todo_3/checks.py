@@ -118,7 +118,7 @@ def rounding(rod: Rod, far: float = 0.0) -> float:
 
 
 def make_similar(lab: Lab, rod: Rod) -> Rod:
-    """Return another rod with the same length, relative error, masses and speeds."""
+    """Return a rod of similar length, masses and speeds; same relative error."""
     size, fast = lab.about(1.0), lab.about(1.0)
     (x, y), (ax, ay), (bx, by) = rod.offset, rod.vel_a, rod.vel_b
     return Rod(
@@ -327,8 +327,8 @@ def swing(
 def want_length(lab: Lab, lengths: list[float], right: float, within: float = 1.0) -> None:
     """Insist on this length, within a pixel, in every step.
 
-    A step at speed v along the circle stretches a rod by v² dt² / 2L, and the bias takes back a
-    share of 0.2: it settles at v² dt² / 0.4L, here below 0.8 px for the fastest bob.
+    A step at speed v along the circle stretches a rod by v² dt² / 2L; the bias takes back 0.2 of
+    it. The stretch settles at v² dt² / 0.4L, below 0.8 px for the fastest bob.
     """
     lab.want(
         max(abs(length - right) for length in lengths) < within,

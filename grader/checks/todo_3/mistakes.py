@@ -104,7 +104,7 @@ def speed_in_every_direction(rod: Rod) -> float:
 
 
 def mass_of(mass: float) -> float:
-    """Return the mass of an end; undecided for a static one, where a division by 0 follows."""
+    """Return an end's mass; undecided if static, as the mistake then divides by 0."""
     if not mass:
         raise Undecided
     return mass
@@ -130,7 +130,7 @@ def push_a_the_same_way(rod: Rod) -> Pair:
 
 
 def push_by(rod: Rod, a: float, b: float, axis: Pair) -> Ends:
-    """Return the velocities after changes against the axis and along it, px/s."""
+    """Return both velocities if A loses `a`, B gains `b` (px/s) along `axis`."""
     return add_along(rod.vel_a, axis, -a), add_along(rod.vel_b, axis, b)
 
 

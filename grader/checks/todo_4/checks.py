@@ -47,11 +47,11 @@ Motion = tuple[float, ...]  # velocities of A and B, px/s
 def rub(
     lab: Lab, discs: Discs, closing: float, slip: float, dt: float = STEP, spin: float = 0.0
 ) -> tuple[float, float]:
-    """Return the friction impulse on B along its slip, and the share of speed that a free disc
-    keeps. With a `spin`, also check everything else.
+    """Return the friction impulse on B along its slip, and the share of speed a free disc keeps.
 
-    Engines may place the contact anywhere in the overlap, so spins come with more slip than
-    friction can end. A free disc measures the damping, which belongs to TODO 5.
+    With a `spin`, also check everything else. Engines may place the contact anywhere in the
+    overlap, so spins come with more slip than friction can end. The free disc measures damping,
+    which belongs to TODO 5.
     """
     lab.ran(
         f"a step of two discs, friction {discs.mu[0]:g} and {discs.mu[1]:g}: "

@@ -58,7 +58,7 @@ def with_limit(limit_of: Limit) -> Model:
 def with_rule(rule: Rule, sign: int = 1) -> Model:
     """Return the friction with the right limit and this rule.
 
-    With sign -1, the rule is for totals that count the other way.
+    With `sign` -1, the rule takes totals of the opposite sign.
     """
     return with_both(
         right_limit,

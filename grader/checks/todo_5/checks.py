@@ -241,16 +241,16 @@ def a_fleet(lab: Lab) -> tuple[list[Thing], list[Thing]]:
 
 
 def step_on(motion: Motion, pull: Pair, keep: Shares, dt: float) -> Motion:
-    """Return a body that touches nothing, a step later: gravity, damping, then motion."""
+    """Return the motion of a free body after a step: gravity, damping, then move."""
     (x, y), (vx, vy), (angle, omega) = motion
     vx, vy, omega = keep[0] * (vx + pull[0] * dt), keep[0] * (vy + pull[1] * dt), keep[1] * omega
     return (x + vx * dt, y + vy * dt), (vx, vy), (angle + omega * dt, omega)
 
 
 def want_motion(lab: Lab, ball: Thing, right: Motion, dt: float, times: float) -> Motion:
-    """Insist on the right motion after a step, up to `times` what SINGLE allows of its speeds.
+    """Insist on the right motion after a step, within `times` SINGLE of its speeds.
 
-    Return the motion it has.
+    Return the ball's motion.
     """
     body, (pos, vel, (angle, omega)) = lab.state(ball), right
     turned = angle + math.remainder(body.angle - angle, math.tau)

@@ -37,7 +37,7 @@ def left_out_at_zero(model: Model) -> Model:
 
 
 def per_step(factor: Factor) -> Model:
-    """Return the model of both shares, from the share that one step keeps at a rate."""
+    """Return the model of both shares; `factor` is the share that a step keeps."""
     return lambda linear, angular, dt, steps: (
         factor(linear, dt) ** steps,
         factor(angular, dt) ** steps,

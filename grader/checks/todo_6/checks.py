@@ -165,7 +165,7 @@ def the_program_says_how_many_steps_ran(lab: Lab) -> None:
 
 
 def places_of_the_steps(lab: Lab, frames: list[int]) -> set[tuple[int, int]]:
-    """Return the position of the printed count: its line, from the last, and its index in the line.
+    """Return where the count is printed: the lines, counted from the last, and indices in them.
 
     A list of all numbers does not count as an answer.
     """

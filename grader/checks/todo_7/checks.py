@@ -282,7 +282,7 @@ def rods_of(space: SpaceValue, bob: int, moving: set[int]) -> list[Rod]:
 
 
 def kind_of(joint: SpaceJoint) -> str:
-    """Return the kind of a joint; a slide joint that can hardly shorten is no rope."""
+    """Return the kind of a joint, and whether it has slack, as a slide joint may."""
     slack = joint.reach is not None and 1.0 < joint.reach[0] < joint.reach[1]
     return joint.kind + " with slack" * slack
 

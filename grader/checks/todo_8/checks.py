@@ -57,7 +57,7 @@ def want_every_step(
 ) -> None:
     """Insist on steps of every length, from motion and from rest, also under gravity alone.
 
-    Each question has one or two values of the previous one changed. This exposes answers stored for
+    Each question changes one or two values of the previous one. This exposes answers stored for
     an earlier position, speed or step. In the third question no force acts at the start. The last
     two are close to the first step of the lesson's table, and a fast short step.
     """
@@ -122,7 +122,7 @@ SAMPLES = 4  # of RK4
 
 
 def look_closely(lab: Lab, method: Method) -> None:
-    """Ask for single steps, at no cost of points, to find out what is wrong."""
+    """Ask for single steps, which cost no points, to find out what is wrong."""
     if not lab.surveys:
         return
     if method is RK4:

@@ -266,7 +266,7 @@ def find_places(sources: Sources, speeds: Sources = ()) -> Callable[..., tuple[f
 
 
 def weigh_samples(sources: Sources, weights: Sequence[float], speeds: Sources = ()) -> Step:
-    """Return the step that adds up such samples with such weights."""
+    """Return the step that adds up the samples with these weights."""
 
     def model(x: float, v: float, dt: float, accel: Accel) -> State:
         samples = take_samples(x, v, dt, accel, sources, speeds)[0]

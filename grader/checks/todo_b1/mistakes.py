@@ -16,7 +16,7 @@ kinds["sleep"] = Kind(RIGHT.__getitem__)
 
 
 def wrong_at(*moments: str, unsure: Collection[str] = ()) -> Callable[[str], bool]:
-    """Return the model with wrong answers at these moments, and perhaps at the unsure ones."""
+    """Return the model with wrong answers at these moments, undecided at the `unsure` ones."""
 
     def model(when: str) -> bool:
         if when in unsure:

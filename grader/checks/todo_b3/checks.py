@@ -49,7 +49,7 @@ def count_contacts(lab: Lab, world: Thing, bodies: list[Thing], grid: bool) -> C
 
 
 def want_the_same_contacts(lab: Lab, balls: list[Disc], boxes: list[Rect]) -> None:
-    """Compare with all pairs, also shifted left of 0 by multiples of many cell sizes."""
+    """Compare with all pairs, after a shift left by multiples of many cell sizes."""
     left = -WHOLE_CELLS * abs(lab.whole(0, 9))
     balls = [each._replace(x=each.x + left) for each in balls]
     boxes = [each._replace(x=each.x + left) for each in boxes]
@@ -100,7 +100,7 @@ def large_bodies_touch_whatever_lies_on_them(lab: Lab) -> None:
 
 
 def two_at(line: float, before: float = -10.25, behind: float = 9.25) -> list[Disc]:
-    """Return two balls side by side and two above each other, `off` px from a line.
+    """Return balls on both sides of a line: two side by side, two above each other.
 
     By default they overlap by half a pixel.
     """

@@ -20,8 +20,7 @@ kinds["comparison of all"] = Kind(always(False))
 
 
 def grid(cells_of: Callable[[Bounds], Cells]) -> Model:
-    """Return a model of a grid with these cells for a body; only bodies that share one are
-    compared."""
+    """Return the model that compares only bodies sharing a cell of `cells_of`."""
 
     def model(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
         within = [cells_of(each) for each in all_bounds(balls, boxes)]

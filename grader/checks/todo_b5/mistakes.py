@@ -8,7 +8,7 @@ from grader.judge.lab import STEP
 
 
 def find_place(before: Place, now: Place, share: float) -> Pair:
-    """Return the position at this share of the way from one to the other."""
+    """Return the position at a `share` of the way from `before` to `now`."""
     x, y, _ = exact.part_of_the_way(before, now, share)
     return x, y
 

@@ -547,5 +547,5 @@ def clicks_b_and_r_work_in_pymunk(lab: Lab) -> None:
 
 
 def row_of(rows: list[list[Moment]], count: int) -> list[Moment]:
-    """Return the bodies at the first moment with this many."""
+    """Return the first row that has `count` bodies."""
     return next((row for row in rows if len(row) == count), [])

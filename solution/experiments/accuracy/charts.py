@@ -1,8 +1,8 @@
 """Charts of accuracy.py as plain data: figures.py draws them, and the handouts' pages do too.
 
 A chart is a dictionary: "says" is its message, "y" and each panel's "x" name the axes, "ends" are
-the least and the largest value along y. A curve has "points" [x, y]. For points beyond the ends it
-has x alone: "high" (or given up) and "low". All axes are logarithmic. "frame" is the axis on which
+the least and the largest value along y. A curve has "points" [x, y]. Points beyond the ends have
+x alone, in "high" (or given up) or "low". All axes are logarithmic. "frame" is the axis on which
 the time of one frame is marked, if any.
 """
 

@@ -46,12 +46,12 @@ def repeated_times(runs, repeats, rounds):
 
 
 def spread(values):
-    """Return the least, the middle and the largest number, such as of the repeats of a time."""
+    """Return the least, median and largest value, such as of the repeats of a time."""
     return [min(values), median(values), max(values)]
 
 
 def shares(taken, unit):
-    """Return a time divided by another: the spread over the repeats, or None.
+    """Return the spread of `taken` / `unit` over the repeats, or None.
 
     A busy moment of the machine slows both down, so their share stays.
     """

@@ -17,7 +17,7 @@ TOO_SLOW = 1.3  # a setting that exceeds the largest budget by this factor is no
 
 @dataclass
 class Effort:
-    """The maximum of work in a study."""
+    """Limits on the work of a study."""
 
     quick: bool = False
     scale: float = 1.0  # share of the simulated time
@@ -38,7 +38,7 @@ class Effort:
 
 
 def run_setting(question, setting, effort):
-    """Run a question once. Return its error, and the engine in motion for the clock."""
+    """Run a question once. Return its error, and the running engine to be timed."""
     engine = setting.build(question.scene())
     try:
         error = question.ask(engine, effort.scale * question.seconds, setting.dt)
@@ -53,7 +53,7 @@ def run_setting(question, setting, effort):
 
 
 def add_times(runs, effort):
-    """Add to each run its time from its last state on: ms of a frame in every repeat."""
+    """Add to each run its ms per frame in every repeat, timed from its last state on."""
     going = [(run.pop("in motion"), 1 / run["rate"]) for run in runs]
     for run, times in zip(runs, repeated_times(going, effort.repeats, effort.rounds), strict=True):
         run["ms"] = as_milliseconds(times)
@@ -71,7 +71,7 @@ def is_number(value):
 def study_dials(name, effort, tick=lambda engine: None):
     """Ask one question of every value of every dial of the lesson's engine.
 
-    Work is counted in opcodes; the engine as it is has a work of 1.
+    Work is counted in opcodes, relative to the default dials.
     """
     question, rows, runs = QUESTIONS[name], dials(effort.quick), {}
     for setting in dict.fromkeys(setting for row in rows.values() for setting in row.values()):
@@ -147,7 +147,7 @@ def climb(question, setting, effort):
 
 
 def find_least(runs, engine, budget):
-    """Return an engine's smallest error, and its setting, in so many ms a frame.
+    """Return an engine's least error in `budget` ms a frame, with its setting.
 
     There are three answers, by the times of the fastest, the middle and the slowest repeat.
     """
@@ -157,10 +157,10 @@ def find_least(runs, engine, budget):
 
 
 def pick_within(runs, budget, which):
-    """Return the run with the smallest error of those that fit.
+    """Return the run with the smallest error within `budget`.
 
     If none has a number, return the last that fits, or "too slow" as the error if none does.
-    which is 0 for the fastest repeat, 1 for the middle one, 2 for the slowest.
+    `which` is 0 for the fastest repeat, 1 for the middle, 2 for the slowest.
     """
     fitting = [run for run in runs if run["ms"] and spread(run["ms"])[which] <= budget]
     known = [run for run in fitting if is_number(run["error"])]

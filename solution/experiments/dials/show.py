@@ -126,7 +126,7 @@ class Show:
         return settings
 
     def effects_on(self):
-        """Return the chosen effects that this engine has, unless they lack Contacts."""
+        """Return the engine's chosen effects, except those that lack Contacts."""
         can = [name for name in self.chosen if name not in CANNOT[self.engine_name]]
         return tuple(n for n in can if n not in NEED_CONTACTS or "Contacts" in can)
 
@@ -180,9 +180,9 @@ class Show:
         return [scene.bodies[i].mass * (gx * now[i].x + gy * now[i].y) for i in scene.moving()]
 
     def drift(self):
-        """Return the energy gained since the start, in % of the scene's energy, or None.
+        """Return the energy gained since the start, in % of the scene's, or None.
 
-        That counts motion, springs, and the height that its balls have fallen so far.
+        The scene's energy is motion, springs, and the height that balls have fallen so far.
         """
         had = self.motion + sum(self.lowest) - self.begun_at
         if had < 1e-9:

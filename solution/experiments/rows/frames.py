@@ -92,7 +92,7 @@ def measure_elsewhere(trial, scene, measure, change):
 
 
 def make_rows(rows):
-    """Yield rows of those given, in other units and turned."""
+    """Yield some given rows in other units and turned."""
     known = {row.title: row for row in rows}
     for titles, changes in ((TITLES, UNITS), (TURNED, QUARTER)):
         for words, change in changes.items():

@@ -205,7 +205,7 @@ def mirror_off(trial, scene, rows, fast):
 
 
 def order_matters(trial, scene, seconds):
-    """Return the largest distance (px) of any body from its end if added in another order."""
+    """Return the largest change (px) of end positions if bodies are shuffled."""
     other, order = shuffled(scene)
     first, second = (run_for(trial, one, seconds) for one in (scene, other))
     return max(math.dist(first.read(i)[:2], second.read(j)[:2]) for j, i in enumerate(order))

@@ -201,7 +201,7 @@ def damped(damping, stiffness=100.0):
 def swing_off(trial, scene, seconds=20, ever=False):
     """Return how much the swing of the last two seconds differs from the first, as a share.
 
-    With ever, return how much larger any swing is.
+    With `ever`, tell how much larger any swing is.
     """
     engine = trial.build(scene)
     lengths = watch(engine, seconds, lambda: abs(engine.read(1).x - 100))
