@@ -1,4 +1,4 @@
-"""Make what the films of the lab sheet show: one scene for each TODO, run by the tree we are in.
+"""Run the scenes that the films of the lab sheet show, one per TODO, with the current tree.
 
     python film_scenes.py TODO
 

@@ -230,8 +230,8 @@ class Member:
         """Return the TODOs to grade; empty for all.
 
         A patch changes regions of some programs. Programs share no file, so the others equal the
-        solution. A wrong member may or may not affect the whole, which is not graded then; a bonus
-        task must not.
+        solution. `whole` is graded for right members and bonus tasks only: a wrong member may
+        affect it.
         """
         if self.kind == "ladder":
             return self.todos
@@ -324,7 +324,7 @@ class Member:
         return f"must lose {', '.join(sorted(meant - lost))}" if meant > lost else ""
 
     def compare_name(self, result: Result) -> Literal["right", "wrong", "none"]:
-        """Compare the mistake that a report names with a wrong member's; empty if they agree."""
+        """Return whether a report names the mistake of a wrong member, another one, or none."""
         names = {todo.misconception for todo in result.todos} - {None}
         if not names:
             return "none"

@@ -23,7 +23,7 @@ def want_answer(
     """Fail the check unless it `holds`; print the answer and the right one with enough digits.
 
     `words` is a template of an answer, with a field such as `{:.{n}f}` per number; `expected` is
-    one of the right answer.
+    text around the right one.
     """
     if not holds:
         wanted, came = say_apart(words, right, got, digits)

@@ -29,7 +29,7 @@ LONGEST_UNCUT, LONGEST_WAIT = 66, 50  # ms: below the cap of 66.7, and with room
 
 
 def frames_at(rate: int, seconds: float) -> list[int]:
-    """Return the frames (ms) of these seconds at a frame rate, such as 7, 7, 7, 7, 7, 7, 6."""
+    """Return the frames (ms) of these seconds at a frame rate: at 144, mostly 7 and some 6."""
     ends = [round(1000 * number / rate) for number in range(round(rate * seconds) + 1)]
     return [end - begin for begin, end in pairwise(ends)]
 

@@ -41,7 +41,7 @@ def replace_bodies(source: str, bodies: dict[str, str]) -> str:
 
 
 def replace_nodes(source: str, changes: dict[ast.stmt, str]) -> str:
-    """Replace the lines of whole statements; their comments above go with them."""
+    """Replace whole statements; if one is deleted, comments above it go too."""
     lines = source.splitlines()
     for node, text in sorted(changes.items(), key=lambda each: -each[0].lineno):
         decorators = getattr(node, "decorator_list", [])

@@ -274,7 +274,7 @@ class Program:
 
 
 def make_outline(text: str, package: str) -> Module:
-    """Read a file of a package; the package of a file at the top is empty."""
+    """Return the outline of a file of `package`, empty for one at the top."""
     tree = statements(text)
     refused = not tree or any(find_misplaced(ast.Module(tree, [])))
     imports = dict.fromkeys(list_imports(package, tree))

@@ -153,7 +153,7 @@ def time_compiled(folders=FOLDERS):
 
 
 def find(folders):
-    """Return the first folder with a compiled engine, which Compiled then uses, or None."""
+    """Let Compiled use the first engine found in `folders`. Return its folder or None."""
     for folder in folders:
         Compiled.package = load(folder)
         if Compiled.package:

@@ -108,7 +108,7 @@ def ask_all(row, contestants, untimed=()):
 
 
 def run(rows, contestants, recorded=None):
-    """Return the cells of all rows by title; a `recorded` row keeps its modes."""
+    """Return the cells of all rows by title; engines keep their `recorded` modes, if any."""
     found, progress = {}, Progress(len(rows))
     for row in rows:
         progress.step(1, row.title)

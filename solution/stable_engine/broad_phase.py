@@ -67,7 +67,7 @@ class Bounds:
         self.top, self.bottom = self.top + min(fall_y, 0.0), self.bottom + max(fall_y, 0.0)
 
     def find_start(self, dt: float) -> None:
-        """Set the last position of a body that flew straight out of its room in dt seconds."""
+        """Set last_x, last_y (dt seconds ago) of a body that flew straight out of its room."""
         body = self.body
         body.last_x = max(self.left, min(body.x - body.vx * dt, self.right))
         body.last_y = max(self.top, min(body.y - body.vy * dt, self.bottom))

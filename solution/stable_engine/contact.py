@@ -17,7 +17,7 @@ class Contact:
     Contacts.prepare and Friction.prepare compute once per step what its substeps need. A unit of
     impulse along the normal takes (ax, ay) from A's velocity and adds (bx, by) to B's. A unit along
     the tangent takes (tax, tay) from A's velocity, adds (tbx, tby) to B's, and takes aw and bw from
-    their spins. Bodies with centres `reach` px apart along it just touch.
+    their spins. Centres `reach` px apart along the normal just touch.
     """
 
     __slots__ = (

@@ -477,7 +477,7 @@ class Contacts(Effect):
     def sweep(
         self, body: Body, start: tuple[float, float], radius: float, overlap: float, h: float
     ) -> None:
-        """Stop a ball at the first static body on its way from `start` that it heeds.
+        """Stop a ball at the first static body on its way from `start`; skip ignored ones.
 
         See stop_at_first_hit.
         """

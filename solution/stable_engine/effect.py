@@ -36,7 +36,7 @@ class WorldState(Listeners):
     def hooks(self, name: str, busy: bool = False) -> list[Callable[..., Any]]:
         """Return the hooks of this name that the scene's effects override, lowest rank first.
 
-        If asked, leave out effects that are idle.
+        If `busy`, leave out idle effects.
         """
         effects = sorted(self.effects.values(), key=lambda effect: effect.rank)
         base = getattr(Effect, name)

@@ -90,9 +90,9 @@ class Impacts:
     def turn_back(self, c: Contact) -> float:
         """Turn a contact's normal back to that of the touch. Return the time (s) since then.
 
-        At a flat face of a static body the normal is always the same. Others stay if the two did
-        not touch while both flew straight, unlike balls that swing fast or have just been stopped
-        by an impact. Nothing flies through a wall.
+        A flat face of a static body has one normal. Other normals stay unless the two began to
+        touch while both flew straight; balls that swing fast or were just stopped did not.
+        Nothing flies through a wall.
         """
         since = min(self.flown.get(c.a, self.last_dt), self.flown.get(c.b, self.last_dt))
         if since <= 0 or self.swings(c.a) or self.swings(c.b):

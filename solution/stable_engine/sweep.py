@@ -22,7 +22,7 @@ def stop_at_first_hit(
     Return the fraction of the way to the hit.
 
     The step counts as one straight flight of a ball of this radius (px). There it overlaps
-    by overlap px, so that the next step finds the contact and resolves the impact. It keeps its
+    by `overlap` px: the next step finds the contact and resolves the impact. It keeps its
     velocity, less the speed from gravity on the rest of the way.
     """
     x, y = start

@@ -20,7 +20,7 @@ Thing = TypeVar("Thing", bound=Body | Joint)
 class World(WorldState):
     """Bodies, and the effects that the scene declares. No other effect runs a line of code.
 
-    gravity is in px/s², and a step has so many substeps. Both can be set later on; effects cannot.
+    `gravity` is in px/s²; `substeps` make up a step. Both can be set later on; effects cannot.
     unit is the length of a pixel in the lengths of the scene: 0.01 for metres at 100 px each. It
     sets which speeds and gaps count as small. bodies lists all bodies in the order of adding: read
     it, and change it by add and remove. Raises ValueError when a value makes no sense, or an

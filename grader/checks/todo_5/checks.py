@@ -100,7 +100,7 @@ def speed_and_spin_have_a_rate_of_their_own(lab: Lab) -> None:
 
 
 def want_shares(lab: Lab, got: Shares, rates: Pair, seconds: float) -> None:
-    """Insist on nearly the share by exp; for short steps a straight line is near enough."""
+    """Insist on the shares by exp within 1 %; a straight line meets that in short steps."""
     right = exact.compute_share(rates[0], seconds), exact.compute_share(rates[1], seconds)
     good = are_close(got, right, within=0.01)
     want_answer(lab, good, BOTH, right, got, digits=2, expected="{} left")

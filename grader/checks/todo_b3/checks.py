@@ -199,7 +199,7 @@ def two_hundred_balls_are_not_compared_pair_by_pair(lab: Lab) -> None:
 def work(lab: Lab, balls: list[Disc]) -> int:
     """Return the number of lines that run to find the contacts.
 
-    It must find some of these contacts, so doing nothing does not pass.
+    The call must find half of them, so doing nothing does not pass.
     """
     few = crowd(lab, balls[:2], [])[0]
     lab.put(few, grid=True)

@@ -126,7 +126,7 @@ class Show:
         return settings
 
     def effects_on(self):
-        """Return the engine's chosen effects, except those that lack Contacts."""
+        """Return chosen effects that this engine has, without any lacking Contacts."""
         can = [name for name in self.chosen if name not in CANNOT[self.engine_name]]
         return tuple(n for n in can if n not in NEED_CONTACTS or "Contacts" in can)
 
