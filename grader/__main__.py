@@ -24,4 +24,5 @@ except KeyboardInterrupt:  # while it starts, or between two commands' own words
     print("stopped before the end", file=sys.stderr)
     sys.exit(2)
 finally:
+    gc.freeze()  # nothing is left to collect: saves a tenth of a check
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the output is complete: there is nothing to stop
