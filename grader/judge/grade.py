@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 
 from msgspec import structs
 
-from grader.judge.failures import Failing
+from grader.judge.budget import Budget
+from grader.judge.failures import Broke, Failing, NotYet
 from grader.judge.jobs import Key
-from grader.judge.lab import Observation
+from grader.judge.lab import Lab, Observation
 from grader.judge.reference import Reference
 from grader.judge.result import MAX_FILE, CheckResult, Result, TodoResult, state_of
 from grader.judge.rubric import Rubric, Todo, load_rubric
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
     from grader.judge.explain.names import Names
     from grader.judge.explain.reasons import Reasons
     from grader.judge.loop import CheckLoop
+
+IMPORT_CPU = 10  # s of processor time for importing a program
 
 
 def grade(
@@ -88,13 +91,15 @@ class Grading(Task):
         """Run the checks, return points lost to edits of given code, and word the failures."""
         if self.options.isolation == "none":
             load_everything()
-        # hypothesis takes 0.1 s to load: meanwhile, the worker loads and compiles the submission.
+        # hypothesis takes 0.1 s to load: meanwhile, children compile and import the submission.
         with suppress(RuntimeError):  # the page for a browser has no threads
             Thread(target=import_module, args=("grader.judge.loop",), daemon=True).start()
         self.sandbox.compile()
+        budget = Budget()
+        unusable = self.try_imports(budget)
         from grader.judge.loop import CheckLoop
 
-        self.loop = CheckLoop(self)
+        self.loop = CheckLoop(self, budget, unusable)
         self.loop.run()
         if not self.loop.failed:
             return self.make_result(None)
@@ -102,6 +107,21 @@ class Grading(Task):
 
         causes = self.put_given_code_back()
         return self.make_result(Reasons(self, self.loop, causes))
+
+    def try_imports(self, budget: Budget) -> dict[str, Broke | NotYet]:
+        """Return why programs cannot be imported, found once instead of in every check."""
+        unusable: dict[str, Broke | NotYet] = {}
+        todos = filter(self.options.wants, self.rubric.todos)
+        for module in dict.fromkeys(each for todo in todos for each in todo.modules):
+            lab = Lab(module, lambda: self.sandbox.open_child(IMPORT_CPU), [])
+            lab.ran(f"import {module}")
+            with lab.opened():
+                try:
+                    lab.probe()
+                except (Broke, NotYet) as failure:
+                    unusable[module] = failure
+            budget.charge(f"import {module}", lab.connection)
+        return unusable
 
     @property
     def failing(self) -> dict[Key, Failing]:

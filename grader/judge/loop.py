@@ -10,7 +10,7 @@ from queue import SimpleQueue
 from grader.judge.budget import Budget
 from grader.judge.failures import Broke, NotYet
 from grader.judge.jobs import Job, Key, jobs_of
-from grader.judge.lab import Lab, Observation
+from grader.judge.lab import Observation
 from grader.judge.passed import PassedPrograms, program_key
 from grader.judge.result import CheckResult
 from grader.judge.running import Opener, Outcome, Runner
@@ -19,12 +19,10 @@ from grader.judge.task import Task
 from grader.judge.verdict import make_result, refuse, word_failure
 from grader.source.flaws import Flaw
 
-IMPORT_CPU = 10  # s of processor time for importing a program
-
 
 @dataclass(frozen=True)
 class EarlyOutcome:
-    """The outcome of a check that a helper ran, with the budget before and after it."""
+    """The outcome of a check, with the budget before and after it."""
 
     before: Budget
     outcome: Outcome
@@ -34,16 +32,20 @@ class EarlyOutcome:
 class CheckLoop:
     """The checks of one grade, and the outcome of each."""
 
-    def __init__(self, grading: Task) -> None:
+    def __init__(
+        self, grading: Task, budget: Budget, unusable: Mapping[str, Broke | NotYet]
+    ) -> None:
         options = grading.options
         self.grading, self.submission, self.rubric = grading, grading.submission, grading.rubric
-        self.budget = Budget()
+        self.budget = budget
         self.runner = Runner(grading, grading.sandbox.open_child, self.budget)
-        beside = grading.sandbox.beside(options.jobs - 1)
-        self.helpers: list[Opener] = [each.open_child for each in beside]
+        sandboxes = [grading.sandbox, *grading.sandbox.beside(options.jobs - 1)]
+        self.at_once = len(sandboxes)  # checks at a time
+        self.free: SimpleQueue[Opener] = SimpleQueue()  # openers that no check uses now
+        for each in sandboxes:
+            self.free.put(each.open_child)
         self.outcomes: dict[Key, Outcome] = {}
-        self.unusable: dict[str, Broke | NotYet] = {}  # by module: why it cannot be imported
-        self.wrong_check = ""  # how the reference fails a check too; empty if it does not
+        self.unusable = unusable  # by module: why it cannot be imported
         self.passed: PassedPrograms | None = None
         if options.trusted and not grading.surveys_all:
             self.passed = options.passed
@@ -53,27 +55,15 @@ class CheckLoop:
 
         The whole needs the results of the TODOs before it; bonus tasks, after it, need nothing.
         """
-        self._try_imports()
         todos = list(filter(self.grading.options.wants, self.rubric.todos))
         before = len(list(takewhile(lambda todo: todo.function, todos)))
         for group in (todos[:before], todos[before:]):
             self.runner.replaceable = self.replaceable
             self._run_group([job for todo in group for job in jobs_of(todo)])
-        if self.wrong_check:
-            raise CannotGrade(self.wrong_check)
-
-    def _try_imports(self) -> None:
-        """Find the programs that cannot be imported, once instead of in every check."""
-        todos = filter(self.grading.options.wants, self.rubric.todos)
-        for module in dict.fromkeys(each for todo in todos for each in todo.modules):
-            lab = Lab(module, lambda: self.grading.sandbox.open_child(IMPORT_CPU), [])
-            lab.ran(f"import {module}")
-            with lab.opened():
-                try:
-                    lab.probe()
-                except (Broke, NotYet) as failure:
-                    self.unusable[module] = failure
-            self.budget.charge(f"import {module}", lab.connection)
+        for outcome in self.outcomes.values():
+            lab = outcome.lab
+            if lab is not None and (why := self.runner.find_wrong_check(outcome.job, lab)):
+                raise CannotGrade(why)
 
     def _run_group(self, jobs: list[Job]) -> None:
         """Run the checks of TODOs that do not depend on each other."""
@@ -96,8 +86,6 @@ class CheckLoop:
         outcome = Outcome(job, result) if result else self._find_outcome(job, ahead)
         self.outcomes[job.key] = outcome
         outcome.failed = outcome.result.failed and self._flaw_of(job) is None
-        if outcome.lab is not None and not self.wrong_check:
-            self.wrong_check = self.runner.find_wrong_check(job, outcome.lab)
         if self.grading.options.progress is not None:
             self.grading.options.progress(outcome.result)
 
@@ -132,43 +120,39 @@ class CheckLoop:
 
     @contextmanager
     def _run_ahead(self, jobs: list[Job]) -> "Iterator[dict[Key, Future[EarlyOutcome]]]":
-        """Let helpers run checks from the last one back, while the loop starts from the first.
-
-        Each has a copy of the budget. If the loop's budget turns out to differ, the check runs
-        again: marks do not depend on how many run at a time.
-        """
-        jobs = [job for job in jobs if self.helpers and self._find_blocked(job) is None]
-        if len(jobs) < 2:
+        """Run checks side by side, while the loop judges them in order."""
+        jobs = [job for job in jobs if self._find_blocked(job) is None]
+        if min(len(jobs), self.at_once) < 2:
             yield {}
             return
-        free: SimpleQueue[Opener] = SimpleQueue()
-        for opener in self.helpers:
-            free.put(opener)
-
-        def run(job: Job) -> EarlyOutcome:
-            opener = free.get()
-            try:
-                before = self.budget.copy()
-                runner = replace(self.runner, open_child=opener, budget=before.copy())
-                return EarlyOutcome(before, runner.run(job), runner.budget)
-            finally:
-                free.put(opener)
-
-        with ThreadPoolExecutor(len(self.helpers)) as pool:
-            futures = {job.key: pool.submit(run, job) for job in reversed(jobs)}
+        with ThreadPoolExecutor(self.at_once) as pool:
+            futures = {job.key: pool.submit(self._run_early, job) for job in order_starts(jobs)}
             try:
                 yield futures
             finally:
                 for future in futures.values():
                     future.cancel()
 
+    def _run_early(self, job: Job) -> EarlyOutcome:
+        """Run a check with a copy of the budget, once an opener is free."""
+        opener = self.free.get()
+        try:
+            before = self.budget.copy()
+            runner = replace(self.runner, open_child=opener, budget=before.copy())
+            return EarlyOutcome(before, runner.run(job), runner.budget)
+        finally:
+            self.free.put(opener)
+
     def _find_outcome(self, job: Job, ahead: "Future[EarlyOutcome] | None") -> Outcome:
-        """Return the outcome of a check, from a helper if one has begun it."""
-        if ahead is None or ahead.cancel():
-            return self.runner.run(job)
-        early, id = ahead.result(), job.todo.id
+        """Return the outcome of a check, and charge the budget.
+
+        If the budget was different when the check began, it runs again: marks do not depend on how
+        many run at a time.
+        """
+        id = job.todo.id
+        early = ahead.result() if ahead is not None else self._run_early(job)
         if early.before.allowance(id) != self.budget.allowance(id):
-            return self.runner.run(job)
+            early = self._run_early(job)
         self.budget.add(id, early.before, early.after)
         return early.outcome
 
@@ -220,3 +204,19 @@ class CheckLoop:
             return ""
         right = self.runner.find_pieces(job.todo, job.module, differing=False)
         return program_key(job.todo, job.module, self.submission, right, self.grading.options.seed)
+
+
+def order_starts(jobs: list[Job]) -> list[Job]:
+    """Return the checks in the order in which they start.
+
+    Properties take the longest, so they start second in their TODO. The first check tells students
+    of an endless loop.
+    """
+    first: dict[str, int] = {}
+    for number, job in enumerate(jobs):
+        first.setdefault(job.todo.id, number)
+    places = {
+        job.key: first[job.todo.id] if job.check.kind == "property" else number
+        for number, job in enumerate(jobs)
+    }
+    return sorted(jobs, key=lambda job: places[job.key])
