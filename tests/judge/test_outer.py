@@ -1,10 +1,13 @@
 """Limit a submission and the judge that reads it, measured from outside."""
 
 import os
+import stat
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
@@ -93,6 +96,17 @@ def test_nothing_is_left_of_work_that_was_ended(tmp_path: Path, monkeypatch):
     with pytest.raises(Exceeded):
         call_within(LITTLE, int, write)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_children_with_users_of_their_own_can_enter_the_folder_of_a_call():
+    """Otherwise nothing is graded as root where there are no namespaces and no Landlock."""
+    assert call_within(LITTLE, int, read_mode) == 0o711
+    with closing(outer.WatchedProcess()) as process:
+        assert process.call(Allowance("it", 10), int, read_mode) == 0o711
+
+
+def read_mode() -> int:
+    return stat.S_IMODE(os.stat(tempfile.gettempdir()).st_mode)
 
 
 def test_a_submission_that_takes_too_long_to_read_cannot_be_taken(tmp_path: Path, monkeypatch):

@@ -201,6 +201,7 @@ def call_within(
     if not WATCHES_FORKS or HELD:
         return work()
     with work_folder() as place:
+        let_children_enter(place)
         ours, theirs = os.pipe()
         flush()
         pid = os.fork()
@@ -253,6 +254,11 @@ def call_alone(
         return error
     except Lost:
         return Failed(f"needs manual review: {allowance.what} ended the grader's own process")
+
+
+def let_children_enter(place: Path) -> None:
+    """Let children with users of their own enter a folder, but not list it."""
+    place.chmod(0o711)
 
 
 def hear(descriptor: int, watch: Watch) -> bytes:
@@ -317,7 +323,7 @@ class WatchedProcess:
 
     def start(self) -> "subprocess.Popen[bytes]":
         place = self.stack.enter_context(work_folder())
-        place.chmod(0o711)  # open to a child with a separate user
+        let_children_enter(place)
         process = subprocess.Popen(
             command("grader.judge.wall.outer", str(place)),
             stdin=subprocess.PIPE,
