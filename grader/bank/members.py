@@ -131,6 +131,7 @@ class Entry(Variant, frozen=True):
     loses: tuple[str, ...] = ()  # TODOs and checks without points, or "everything"
     single_file: bool = True  # a wrong member is graded as a single file as well
     seconds: int = 120  # the longest time it may take; a limit on harm, not a score
+    sleeps: bool = False  # for many seconds, in which other members can use the processor
 
     @property
     def modules(self) -> set[str]:

@@ -221,24 +221,37 @@ def check_kit() -> Iterator[str]:
 def grade_all(
     chosen: Iterable[Member], jobs: int, passed: PassedPrograms | None = PASSED
 ) -> Iterator[Verdict]:
-    yield from run_in_processes(partial(grade_member, passed=passed), chosen, jobs)
+    graded = partial(grade_member, passed=passed)
+    yield from run_in_processes(graded, chosen, jobs, lambda member: member.entry.sleeps)
 
 
 def run_in_processes(
-    function: Callable[[One], Found], chosen: Iterable[One], jobs: int
+    function: Callable[[One], Found],
+    chosen: Iterable[One],
+    jobs: int,
+    sleeps: Callable[[One], bool] = lambda each: False,
 ) -> Iterator[Found]:
-    """Yield the results of a function, run in processes of their own, as they end."""
+    """Yield the results of a function, run in processes of their own, as they end.
+
+    Without a number of jobs, there is one process per core, and one more for those that sleep.
+    """
     todo = list(chosen)
     if not todo:
         return
     context = get_context("spawn")
-    with ProcessPoolExecutor(jobs or count_cores(), context, begin_process) as pool:
-        futures = [pool.submit(function, each) for each in todo]
+    with (
+        ProcessPoolExecutor(jobs or count_cores(), context, begin_process) as pool,
+        ProcessPoolExecutor(1, context, begin_process) as beside,
+    ):
+        futures = [
+            (beside if sleeps(each) and not jobs else pool).submit(function, each) for each in todo
+        ]
         try:
             for future in as_completed(futures):
                 yield future.result()
         except BaseException:  # such as Ctrl-C
-            pool.shutdown(wait=False, cancel_futures=True)
+            for executor in (pool, beside):
+                executor.shutdown(wait=False, cancel_futures=True)
             for process in active_children():
                 process.kill()
             raise

@@ -27,6 +27,7 @@ from grader.bank.verify import (
     find_complaint,
     grade_member,
     judge,
+    run_in_processes,
     summarize,
 )
 from grader.errors import Stop
@@ -181,6 +182,14 @@ def test_what_a_half_way_state_must_say_is_in_the_key():
     state = next(list_states("5"))
     other = replace(state, entry=replace_in(state.entry, says=("another",)))
     assert make_key(state) != make_key(other)
+
+
+@pytest.mark.parametrize(("jobs", "processes"), [(0, 2), (1, 1)])
+def test_members_that_sleep_get_one_more_process(jobs: int, processes: int, monkeypatch):
+    monkeypatch.setattr(verify, "count_cores", lambda: 1)
+    names = ["echo $PPID", "echo $PPID  # sleeps"] * 2
+    ran = run_in_processes(subprocess.getoutput, names, jobs, lambda name: "sleeps" in name)
+    assert len(set(ran)) == processes
 
 
 # ---------------------------------------------------------------- counts
