@@ -13,6 +13,7 @@ from grader.errors import Stop
 from grader.judge.result import CheckResult, Result, TodoResult, Where
 
 POINTS = {"4": 10, "5": 8, "8a": 2}
+SOAK = pytest.mark.soak  # `make test` installs no nbgrader
 
 
 def check(points=0, got="nothing", **more):
@@ -66,7 +67,7 @@ def test_results_are_named_by_their_files_and_rubbish_is_a_sentence(tmp_path):
 def gradebook(tmp_path_factory):
     """Make a gradebook with three cells for the engine, a quiz, and two submissions."""
     api = pytest.importorskip(
-        "nbgrader.api", reason="needs the extra notebooks, which make soak installs"
+        "nbgrader.api", reason="needs the extra `notebooks`, which `make soak` installs"
     )
     path = tmp_path_factory.mktemp("gradebook") / "gradebook.db"
     with pytest.MonkeyPatch.context() as patch:
@@ -111,6 +112,7 @@ def points(course, student):
     return {name: mark[0] for name, mark in marks(course, student).items()}
 
 
+@SOAK
 def test_points_arrive_and_a_second_time_changes_nothing(course):
     handed = [("anna", result(todo("4", 7), todo("5", 8), todo("8a", 0)))]
     first = list(fill_gradebook(course, handed))
@@ -121,6 +123,7 @@ def test_points_arrive_and_a_second_time_changes_nothing(course):
     assert list(fill_gradebook(course, handed)) == first[:1] and marks(course, "anna") == before
 
 
+@SOAK
 @pytest.mark.parametrize(
     ("given", "points_in_all", "named"),
     [
@@ -141,6 +144,7 @@ def test_points_are_those_of_the_cells(course, given, points_in_all, named):
     assert all(name in notes for name in named) and "todo-B1" not in notes
 
 
+@SOAK
 def test_without_a_result_the_engine_has_0_points_until_there_is_one(course):
     said = list(fill_gradebook(course, [("anna", result(todo("4", 10)))]))
     assert points(course, "ben") == {"todo-4": 0, "todo-5": 0, "todo-8a": 0}
@@ -149,6 +153,7 @@ def test_without_a_result_the_engine_has_0_points_until_there_is_one(course):
     assert points(course, "ben")["todo-4"] == 9 and points(course, "anna")["todo-4"] == 10
 
 
+@SOAK
 def test_a_mark_given_by_hand_stays_and_counts(course):
     import nbgrader.api as api
 
@@ -164,6 +169,7 @@ def test_a_mark_given_by_hand_stays_and_counts(course):
     assert marks(course, "anna")["todo-4"][:2] == (6, True), "a person should look again"
 
 
+@SOAK
 def test_a_stranger_and_a_broken_result_stop_nobody(course):
     ten = result(todo("4", 10))
     handed = [("mallory", ten), ("ben", "ben.json is no result"), ("anna", ten)]
@@ -171,6 +177,7 @@ def test_a_stranger_and_a_broken_result_stop_nobody(course):
     assert "mallory" in stranger and broken == "ben.json is no result" and anna.points == 10
 
 
+@SOAK
 def test_python_files_without_notebooks_count_too_without_a_librarys_warning(course):
     (course / "submitted" / "cleo" / ASSIGNMENT).mkdir(parents=True)
     with warnings.catch_warnings(action="error"):
@@ -183,6 +190,7 @@ def test_python_files_without_notebooks_count_too_without_a_librarys_warning(cou
         assert submission.score == 10 and not submission.needs_manual_grade
 
 
+@SOAK
 def test_without_a_gradebook_or_a_notebook_it_says_what_to_run(course, tmp_path_factory):
     import nbgrader.api as api
 
