@@ -196,8 +196,9 @@ def test_the_release_runs_its_own_workflow(tmp_path: Path):
     starter = in_agreement(run_workflow(tree, tmp_path / "starter", python, installed=False))
     assert starter.status == 1 and starter.outputs["points"] == "0"
     shutil.rmtree(tree / "report")
-    for path in python_files(KIT / "solution"):
-        shutil.copyfile(path, tree / path.relative_to(KIT / "solution"))
+    for path in python_files(KIT / "starter"):
+        name = path.relative_to(KIT / "starter")
+        shutil.copyfile(KIT / "solution" / name, tree / name)
     solution = in_agreement(run_workflow(tree, tmp_path / "solution", python))
     assert solution.status == 0 and solution.outputs["points"] == starter.outputs["max-points"]
     shutil.rmtree(tree / "report")
