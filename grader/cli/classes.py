@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 
+from grader.classroom.job import JOB
 from grader.cli.shared import (
     COURSE_HELP,
     Confinement,
@@ -19,7 +20,7 @@ from grader.cli.shared import (
 )
 from grader.errors import Stop
 from grader.judge.task import Options, shipped_reference
-from grader.judge.wall.starting import count_cores
+from grader.judge.wall.starting import count_cores, start_server_ahead
 from grader.text import join_words, plural
 
 if TYPE_CHECKING:
@@ -111,6 +112,8 @@ def grade_command(
     """
     if cluster and jobs:
         raise Stop("--jobs would be ignored with --cluster: its workers say how many at a time")
+    if not cluster:
+        start_server_ahead(JOB)  # it loads while this process reads the class
     known = open_folder(folder)
     submissions = known.find_submissions()
     if not other_course:

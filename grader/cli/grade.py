@@ -26,7 +26,7 @@ from grader.judge.course import read_course
 from grader.judge.result import Result
 from grader.judge.task import KIT, Options, shipped_reference
 from grader.judge.wall.outer import MOST_MEMORY, WHOLE, go_on_within
-from grader.judge.wall.starting import count_cores, start_ahead
+from grader.judge.wall.starting import count_cores, start_ahead, start_server_ahead
 from grader.report.files import write_json
 from grader.report.terminal import Printer, show_isolation
 
@@ -98,6 +98,9 @@ def grade_command(
         return
     if class_:
         # Imported here: students have none of it, and it would add 80 ms to every start.
+        from grader.classroom.job import JOB
+
+        start_server_ahead(JOB)
         from grader.classroom.grading import ClassOptions
         from grader.cli.classes import grade_folder
 

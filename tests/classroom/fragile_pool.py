@@ -43,8 +43,21 @@ def stand_in(package: Package, options: Options) -> Answer:
 
 
 class FragilePool(Pool):
+    module = "grader.judge.wall.outer"
     work = staticmethod(stand_in)
     allowance = Allowance("grading it", cpu=2, memory=200)
+
+
+def count_checks(package: Package, options: Options) -> Answer:
+    """Return how many checks may run at a time; with more than one, a greedy one never ends."""
+    while package.name == "greedy" and options.jobs > 1:
+        pass
+    return str(options.jobs).encode(), 0.05
+
+
+class CountingPool(FragilePool):
+    work = staticmethod(count_checks)
+    allowance = Allowance("grading it", cpu=0.5)
 
 
 class ImpatientPool(FragilePool):

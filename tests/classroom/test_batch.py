@@ -17,7 +17,7 @@ from pathlib import Path
 import psutil
 import pytest
 from command_line import run_grader
-from fragile_pool import FragilePool, ImpatientPool, result_of
+from fragile_pool import CountingPool, FragilePool, ImpatientPool, result_of
 from rich.console import Console
 
 from grader.bank.members import add_odd_names
@@ -269,6 +269,18 @@ def test_a_limit_that_one_reached_is_not_said_of_the_next():
     with ImpatientPool(Options(), 1) as pool:
         future = pool.submit(Package("sleeper", []))
         assert "grading it takes more than 1 s" in str(future.exception())
+
+
+def test_the_first_and_the_last_run_two_checks_at_a_time():
+    with CountingPool(Options(), 2) as pool:
+        futures = [pool.submit(Package(f"{number}", [])) for number in range(8)]
+        counts = [int(each.result()[0]) for each in futures]
+    assert counts[0] == 2 and sorted(counts[1:]) == [1, 1, 1, 1, 1, 2, 2]
+
+
+def test_the_limits_are_those_of_one_check_at_a_time():
+    with CountingPool(Options(), 2) as pool:
+        assert pool.submit(Package("greedy", [])).result()[0] == b"1"
 
 
 def list_class(classroom: Path) -> list[Work]:

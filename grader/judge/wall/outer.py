@@ -31,7 +31,7 @@ from msgspec import Struct
 
 from grader.errors import Stop, say_error
 from grader.judge.wall.processes import end_family
-from grader.judge.wall.starting import command
+from grader.judge.wall.starting import start_server
 from grader.judge.wall.workplace import work_folder
 
 try:
@@ -314,41 +314,43 @@ class WatchedProcess:
     """A process for many calls, which keeps results such as a warm process.
 
     It restarts after a call that reached a limit. Its temporary files are removed with it.
+    `module`: its program, which calls `serve`.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, module: str = "grader.judge.wall.outer") -> None:
+        self.module = module
         self.process: subprocess.Popen[bytes] | None = None
         self.stack = ExitStack()
         self.closed = False
 
+    def begin(self) -> "subprocess.Popen[bytes]":
+        """Return the process, started if need be; it loads until the first call."""
+        if self.closed:
+            raise Failed("stopped before the end")
+        self.process = self.process or self.start()
+        return self.process
+
     def start(self) -> "subprocess.Popen[bytes]":
         place = self.stack.enter_context(work_folder())
         let_children_enter(place)
-        process = subprocess.Popen(
-            command("grader.judge.wall.outer", str(place)),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-        )
-        self.send(process, sys.path)
+        process = start_server(self.module)
+        self.send(process, (sys.path, str(place)))
         return process
 
     def send(self, process: "subprocess.Popen[bytes]", what: object) -> None:
         assert process.stdin is not None
-        write_message(process.stdin, pickle.dumps(what))
+        with suppress(OSError):  # it is gone, and will not reply
+            write_message(process.stdin, pickle.dumps(what))
 
     def call(
         self, allowance: Allowance, kind: Any, function: Callable[..., Reply], *args: object
     ) -> Reply:
         """Call an importable function in the process; raises as `call_within`, and Lost."""
-        if self.closed:
-            raise Failed("stopped before the end")
-        self.process = self.process or self.start()
-        process, done, reasons = self.process, threading.Event(), list[str]()
+        process, done, reasons = self.begin(), threading.Event(), list[str]()
         watch = Watch(process.pid, allowance)
         threading.Thread(target=end_at_limit, args=(watch, done, reasons), daemon=True).start()
         try:
-            with suppress(OSError):  # it is gone, and will not reply
-                self.send(process, (allowance, function, args))
+            self.send(process, (allowance, function, args))
             assert process.stdout is not None
             reply = read_message(process.stdout)
         finally:
@@ -398,15 +400,14 @@ def read_message(pipe: IO[bytes]) -> bytes:
     return message if len(message) == length else b""
 
 
-def serve(place: str) -> None:
+def serve() -> None:
     """Answer the calls of the other side, until it closes or ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    tempfile.tempdir = place
     out = open(os.dup(1), "wb")  # noqa: SIM115  # printed text must not get into messages
     os.dup2(2, 1)
     calls: queue.SimpleQueue[bytes] = queue.SimpleQueue()
     threading.Thread(target=take_calls, args=(calls,), daemon=True).start()
-    sys.path[:] = pickle.loads(calls.get())
+    sys.path[:], tempfile.tempdir = pickle.loads(calls.get())
     while True:
         allowance, function, args = pickle.loads(calls.get())
         limit_addresses(allowance)
@@ -470,4 +471,4 @@ def follow(watched: int) -> NoReturn:
 
 
 if __name__ == "__main__":
-    serve(sys.argv[1])
+    serve()

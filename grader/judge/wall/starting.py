@@ -39,6 +39,26 @@ def count_cores() -> int:
     return len(usable(0)) if usable else os.cpu_count() or 1
 
 
+# ---------------------------------------------------------------- processes for calls
+
+ahead: dict[str, "subprocess.Popen[bytes]"] = {}  # processes without calls yet, by their module
+
+
+def start_server(module: str) -> "subprocess.Popen[bytes]":
+    """Return a process that answers calls; see `WatchedProcess`."""
+    if module in ahead:
+        return ahead.pop(module)
+    return subprocess.Popen(command(module), stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+
+
+def start_server_ahead(module: str) -> None:
+    """Start the process for the first calls; it ends with this one if no call comes."""
+    ahead[module] = start_server(module)
+
+
+# ---------------------------------------------------------------- clean processes
+
+
 class Started(NamedTuple):
     """A process that is still loading, and the judge's ends of its channels."""
 
