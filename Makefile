@@ -167,7 +167,7 @@ test: $(DEV) ## Run the test suite, with some of the bank; verify and soak have 
 	@$(PY) -m pytest tests $(PLUGINS) -n 2 --dist loadfile -rs
 
 soak: $(DEV) $(SITE) $(NOTEBOOKS) ## Run the long tests that `make test` leaves out
-	@$(PY) -m pytest tests -m soak -rs
+	@$(PY) -m pytest tests -m soak $(PLUGINS) -n 2 --dist loadfile -rs
 
 lint: $(DEV) ## Check style and types
 	$(PY) -m ruff check
