@@ -44,6 +44,7 @@ class CheckLoop:
         self.free: SimpleQueue[Opener] = SimpleQueue()  # openers that no check uses now
         for each in sandboxes:
             self.free.put(each.open_child)
+        self.late = False  # whether a check ran out of time
         self.outcomes: dict[Key, Outcome] = {}
         self.unusable = unusable  # by module: why it cannot be imported
         self.passed: PassedPrograms | None = None
@@ -78,7 +79,7 @@ class CheckLoop:
             if self.passed and key and {(r.state, r.meaning) for r in results} == {("passed", "")}:
                 self.passed.add(key)
 
-    def _judge(self, job: Job, known: bool, ahead: "Future[EarlyOutcome] | None") -> None:
+    def _judge(self, job: Job, known: bool, ahead: "Future[EarlyOutcome | None] | None") -> None:
         """Judge a check; skip the run if the program is `known` to have passed it."""
         result = self._find_blocked(job)
         if result is None and known:
@@ -119,19 +120,31 @@ class CheckLoop:
     # ------------------------------------------------------------ side by side
 
     @contextmanager
-    def _run_ahead(self, jobs: list[Job]) -> "Iterator[dict[Key, Future[EarlyOutcome]]]":
+    def _run_ahead(self, jobs: list[Job]) -> "Iterator[dict[Key, Future[EarlyOutcome | None]]]":
         """Run checks side by side, while the loop judges them in order."""
         jobs = [job for job in jobs if self._find_blocked(job) is None]
         if min(len(jobs), self.at_once) < 2:
             yield {}
             return
         with ThreadPoolExecutor(self.at_once) as pool:
-            futures = {job.key: pool.submit(self._run_early, job) for job in order_starts(jobs)}
+            futures = {job.key: pool.submit(self._run_beside, job) for job in order_starts(jobs)}
             try:
                 yield futures
             finally:
                 for future in futures.values():
                     future.cancel()
+
+    def _run_beside(self, job: Job) -> EarlyOutcome | None:
+        """Run a check beside others, unless one of them ran out of time.
+
+        Then each check may change the budget of the next, which would have to run again.
+        """
+        if self.late:
+            return None
+        early = self._run_early(job)
+        lab = early.outcome.lab
+        self.late |= lab is not None and lab.late
+        return early
 
     def _run_early(self, job: Job) -> EarlyOutcome:
         """Run a check with a copy of the budget, once an opener is free."""
@@ -143,15 +156,15 @@ class CheckLoop:
         finally:
             self.free.put(opener)
 
-    def _find_outcome(self, job: Job, ahead: "Future[EarlyOutcome] | None") -> Outcome:
+    def _find_outcome(self, job: Job, ahead: "Future[EarlyOutcome | None] | None") -> Outcome:
         """Return the outcome of a check, and charge the budget.
 
         If the budget was different when the check began, it runs again: marks do not depend on how
         many run at a time.
         """
         id = job.todo.id
-        early = ahead.result() if ahead is not None else self._run_early(job)
-        if early.before.allowance(id) != self.budget.allowance(id):
+        early = ahead.result() if ahead is not None else None
+        if early is None or early.before.allowance(id) != self.budget.allowance(id):
             early = self._run_early(job)
         self.budget.add(id, early.before, early.after)
         return early.outcome
