@@ -32,7 +32,7 @@ from grader.text import clean
 
 Sources = dict[str, str]  # the text of each Python file, by its path inside the tree
 
-SETTLED = 25  # ms without another event, until a save is looked at
+SETTLED = 10  # ms without another event, until a save is looked at
 WITHOUT_EVENTS = 1000  # ms until a look without an event
 MOST_NEWS = 3  # lines on what a save changed
 LOOK_EVERY = 0.25  # s, while checks are running

@@ -1,7 +1,6 @@
 """Decide whether the layers of isolation around a submission are enough, by their names."""
 
 import importlib
-import pkgutil
 from contextlib import suppress
 from pathlib import Path
 from typing import Literal
@@ -57,6 +56,8 @@ def load_everything() -> None:
 
     Modules whose packages are not installed, such as Dask, are skipped.
     """
+    import pkgutil  # imported here, since it is slow
+
     for found in pkgutil.walk_packages([str(Path(__file__).parents[2])], "grader."):
         if not found.name.startswith("grader.worker") and not found.name.endswith("__main__"):
             with suppress(ImportError):

@@ -1,17 +1,16 @@
 """Prepare processes that grade in parallel, and end processes with all that they started."""
 
-import multiprocessing
 import os
 import signal
 import threading
 from contextlib import suppress
 from typing import NoReturn
 
-import psutil
-
 
 def end_family(pid: int) -> None:
     """Kill a process and all that it started."""
+    import psutil  # imported here, since it is slow
+
     with suppress(psutil.NoSuchProcess):
         top = psutil.Process(pid)
         for each in [top, *top.children(recursive=True)]:
@@ -26,6 +25,8 @@ def stop_grading(number: int, _: object) -> NoReturn:
 
 def begin_process() -> None:
     """Make a process of the pool ignore Ctrl-C and end with its parent."""
+    import multiprocessing  # imported here: only a pool needs it
+
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, stop_grading)
     parent = multiprocessing.parent_process()
