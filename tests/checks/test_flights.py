@@ -3,7 +3,14 @@
 import pytest
 from counting import count_calls
 
-from grader.checks.whole.flights import flew, is_clear, want_free_flights, want_no_jump
+from grader.checks.whole.flights import (
+    BALL,
+    LARGEST,
+    flew,
+    is_clear,
+    want_free_flights,
+    want_no_jump,
+)
 from grader.checks.whole.lab_scene import BALLS
 from grader.checks.whole.pictures import Disc
 from grader.judge.decode import Decoder
@@ -43,7 +50,7 @@ def test_a_free_ball_neither_hangs_nor_turns_nor_jumps(vx: float, vy: float):
 def test_a_ball_near_something_is_not_judged():
     assert is_clear(ball(450, 100), [], [])
     assert not is_clear(ball(200, 225), [], [])  # above the ledge
-    assert not is_clear(ball(450, 100), [ball(490, 100)], [0.0])
+    assert not is_clear(ball(450, 100), [ball(490, 100)], [BALL + LARGEST])
     assert not is_clear(ball(840, 120), [], [])  # where the bob swings
 
 

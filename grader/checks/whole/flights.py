@@ -57,10 +57,10 @@ def want_free_flights(lab: Lab, trail: Sequence[Sequence[float]]) -> None:
             "none near it",
         )
     for number, (before, after) in enumerate(pairwise(rows), 2):
-        speeds = [each.speed for each in before]
+        reaches = [BALL + LARGEST + 2 * STEP * each.speed for each in before]
         for which, each in enumerate(before):
             likeliest_first = [*after[which:], *after[:which]]
-            if is_clear(each, before, speeds):
+            if is_clear(each, before, reaches):
                 want_a_flight(lab, each, likeliest_first, number)
             else:
                 want_no_jump(lab, each, likeliest_first, number)
@@ -114,10 +114,11 @@ def flew(before: Moment, after: Moment) -> bool:
     return aside <= ASIDE and math.hypot(*moved) <= (LOST * before.speed + GRAVITY * STEP) * STEP
 
 
-def is_clear(each: Moment, row: Sequence[Moment], speeds: Sequence[float]) -> bool:
+def is_clear(each: Moment, row: Sequence[Moment], reaches: Sequence[float]) -> bool:
     """Return whether a body is a ball that can touch nothing in this step or the next.
 
-    The bob and balls near it never count. `speeds` are those of the bodies in `row`.
+    The bob and balls near it never count. `reaches` holds, for each body in `row`, from what
+    distance it can get at a ball at rest, px.
     """
     x, y = each.x, each.y
     way = 2 * STEP * (each.speed + GRAVITY * STEP) + CLEAR
@@ -130,9 +131,9 @@ def is_clear(each: Moment, row: Sequence[Moment], speeds: Sequence[float]) -> bo
             continue
         if math.hypot(max(aside, 0.0), max(along, 0.0)) <= reach:
             return False
-    for other, speed in zip(row, speeds, strict=True):
-        if other is not each:
-            apart = math.dist((x, y), (other.x, other.y))
-            if apart <= BALL + LARGEST + way + 2 * STEP * speed:
-                return False
+    for other, reach in zip(row, reaches, strict=True):
+        if abs(other.x - x) > reach + way or other is each:  # the usual case
+            continue
+        if math.dist((x, y), (other.x, other.y)) <= reach + way:
+            return False
     return True

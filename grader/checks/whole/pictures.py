@@ -56,10 +56,10 @@ class Disc:
 
 
 class Picture:
-    """A photo of the window, and the discs in the steps that it may show."""
+    """The colours of a photo of the window, and the discs in the steps that it may show."""
 
-    def __init__(self, photo: Photo, moments: list[list[Disc]]) -> None:
-        self.colours = decompress(photo)
+    def __init__(self, colours: bytes, moments: list[list[Disc]]) -> None:
+        self.colours = colours
         self.moments = moments
         self.discs = moments[-1]  # until the step that it shows is found
         self.covered = mark_covered(disc for discs in moments for disc in discs)
@@ -94,13 +94,13 @@ def mark_covered(discs: Iterable[Disc]) -> bytearray:
 
 def want_pictures(lab: Lab, played: Played, movers: Sequence[Mover], frames: Sequence[int]) -> None:
     """Insist that at the end of these frames the window shows the simulated state."""
-    photos = [each for each in played.photos if decompress(each)]
+    photos = [(each.frame, seen) for each in played.photos if (seen := decompress(each))]
     lab.want(
-        [each.frame for each in photos] == list(frames),
+        [frame for frame, _ in photos] == list(frames),
         "a window of 900 x 600 px that shows a new picture in each frame",
         f"{len(photos)} such pictures in {len(frames)} frames",
     )
-    shown = [Picture(each, moments_of(played, movers, each.frame)) for each in photos]
+    shown = [Picture(seen, moments_of(played, movers, frame)) for frame, seen in photos]
     for picture in shown:
         want_discs_where_they_are(lab, picture, [each for each in shown if each is not picture])
     want_a_cleared_window(lab, movers, shown[0], shown[-1])
