@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from math import hypot
+from math import hypot, inf
 from typing import Any
 
 from pygame import Vector2
@@ -55,7 +55,7 @@ class Island:
         for body in self.bodies:
             body.island = None
             body.sleeps = body.idle = False
-            body.still = 0.0
+            body.still = body.kept = 0.0
         self.on_wake()
 
 
@@ -77,8 +77,8 @@ class Body:
         *("outline", "segment", "r", "hx", "hy", "m", "inv_mass", "inv_inertia"),
         *("e", "mu", "restitution_given", "friction_given"),
         *("x", "y", "vx", "vy", "angle", "w", "last_x", "last_y"),
-        *("id", "world", "is_bullet", "is_kinematic", "idle", "sleeps", "still", "calm", "island"),
-        "joint_count",
+        *("id", "world", "is_bullet", "is_kinematic", "idle", "sleeps", "island", "joint_count"),
+        *("still", "calm", "kept", "place"),
     )
 
     def __init__(
@@ -127,8 +127,10 @@ class Body:
         self.is_bullet = bullet
         self.is_kinematic = kinematic
         self.sleeps = False
-        self.still = 0.0  # s, how long it has been slow enough to sleep
-        self.calm = 0.0  # px²/s², its speed when that began, squared
+        self.still = 0.0  # s, how long it has been slow and steady enough to sleep
+        self.calm = 0.0, 0.0, 0.0  # px/s: vx, vy and the speed of its rim when that began
+        self.kept = 0.0  # s, how long it has stayed where it is
+        self.place = inf, 0.0, 0.0  # x, y and angle when that began
         # compiled attributes are fast if they are set before any method runs
         self.weigh(mass)
         if restitution is not None:
@@ -309,7 +311,7 @@ class Body:
         if self.world is None:
             refuse("Body.world", None, "a World: add the body before you push it")
         self.world.push(self, fx, fy, torque)
-        self.still = 0.0
+        self.still = self.kept = 0.0
         self.wake()
 
     def contains(self, point: Iterable[float]) -> bool:

@@ -2,6 +2,7 @@
 
 from math import exp
 
+from .body import Body
 from .effect import Effect
 from .validate import not_negative
 
@@ -56,3 +57,7 @@ class Damping(Effect):
             body.vx *= keep_vel
             body.vy *= keep_vel
             body.w *= keep_omega
+
+    def drag(self, rates: dict[Body, float]) -> None:
+        for body in self.world.awake if self.linear else ():
+            rates[body] = rates.get(body, 0.0) + self.linear

@@ -158,5 +158,8 @@ class Effect:
         """Return the pairs of bodies that this effect makes sleep and wake together."""
         return []
 
+    def drag(self, rates: dict[Body, float]) -> None:
+        """Add the rate (1/s) at which this effect alone slows each awake body."""
+
     def awake_changed(self) -> None:
         """Update lists of awake bodies, after some fell asleep or woke."""

@@ -1,20 +1,29 @@
 """Sleep: bodies at rest are left out of the step, so they cost nothing."""
 
-from math import hypot, sqrt
+from math import hypot
 
 from .body import Body, Island
 from .contacts import Contacts
 from .effect import Effect, WorldState
 
-# speeds are in units of the world per second, see World.unit
-STILL_SPEED = 3.0  # of the centre and of the rim
-GAINED_SPEED = 0.03  # in STILL_TIME; a ball that gains more is on a gentle slope, not at rest
-STILL_TIME = 0.5  # s
-LOOK_EVERY = 8  # steps between checks, as a check of all awake balls costs as much as moving them
+# lengths are in units of the world, see World.unit
+STILL_TIME, STILL_SPEED = 0.5, 0.5  # s; 1/s, of the centre and of the rim
+CHANGED_SPEED = 0.03  # 1/s, in STILL_TIME; more is an acceleration, so forces do not balance
+SHAKEN_TIME, SHAKEN_SPEED = 5.0, 3.0  # s; 1/s, of a ball that is shaken where it lies in a pile
+SHAKEN_DISTANCE = 1.0  # within which it stays
+FIRST_LOOK = 7  # steps between checks: a check of all awake balls costs as much as moving them
+TWO_LOOKS = 16  # steps; 7 and 9 in turns, so that no swing is at the same point at every look
 
 
 class Sleep(Effect):
     """Put islands to sleep that have lain still: balls that touch each other or share a joint.
+
+    A ball lies still if for 0.5 s it is slower than 0.5 px/s and keeps its velocity to 0.03 px/s.
+    So whatever rolls or slides at a steady 0.5 px/s goes on for ever, and so does what starts or
+    turns back with an acceleration of 0.06 px/s². A ball that touches another one may be shaken,
+    and lies still if it stays within 1 px for 5 s. No ball lies still if it would speed up by
+    0.06 px/s² without drag: springs of angular frequency omega draw it on until it is within
+    0.06 px/s² / omega² of rest. All these lengths are in units of the world.
 
     Only whole islands sleep: a single ball would hang in the air when its neighbours moved on. An
     island must rest on a static body or hang on one. Without gravity, it may also float, if it does
@@ -22,15 +31,20 @@ class Sleep(Effect):
     its balls or joints, a static body that it touches or hangs on, or the gravity.
     """
 
-    __slots__ = ("awake_changed_hooks", "link_hooks", "since", "steps", "supported")
+    __slots__ = (
+        *("awake_changed_hooks", "drag_hooks", "link_hooks", "rates", "shaken", "since", "steps"),
+        *("supported", "wait"),
+    )
     rank = 4
 
     def __init__(self) -> None:
         self.since, self.steps = 0.0, 0  # s and steps since the last check
+        self.wait = FIRST_LOOK  # steps from there to the next one
 
     def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.link_hooks = world.hooks("links")
+        self.drag_hooks = world.hooks("drag")
         self.awake_changed_hooks = world.hooks("awake_changed")
 
     def detect(self, h: float) -> None:
@@ -47,25 +61,45 @@ class Sleep(Effect):
     def finish(self, h: float) -> None:
         self.since += h * self.world.substep_count
         self.steps += 1
-        if self.steps < LOOK_EVERY:
+        if self.steps < self.wait:
             return
-        dt, self.since, self.steps = self.since, 0.0, 0
-        ready, slow = False, STILL_SPEED * self.world.unit
+        dt, self.since, self.steps, self.wait = self.since, 0.0, 0, TWO_LOOKS - self.wait
+        ready, slow = False, SHAKEN_SPEED * self.world.unit
         slow2 = slow * slow
         for body in self.world.awake:
-            speed2 = body.vx * body.vx + body.vy * body.vy
-            if speed2 < slow2 and abs(body.w) * body.r < slow:
-                if not body.still:
-                    body.calm = speed2
-                body.still += dt
-                ready = ready or body.still > STILL_TIME
+            vx, vy = body.vx, body.vy
+            if vx * vx + vy * vy < slow2 and abs(body.w) * body.r < slow:
+                self.look_at(body, dt)
+                ready = ready or body.still > STILL_TIME or body.kept > SHAKEN_TIME
             else:
                 body.still = 0.0
         if ready:
             self.put_to_sleep()
 
+    def look_at(self, body: Body, dt: float) -> None:
+        """Measure how long a ball has kept its velocity, and how long its position."""
+        unit = self.world.unit
+        slow, most, near = STILL_SPEED * unit, CHANGED_SPEED * unit, SHAKEN_DISTANCE * unit
+        vx, vy, rim = body.vx, body.vy, body.w * body.r
+        calm_x, calm_y, calm_rim = body.calm
+        if hypot(vx - calm_x, vy - calm_y) > most or abs(rim - calm_rim) > most:
+            body.still, body.calm = 0.0, (vx, vy, rim)
+        elif hypot(vx, vy) < slow and abs(rim) < slow:
+            body.still += dt
+        x, y, angle = body.place
+        if hypot(body.x - x, body.y - y) < near and abs(body.angle - angle) * body.r < near:
+            body.kept += dt
+        else:
+            body.kept, body.place = 0.0, (body.x, body.y, body.angle)
+
     def put_to_sleep(self) -> None:
-        """Put islands to sleep that have lain still for STILL_TIME."""
+        """Put islands to sleep that lie still."""
+        self.rates: dict[Body, float] = {}
+        for drag in self.drag_hooks:
+            drag(self.rates)
+        contacts = self.world.effects.get("Contacts")
+        pile = contacts.balls.contacts if isinstance(contacts, Contacts) else []
+        self.shaken = {body for c in pile for body in (c.a, c.b)}
         still = [i for i in self.find_islands() if self.is_still(i)]
         for island in still:
             Island(island, self.update_awake)
@@ -73,20 +107,20 @@ class Sleep(Effect):
             self.update_awake()
 
     def is_still(self, island: list[Body]) -> bool:
-        """Return whether an island has lain still for STILL_TIME, and nothing sets it in motion.
-
-        A ball that has gained speed starts the time again.
-        """
-        if min([body.still for body in island]) <= STILL_TIME:
-            return False
-        gained = GAINED_SPEED * self.world.unit
-        for body in island:
-            if hypot(body.vx, body.vy) > sqrt(body.calm) + gained:
-                body.still = 0.0
-        if min([body.still for body in island]) == 0:
+        """Return whether all balls of an island lie still, and nothing sets them in motion."""
+        if not all([self.lies_still(body) and not self.is_driven(body) for body in island]):
             return False
         moves = any([body.vx or body.vy or body.w for body in island])
         return any([body in self.supported for body in island]) or not (moves or any(self.world.g))
+
+    def lies_still(self, body: Body) -> bool:
+        """Return whether a ball has kept its velocity or, in a pile, its position long enough."""
+        return body.still > STILL_TIME or (body.kept > SHAKEN_TIME and body in self.shaken)
+
+    def is_driven(self, body: Body) -> bool:
+        """Return whether a force moves a ball against drag, so that its velocity stays the same."""
+        most = CHANGED_SPEED * self.world.unit / STILL_TIME  # px/s²
+        return self.rates.get(body, 0.0) * hypot(body.vx, body.vy) > most
 
     def find_islands(self) -> list[list[Body]]:
         """Return the awake balls in groups, by union-find: connected balls get the same root.
@@ -111,7 +145,7 @@ class Sleep(Effect):
                     ball, other = (b, a) if a.idle else (a, b)
                     self.supported.add(ball)
                     if other.is_kinematic and (other.vx or other.vy or other.w):
-                        ball.still = 0.0
+                        ball.still = ball.kept = 0.0
         islands: dict[Body, list[Body]] = {}
         for body in self.world.awake:
             islands.setdefault(root(body), []).append(body)

@@ -142,3 +142,8 @@ class Springs(Joints[Spring]):
         for spring in self.awake:
             spring.vx = spring.end_b.vx - spring.end_a.vx
             spring.vy = spring.end_b.vy - spring.end_a.vy
+
+    def drag(self, rates: dict[Body, float]) -> None:
+        for spring in self.awake:
+            for body in (spring.end_a, spring.end_b) if spring.c else ():
+                rates[body] = rates.get(body, 0.0) + spring.c * body.inv_mass

@@ -1,5 +1,7 @@
 """Test when islands fall asleep, and the events that wake them."""
 
+import math
+
 import pytest
 from worlds_for_tests import balls, build
 
@@ -18,7 +20,19 @@ from experiments.scenes import (
     pile,
     tower,
 )
-from stable_engine import Body, Circle, Rod
+from stable_engine import (
+    Body,
+    Box,
+    Circle,
+    Contacts,
+    Damping,
+    Friction,
+    Rod,
+    Sleep,
+    Spring,
+    Springs,
+    World,
+)
 
 SLEEPY = (*BOUNCE, "Sleep")
 
@@ -76,7 +90,7 @@ def test_a_falling_ball_wakes_the_pile_it_hits():
     engine = Stable(scene)
     world, ball = engine.world, engine.bodies[-1]
     others = balls(world)[:-1]
-    run(engine, 5)
+    run(engine, 10)
     assert world.awake == [ball]
     ball.pos, ball.vel = (0, -600), (0, 0)
     highest = min(other.y - other.radius for other in others)
@@ -130,3 +144,67 @@ def test_a_swinging_pendulum_does_not_fall_asleep():
     scene = chain(1, (100, 0))
     world = build(scene, "Rods", "Sleep")
     assert all(watch(world, 10, lambda: bool(world.awake)))
+
+
+# ---------------------------------------------------------------- slow is not at rest
+
+
+def lone_ball(vel=0.0, degrees=0.0, *effects, spin=True):
+    """Make a ball on a floor that is tilted by so many degrees, down to the right."""
+    way = math.radians(degrees)
+    rough = [Friction()] if spin else []
+    world = World((980 * math.sin(way), 980 * math.cos(way)), 4, [Contacts(), *rough, *effects])
+    world.add(Body(Box((900, 20)), (0, 20)))
+    ball = world.add(Body(Circle(10), (0, -10), 1.0))
+    ball.vel, ball.omega = (vel, 0.0), vel / 10 * spin
+    return world, ball
+
+
+@pytest.mark.parametrize("spin", [True, False])
+def test_nothing_slows_what_rolls_or_slides_on_a_level_floor(spin):
+    """x = v t, also at 0.6 px/s: only what is slower than 0.5 px/s is taken for at rest."""
+    world, ball = lone_ball(0.6, 0.0, Sleep(), spin=spin)
+    run(world, 20)
+    assert ball.x == pytest.approx(0.6 * 20)
+    ball.vel = (0.4, 0.0)
+    assert asleep(world, 1)
+
+
+def test_a_ball_that_rolls_up_a_slope_turns_back():
+    """A disc on a slope accelerates by 2/3 g sin, also where its speed is 0."""
+    world, ball = lone_ball(-4.0, 0.1, Sleep())
+    run(world, 8)
+    assert ball.x == pytest.approx(-4 * 8 + 980 * math.sin(math.radians(0.1)) / 3 * 64, abs=0.1)
+
+
+def test_a_ball_creeps_down_a_slope_against_drag():
+    """On ice the speed becomes g sin / c, 0.34 px/s, and drag is no reason to stop."""
+    world, ball = lone_ball(0.0, 0.1, Damping(5.0, 5.0), Sleep(), spin=False)
+    run(world, 20)
+    assert ball.x == pytest.approx(980 * math.sin(math.radians(0.1)) / 5 * (20 - 0.2), rel=0.01)
+
+
+def on_spring(stretch, stiffness, damping=0.0):
+    """Make a ball of 1 kg on a spring that is stretched by so many px, without gravity."""
+    world = World((0, 0), 4, [Springs(), Sleep()])
+    peg, ball = world.add(Body(Circle(5), (-100, 0))), world.add(Body(Circle(5), (stretch, 0), 1.0))
+    world.add(Spring(peg, ball, stiffness, damping, 100.0))
+    return world, ball
+
+
+@pytest.mark.parametrize(("stretch", "seconds"), [(5.0, 40), (1.0, 8 * DT)])
+def test_a_swing_does_not_stop_where_it_turns(stretch, seconds):
+    """It swings for ever, slowly, or in step with every eighth look at it."""
+    omega = 0.3 if stretch == 5 else math.tau / seconds
+    world, ball = on_spring(stretch, omega**2)
+    run(world, 40)
+    assert max(watch(world, math.tau / omega, lambda: ball.x)) == pytest.approx(stretch, rel=0.1)
+
+
+def test_a_ball_on_a_spring_creeps_to_its_rest_length_against_drag():
+    """x = 20 exp(-k t / c): it stops where the spring pulls by 0.06 px/s² at most."""
+    world, ball = on_spring(20.0, 1.0, 20.0)
+    run(world, 60)
+    assert ball.x == pytest.approx(20 * math.exp(-60 / 20), abs=0.01)
+    run(world, 140)
+    assert abs(ball.x) < 0.06 and ball.asleep
