@@ -1,7 +1,7 @@
 """Grade one submission, from a path to a Result."""
 
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
@@ -58,15 +58,17 @@ def grading(
     """Take in the submission at `path`, and prepare to grade it by a rubric."""
     rubric = rubric or options.course.rubric
     reference = Reference(options.reference, load_rubric())
-    with work_folder() as work:
+    with ExitStack() as at_end, work_folder() as work:
         submission = take_in(path, work / "submission")
         used = worker or start_worker(options.spawn, count=options.jobs)
+        if worker is None:
+            at_end.callback(used.close)
+        sandbox = sandbox_for(submission, work, used, options)
         try:
-            sandbox = sandbox_for(submission, work, used, options)
             yield Grading(options, rubric, reference, submission, sandbox)
         finally:
             if worker is None:
-                used.close()
+                used.hang_up()  # its processes end while the files are removed
 
 
 @contextmanager

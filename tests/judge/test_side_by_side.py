@@ -10,7 +10,10 @@ from edited_trees import set_regions
 from grader.bank.verify import shared_worker
 from grader.judge.budget import Budget
 from grader.judge.grade import grade
+from grader.judge.jobs import jobs_of
+from grader.judge.loop import order_starts
 from grader.judge.result import CheckResult
+from grader.judge.rubric import load_rubric
 from grader.judge.task import Options, shipped_reference
 
 WRONG = "        keep_vel = keep_omega = 1 - self.linear_damping * dt"
@@ -40,6 +43,15 @@ def test_results_are_the_same_and_come_in_order(hand_in: HandIn, jobs: int):
     assert first == second
     assert told[1] == told[jobs]
     assert 0 < results[0].points < results[0].max_points
+
+
+def test_a_property_starts_second_in_its_todo():
+    todos = [todo for todo in load_rubric().todos if todo.id in ("3", "4")]
+    started = order_starts([job for todo in todos for job in jobs_of(todo)])
+    for todo in todos:
+        kinds = [job.check.kind for job in started if job.todo == todo]
+        assert kinds[0] == "unit" and kinds[1] == "property"
+    assert [job.todo.id for job in started] == sorted(job.todo.id for job in started)
 
 
 @pytest.mark.soak

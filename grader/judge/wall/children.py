@@ -278,6 +278,9 @@ class Worker(Protocol):
     def end(self, child: Child, gone: bool) -> int | None:
         """End a child; return its status, a signal as negative; None if the worker ended."""
 
+    def hang_up(self) -> None:
+        """Let all processes end, while the judge does other work; `close` waits for them."""
+
     def close(self) -> None: ...
 
 
@@ -407,11 +410,13 @@ class WarmWorker:
         if self.pid == self.process.pid:
             self.process.wait()
 
-    def close(self) -> None:
-        every = [self, *self.beside]
-        for each in every:
+    def hang_up(self) -> None:
+        for each in [self, *self.beside]:
             each.control.close()  # the server then ends its children and itself
-        for each in every:
+
+    def close(self) -> None:
+        self.hang_up()
+        for each in [self, *self.beside]:
             try:
                 each.process.wait(5)
             except subprocess.TimeoutExpired:
@@ -487,6 +492,9 @@ class SpawnWorker:
         code = process.wait()
         child.cpu = max(child.cpu, reaped_seconds() - reaped)
         return code
+
+    def hang_up(self) -> None:
+        self.close()
 
     def close(self) -> None:
         for process in [*self.processes.values(), *(process for process, _ in self.ahead)]:

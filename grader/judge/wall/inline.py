@@ -38,6 +38,9 @@ class InlineWorker:
         child.cpu = channel.cpu
         return channel.status
 
+    def hang_up(self) -> None:
+        self.close()
+
     def close(self) -> None:
         for channel in self.channels.values():
             channel.close()
