@@ -1,6 +1,6 @@
 """Restitution: bodies that hit each other bounce off."""
 
-from math import hypot, sqrt
+from math import hypot
 
 from .contact import Contact
 from .contacts import RESTING_SPEED, Contacts
@@ -19,7 +19,7 @@ class Bounce(Effect):
     see Impacts. Slower contacts stay with the solver, or a resting ball would hop.
     """
 
-    __slots__ = ("contacts", "h", "rods", "slow")
+    __slots__ = ("contacts", "rods", "slow")
     rank = 6
 
     def attach(self, world: WorldState) -> None:
@@ -40,11 +40,10 @@ class Bounce(Effect):
         touching, slow = self.contacts.touching, self.slow
         if not self.contacts.begun and all(abs(c.closing_speed()) <= slow for c in touching):
             return
-        self.h = h
-        impacts = Impacts(self.contacts, self.rods, slow)
+        impacts = Impacts(self.contacts, self.rods, slow, h)
         impacts.find()
         if impacts.due:
-            impacts.resolve_all(self.law)
+            impacts.resolve_all()
         self.contacts.changed = True
         for c in touching:
             if c.gap < 0 and self.is_separating(c):
@@ -57,28 +56,6 @@ class Bounce(Effect):
         """
         unit, g = self.world.unit, hypot(*self.world.g)
         return min(RESTING_SPEED * unit, RESTING_STEPS * g * dt + LEAST_SPEED * unit)
-
-    def law(self, c: Contact, closing: float) -> tuple[float, float]:
-        """Return the speed (px/s) at which a pair separates after closing in at this speed.
-
-        At any step size a ball leaves a static body exactly. A contact is found when the ball is
-        below the surface and too fast, so e is applied to its speed at the surface, which
-        conservation of energy gives. With semi-implicit Euler velocities lag
-        half a substep behind positions.
-
-        Also return the share of the impulse without the speed gained below the surface.
-        """
-        gx, gy = self.world.g
-        g = gx * c.nx + gy * c.ny  # px/s², into the surface; negative at a ceiling
-        if g == 0 or not c.b.is_static:
-            return c.e * closing, 1.0
-        lag = g * self.h / 2
-        fallen = -2 * g * c.gap  # px²/s², added to speed² by the fall from the surface
-        speed = max(closing + lag, 0.0)
-        crossing = sqrt(max(speed * speed - fallen, 0.0))
-        parting = sqrt(max(c.e * c.e * crossing * crossing + fallen, 0.0)) + lag
-        whole = parting + closing
-        return parting, min((1 + c.e) * crossing / whole, 1.0) if whole > 0 else 1.0
 
     def is_separating(self, c: Contact) -> bool:
         """Return whether a pair has bounced: if pushed out as well, it would rise too high.

@@ -1,12 +1,12 @@
 """Impacts: their order, those at one moment, and the positions afterwards."""
 
-from collections.abc import Callable
-from math import cos, hypot, sin
+from math import cos, hypot, sin, sqrt
 
 from .body import Body
 from .contact import Contact, collide, is_at_face
 from .contacts import Contacts
 from .rods import Frame, Rods
+from .soft import SAME_DIRECTION
 from .sweep import first_hit, moment_of_touch
 
 ROUNDS = 20  # passes of impacts from ball to ball in one step, per contact
@@ -19,10 +19,6 @@ SAME = 1e-9  # share by which equal times and speeds may differ
 BEFORE = 0.01  # radii between a bullet and a wall, so that the next step finds the contact
 FIXED = 1e-6  # share of an impulse that moves a ball which rods hold still
 CONVERGED = 1e-14  # share of an impulse; the last pass changes it by less
-
-# From a closing speed (px/s): the speed at which to separate (px/s), and the share of that impulse
-# that limits friction.
-Law = Callable[[Contact, float], tuple[float, float]]
 
 
 class Impact:
@@ -44,12 +40,13 @@ class Impacts:
 
     A contact is found after the touch. Impulses go along the normal at the touch. Free balls, and
     balls that swing on one rod, are moved to where a bounce at the touch would have taken them:
-    otherwise the overlap would push them apart. This keeps angular momentum. Balls on other joints
-    or at a static body stay, and so do bullets that were stopped at one. Rods pass an impact on at
-    once, so a ball weighs as much as all that hangs on it along the normal.
+    otherwise the overlap would push them apart. This keeps angular momentum. So is a ball that
+    bounces off a flat static face: a push out of it would lift the ball for nothing. Balls on other
+    joints or at other static bodies stay, and so do bullets that were stopped at one. Rods pass an
+    impact on at once, so a ball weighs as much as all that hangs on it along the normal.
     """
 
-    def __init__(self, contacts: Contacts, rods: Rods | None, slow: float) -> None:
+    def __init__(self, contacts: Contacts, rods: Rods | None, slow: float, h: float) -> None:
         self.touching = contacts.touching
         self.begun = set(contacts.begun)
         self.flown = dict(contacts.flown)  # s, how long a ball has flown straight, if not a step
@@ -57,6 +54,7 @@ class Impacts:
         self.last_dt = contacts.last_dt  # s, of the step in which they touched
         self.touching_gap = contacts.touching_gap
         self.slow = slow  # px/s, slower impacts are ignored
+        self.h = h  # s, of a substep
         self.due: dict[Contact, Impact] = {}
         self.fastest = 0.0  # px/s, at the start
         self.frame_of: dict[Body, Frame] = {}
@@ -98,8 +96,11 @@ class Impacts:
         if since <= 0 or self.swings(c.a) or self.swings(c.b):
             return 0.0
         if is_at_face(c):
-            speed = c.closing_speed()
-            return -c.gap / speed if 0 < -c.gap < speed * since else 0.0
+            speed = (self.speed_at_touch(c) + c.closing_speed() + self.pull(c)[1]) / 2
+            early = -c.gap - speed * since
+            if c.gap >= 0 or early > self.touching_gap + abs(self.pull(c)[0]) * since * since:
+                return 0.0
+            return since if early >= 0 else -c.gap / speed
         is_arc = c.a in self.pivots or c.b in self.pivots
         ago, nx, ny = self.look_back(c, since)
         if ago == 0:
@@ -131,19 +132,19 @@ class Impacts:
             return False
         return body not in self.frame_of or hypot(body.vx, body.vy) * self.last_dt > body.r
 
-    def resolve_all(self, law: Law) -> None:
+    def resolve_all(self) -> None:
         """Resolve all impacts, and those that they cause, island by island."""
         self.link()
         self.fastest = max([impact.speed for impact in self.due.values()])
         due, done = self.due, set[Contact]()
         for c, impact in due.items():
             if self.is_alone(c):
-                self.resolve_alone(law, c, impact.ago)
+                self.resolve_alone(c, impact.ago)
             elif c not in done:
                 island = self.contacts_from(c)
                 done.update(island)
                 self.due = {other: due[other] for other in island if other in due}
-                self.resolve_island(law, ROUNDS * len(island))
+                self.resolve_island(ROUNDS * len(island))
 
     def is_alone(self, c: Contact) -> bool:
         """Return whether an impact affects no other contact."""
@@ -152,13 +153,16 @@ class Impacts:
                 return False
         return True
 
-    def resolve_alone(self, law: Law, c: Contact, ago: float) -> None:
+    def resolve_alone(self, c: Contact, ago: float) -> None:
         """Resolve an impact, some seconds ago, that affects no other contact."""
+        if c in self.flying:
+            self.bounce_off(c, ago)
+            return
         hit = [c.a] if c.b.is_static else [c.a, c.b]
         turns_back = ago > 0 and self.free.issuperset(hit)
         if turns_back:
             self.fly_on(hit, -ago)
-        self.resolve([c], law, [])
+        self.resolve([c], [])
         if turns_back:
             self.fly_on(hit, ago)
             c.nx, c.ny, c.gap = collide(c.a, c.b)
@@ -179,22 +183,28 @@ class Impacts:
                     bodies.append(ball)
         return list(found)
 
-    def resolve_island(self, law: Law, rounds: int) -> None:
+    def resolve_island(self, rounds: int) -> None:
         """Resolve the impacts of an island, in no more than so many rounds."""
         for _ in range(SETTLINGS):
             reached: dict[Body, float] = {}
             while self.due and rounds > 0:
-                self.resolve_first(law, reached)
+                self.resolve_first(reached)
                 rounds -= 1
             while reached:
                 self.settle(*reached.popitem(), reached)
             if not self.due:
                 break
 
-    def resolve_first(self, law: Law, reached: dict[Body, float]) -> None:
+    def resolve_first(self, reached: dict[Body, float]) -> None:
         """Resolve the first impacts. Note which balls they moved, and how long ago."""
         group, ago = self.take_first()
         hit = balls_of(group)
+        if self.flying.keys() >= set(group):
+            for c in group:
+                self.bounce_off(c, ago)
+            reached.update(dict.fromkeys(hit, ago))
+            self.look_around(hit, ago)
+            return
         if ago > 0 and not self.can_go_back.issuperset(hit):
             ago = 0.0
         frames = self.frames_of(group)
@@ -203,12 +213,30 @@ class Impacts:
         hold(frames)
         if ago > 0:
             self.fly_on(hit, -ago)
-        self.resolve(group, law, frames)
+        self.resolve(group, frames)
         if ago > 0:
             self.fly_on(hit, ago)
         for body in hit:
             reached[body] = ago
         self.look_around(hit, ago)
+
+    def bounce_off(self, c: Contact, ago: float) -> None:
+        """Let a ball bounce off a flat face that it met some seconds ago.
+
+        Put it where it would be now, and give it the speed that it has at that height.
+        """
+        a, g = c.a, self.pull(c)[0]
+        vx, vy, w = a.vx, a.vy, a.w
+        up = c.e * self.speed_at_touch(c)
+        height = max((up - g * ago / 2) * ago, 0.0)
+        hit = Hit(c, *self.law(c, height))
+        rise, c.gap = height - c.gap, height
+        press([hit], [])
+        rub([hit], [])
+        aside = ((a.vy - vy) * c.nx - (a.vx - vx) * c.ny) * ago
+        a.x -= c.nx * rise + c.ny * aside
+        a.y -= c.ny * rise - c.nx * aside
+        a.angle += (a.w - w) * ago
 
     def fly_on(self, hit: list[Body], seconds: float) -> None:
         """Move balls straight on for a time, or back. A bullet stops before a wall."""
@@ -233,8 +261,18 @@ class Impacts:
         self.flown.update(dict.fromkeys(hit, ago))
         for c in dict.fromkeys([c for body in hit for c in self.beside[body]]):
             if ago > 0:
-                c.nx, c.ny, c.gap = collide(c.a, c.b)
+                self.look_where(c)
             self.look(c)
+
+    def look_where(self, c: Contact) -> None:
+        """Find normal and gap of a contact anew. A ball stays on its side of a face."""
+        nx, ny, gap = collide(c.a, c.b)
+        if c in self.flying and nx * c.nx + ny * c.ny < SAME_DIRECTION:
+            below = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - self.flying[c]
+            if below < 0:
+                c.gap = below
+                return
+        c.nx, c.ny, c.gap = nx, ny, gap
 
     def link(self) -> None:
         """Find the contacts of each ball, and the balls that may be moved."""
@@ -249,7 +287,21 @@ class Impacts:
             body for body in self.beside if not (body in held or body.joint_count or stopped(body))
         }
         swinging = {b for b in self.pivots if b in self.beside and not (b in held or b.is_bullet)}
-        self.can_go_back = self.free | swinging
+        self.flying = {
+            c: (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
+            for c in self.touching
+            if c.b.is_static and self.flies(c)
+        }
+        self.can_go_back = self.free | swinging | {c.a for c in self.flying}
+
+    def flies(self, c: Contact) -> bool:
+        """Return whether a ball only just meets a flat face, or has just left it."""
+        a = c.a
+        if a.joint_count or self.contacts.was_stopped(a) or not is_at_face(c):
+            return False
+        if sum([other.b.is_static for other in self.beside[a]]) > 1:
+            return False
+        return c in self.due or c.closing_speed() < -self.slow
 
     def take_first(self) -> tuple[list[Contact], float]:
         """Return the hardest of the earliest impacts, and how long (s) ago they touched."""
@@ -277,7 +329,7 @@ class Impacts:
         for c in slow:
             c.nx, c.ny, c.gap = collide(c.a, c.b)
         if all(c.closing_speed() <= self.slow for c in slow):
-            self.resolve(slow, settle, [], TURNS)
+            self.resolve(slow, [], bounces=False, turns=TURNS)
         self.fly_on(hit, ago)
         self.look_around(hit, ago)
 
@@ -306,16 +358,51 @@ class Impacts:
                     found[frame] = None
         return list(found)
 
-    def resolve(self, group: list[Contact], law: Law, frames: list[Frame], turns: int = 1) -> None:
-        """Make contacts separate at the speeds of `law`, or faster.
+    def law(self, c: Contact, height: float, bounces: bool = True) -> tuple[float, float]:
+        """Return the speed (px/s) at which a pair separates, at a height (px) above the surface.
+
+        At any step size a ball leaves a static body exactly. A contact is found when the ball is
+        below the surface and too fast, so e is applied to its speed at the surface, which
+        conservation of energy gives.
+
+        Also return the share of the impulse without the speed gained below the surface.
+        """
+        closing, crossing = c.closing_speed(), self.speed_at_touch(c)
+        e = c.e if bounces else 0.0
+        g, lag = self.pull(c)
+        if g == 0:
+            return e * closing, 1.0
+        parting = sqrt(max(e * e * crossing * crossing - 2 * g * height, 0.0)) + lag
+        whole = parting + closing
+        return parting, min((1 + e) * crossing / whole, 1.0) if whole > 0 else 1.0
+
+    def speed_at_touch(self, c: Contact) -> float:
+        """Return how fast (px/s) a pair came together when it touched."""
+        g, lag = self.pull(c)
+        speed = c.closing_speed() + lag
+        return sqrt(max(speed * abs(speed) + 2 * g * c.gap, 0.0)) if g else speed
+
+    def pull(self, c: Contact) -> tuple[float, float]:
+        """Return gravity into a static surface (px/s²), negative at a ceiling.
+
+        Also return by how much (px/s) a velocity lags behind the position: with semi-implicit
+        Euler half a substep.
+        """
+        if not c.b.is_static:
+            return 0.0, 0.0
+        gx, gy = self.contacts.world.g
+        g = gx * c.nx + gy * c.ny
+        return g, g * self.h / 2
+
+    def resolve(
+        self, group: list[Contact], frames: list[Frame], bounces: bool = True, turns: int = 1
+    ) -> None:
+        """Make contacts separate at the speeds of the law, or faster.
 
         Normal impulses come first, then friction limited by them, so no energy is created.
         In further turns, normal impulses stop motion that friction has caused.
         """
-        hits = []
-        for c in group:
-            wanted, share = law(c, c.closing_speed())
-            hits.append(Hit(c, wanted, share))
+        hits = [Hit(c, *self.law(c, c.gap, bounces)) for c in group]
         for hit in hits if frames else []:
             hit.feel(frames)
         passes = passes_for(len(hits), frames)
@@ -405,11 +492,6 @@ def swing(body: Body, pivot: Body, seconds: float) -> None:
     body.x, body.y = pivot.x + c * x - s * y, pivot.y + s * x + c * y
     body.vx, body.vy = c * body.vx - s * body.vy, s * body.vx + c * body.vy
     body.angle += body.w * seconds
-
-
-def settle(c: Contact, closing: float) -> tuple[float, float]:
-    """Return the law of contacts that do not bounce: see Bounce.law."""
-    return 0.0, 1.0
 
 
 def passes_for(count: int, frames: list[Frame]) -> int:
