@@ -155,17 +155,12 @@ class Impacts:
 
     def resolve_alone(self, c: Contact, ago: float) -> None:
         """Resolve an impact, some seconds ago, that affects no other contact."""
-        if c in self.flying:
-            self.bounce_off(c, ago)
-            return
         hit = [c.a] if c.b.is_static else [c.a, c.b]
-        turns_back = ago > 0 and self.free.issuperset(hit)
-        if turns_back:
-            self.fly_on(hit, -ago)
-        self.resolve([c], [])
-        if turns_back:
-            self.fly_on(hit, ago)
-            c.nx, c.ny, c.gap = collide(c.a, c.b)
+        if ago > 0 and self.can_go_back.issuperset(hit):
+            self.resolve_at_touch([c], hit, ago, [])
+            self.look_where(c)
+        else:
+            self.resolve([c], [])
 
     def contacts_from(self, c: Contact) -> list[Contact]:
         """Return the contacts that an impact may affect through balls and rods."""
@@ -199,12 +194,6 @@ class Impacts:
         """Resolve the first impacts. Note which balls they moved, and how long ago."""
         group, ago = self.take_first()
         hit = balls_of(group)
-        if self.flying.keys() >= set(group):
-            for c in group:
-                self.bounce_off(c, ago)
-            reached.update(dict.fromkeys(hit, ago))
-            self.look_around(hit, ago)
-            return
         if ago > 0 and not self.can_go_back.issuperset(hit):
             ago = 0.0
         frames = self.frames_of(group)
@@ -212,49 +201,59 @@ class Impacts:
             hit += [ball for ball in frame.balls if ball in self.beside and ball not in hit]
         hold(frames)
         if ago > 0:
-            self.fly_on(hit, -ago)
-        self.resolve(group, frames)
-        if ago > 0:
-            self.fly_on(hit, ago)
+            self.resolve_at_touch(group, hit, ago, frames)
+        else:
+            self.resolve(group, frames)
         for body in hit:
             reached[body] = ago
         self.look_around(hit, ago)
 
-    def bounce_off(self, c: Contact, ago: float) -> None:
-        """Let a ball bounce off a flat face that it met some seconds ago.
-
-        Put it where it would be now, and give it the speed that it has at that height.
-        """
-        a, g = c.a, self.pull(c)[0]
-        vx, vy, w = a.vx, a.vy, a.w
-        up = c.e * self.speed_at_touch(c)
-        height = max((up - g * ago / 2) * ago, 0.0)
-        hit = Hit(c, *self.law(c, height))
-        rise, c.gap = height - c.gap, height
-        press([hit], [])
-        rub([hit], [])
-        aside = ((a.vy - vy) * c.nx - (a.vx - vx) * c.ny) * ago
-        a.x -= c.nx * rise + c.ny * aside
-        a.y -= c.ny * rise - c.nx * aside
-        a.angle += (a.w - w) * ago
+    def resolve_at_touch(
+        self, group: list[Contact], hit: list[Body], ago: float, frames: list[Frame]
+    ) -> None:
+        """Move bodies back to the touch, some seconds ago. Resolve it, and let them fly on."""
+        walls = [(c.b, c.b.x, c.b.y) for c in group if c.b.is_static]
+        for c in group:
+            if c.b.is_static:
+                back = (c.b.vx * c.nx + c.b.vy * c.ny) * ago
+                c.b.x -= c.nx * back
+                c.b.y -= c.ny * back
+        self.fly_on(hit, -ago)
+        for c in group:
+            self.look_where(c)
+        self.resolve(group, frames)
+        for wall, x, y in walls:
+            wall.x, wall.y = x, y
+        self.fly_on(hit, ago)
 
     def fly_on(self, hit: list[Body], seconds: float) -> None:
-        """Move balls straight on for a time, or back. A bullet stops before a wall."""
+        """Let balls fly on for a time, or back. A bullet stops before a wall."""
         statics = self.contacts.world.statics
         for body in hit:
             if body in self.pivots:
                 swing(body, self.pivots[body], seconds)
                 continue
             share = 1.0
+            ax, ay = self.acceleration(body)
+            dvx, dvy = ax * seconds, ay * seconds
+            x = (body.vx + (ax * self.h + dvx) / 2) * seconds
+            y = (body.vy + (ay * self.h + dvy) / 2) * seconds
             if body.is_bullet:
-                x, y = body.vx * seconds, body.vy * seconds
                 share = first_hit(statics, body.r, body.x, body.y, x, y)
                 if share < 1:
                     share = max(share - BEFORE * body.r / hypot(x, y), 0.0)
                     self.free.discard(body)
-            body.x += body.vx * share * seconds
-            body.y += body.vy * share * seconds
+            body.x += x * share
+            body.y += y * share
+            body.vx += dvx
+            body.vy += dvy
             body.angle += body.w * share * seconds
+
+    def acceleration(self, body: Body) -> tuple[float, float]:
+        """Return the acceleration of a body (px/s²) between impacts."""
+        if body.is_static:
+            return 0.0, 0.0
+        return self.contacts.world.g
 
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
@@ -358,8 +357,8 @@ class Impacts:
                     found[frame] = None
         return list(found)
 
-    def law(self, c: Contact, height: float, bounces: bool = True) -> tuple[float, float]:
-        """Return the speed (px/s) at which a pair separates, at a height (px) above the surface.
+    def law(self, c: Contact, bounces: bool) -> tuple[float, float]:
+        """Return the speed (px/s) at which a pair separates.
 
         At any step size a ball leaves a static body exactly. A contact is found when the ball is
         below the surface and too fast, so e is applied to its speed at the surface, which
@@ -372,7 +371,8 @@ class Impacts:
         g, lag = self.pull(c)
         if g == 0:
             return e * closing, 1.0
-        parting = sqrt(max(e * e * crossing * crossing - 2 * g * height, 0.0)) + lag
+        gap = c.gap if abs(c.gap) > self.touching_gap else 0.0
+        parting = sqrt(max(e * e * crossing * crossing - 2 * g * gap, 0.0)) + lag
         whole = parting + closing
         return parting, min((1 + e) * crossing / whole, 1.0) if whole > 0 else 1.0
 
@@ -388,10 +388,8 @@ class Impacts:
         Also return by how much (px/s) a velocity lags behind the position: with semi-implicit
         Euler half a substep.
         """
-        if not c.b.is_static:
-            return 0.0, 0.0
-        gx, gy = self.contacts.world.g
-        g = gx * c.nx + gy * c.ny
+        (ax, ay), (bx, by) = self.acceleration(c.a), self.acceleration(c.b)
+        g = (ax - bx) * c.nx + (ay - by) * c.ny
         return g, g * self.h / 2
 
     def resolve(
@@ -402,7 +400,7 @@ class Impacts:
         Normal impulses come first, then friction limited by them, so no energy is created.
         In further turns, normal impulses stop motion that friction has caused.
         """
-        hits = [Hit(c, *self.law(c, c.gap, bounces)) for c in group]
+        hits = [Hit(c, *self.law(c, bounces)) for c in group]
         for hit in hits if frames else []:
             hit.feel(frames)
         passes = passes_for(len(hits), frames)
