@@ -7,6 +7,7 @@ from .contacts import RESTING_SPEED, Contacts
 from .effect import Effect, WorldState
 from .impacts import Impacts
 from .rods import Rods
+from .springs import Springs
 
 RESTING_STEPS = 3.7  # impacts slower than gravity's speed after so many do not bounce
 LEAST_SPEED = 0.001  # 1/s, in units of the world: the same without gravity
@@ -19,15 +20,16 @@ class Bounce(Effect):
     see Impacts. Slower contacts stay with the solver, or a resting ball would hop.
     """
 
-    __slots__ = ("contacts", "rods", "slow")
+    __slots__ = ("contacts", "rods", "slow", "springs")
     rank = 6
 
     def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
         self.contacts.lets_none_pass = True
-        rods = world.effects.get("Rods")
+        rods, springs = world.effects.get("Rods"), world.effects.get("Springs")
         self.rods = rods if isinstance(rods, Rods) else None
+        self.springs = springs if isinstance(springs, Springs) else None
 
     def is_used(self) -> bool:
         return any(body.e > 0 for body in self.world.bodies)
@@ -40,7 +42,7 @@ class Bounce(Effect):
         touching, slow = self.contacts.touching, self.slow
         if not self.contacts.begun and all(abs(c.closing_speed()) <= slow for c in touching):
             return
-        impacts = Impacts(self.contacts, self.rods, slow, h)
+        impacts = Impacts(self.contacts, self.rods, self.springs, slow, h)
         impacts.find()
         if impacts.due:
             impacts.resolve_all()

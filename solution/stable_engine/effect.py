@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 class WorldState(Listeners):
     """The world as effects know it: its bodies, and the effects that the scene declares."""
 
-    __slots__ = ("awake", "bodies", "effects", "g", "statics", "substep_count")
+    __slots__ = ("awake", "bodies", "effects", "forces", "g", "statics", "substep_count")
 
     g: tuple[float, float]  # px/s²
     substep_count: int
@@ -23,6 +23,7 @@ class WorldState(Listeners):
     awake: list[Body]  # the balls that can move now
     statics: list[Body]
     effects: dict[str, Effect]
+    forces: dict[Body, tuple[float, float, float]]  # kg px/s² twice, kg px²/s²
 
     @property
     def unit(self) -> float:

@@ -5,8 +5,10 @@ from math import cos, hypot, sin, sqrt
 from .body import Body
 from .contact import Contact, collide, is_at_face
 from .contacts import Contacts
-from .rods import Frame, Rods
+from .effect import WorldState
+from .rods import Frame, Rods, Velocity
 from .soft import SAME_DIRECTION
+from .springs import Springs
 from .sweep import first_hit, moment_of_touch
 
 ROUNDS = 20  # passes of impacts from ball to ball in one step, per contact
@@ -16,6 +18,7 @@ PASSES = 200  # of the solver for impacts at one moment
 WORK = 4000  # contacts, over all passes of the solver for one large group
 ARC = 1.1  # ratio by which the touch may lie further back for flights on an arc
 SAME = 1e-9  # share by which equal times and speeds may differ
+STIFF = 0.25  # a spring is stiff if (omega dt)² and its damping in a step are more than this
 BEFORE = 0.01  # radii between a bullet and a wall, so that the next step finds the contact
 FIXED = 1e-6  # share of an impulse that moves a ball which rods hold still
 CONVERGED = 1e-14  # share of an impulse; the last pass changes it by less
@@ -46,7 +49,9 @@ class Impacts:
     impact on at once, so a ball weighs as much as all that hangs on it along the normal.
     """
 
-    def __init__(self, contacts: Contacts, rods: Rods | None, slow: float, h: float) -> None:
+    def __init__(
+        self, contacts: Contacts, rods: Rods | None, springs: Springs | None, slow: float, h: float
+    ) -> None:
         self.touching = contacts.touching
         self.begun = set(contacts.begun)
         self.flown = dict(contacts.flown)  # s, how long a ball has flown straight, if not a step
@@ -63,6 +68,10 @@ class Impacts:
             rods.find_frames()
             self.frame_of = rods.frame_of
             self.pivots = find_pivots(rods)
+        self.pulls = find_pulls(contacts.world)
+        self.stiff: set[Body] = set()  # balls on springs that swing too fast to follow
+        if springs:
+            self.stiff = add_springs(self.pulls, springs, contacts.world.g, self.last_dt)
 
     def find(self) -> None:
         """Find all impacts. For a new contact, the moment of its touch counts."""
@@ -127,10 +136,15 @@ class Impacts:
         return since, x / distance, y / distance
 
     def swings(self, body: Body) -> bool:
-        """Return whether a ball may not have flown straight: on a spring, or fast on a rod."""
+        """Return whether a ball may not have flown freely: on a stiff spring, or fast on a rod."""
         if not body.joint_count:
             return False
-        return body not in self.frame_of or hypot(body.vx, body.vy) * self.last_dt > body.r
+        return body in self.stiff or (body in self.frame_of and self.turns_far(body))
+
+    def turns_far(self, body: Body) -> bool:
+        """Return whether a ball's rods take it by more than its radius in a step."""
+        x, y = self.frame_of[body].velocity()
+        return hypot(body.vx - x, body.vy - y) * self.last_dt > body.r
 
     def resolve_all(self) -> None:
         """Resolve all impacts, and those that they cause, island by island."""
@@ -199,13 +213,11 @@ class Impacts:
         frames = self.frames_of(group)
         for frame in frames:
             hit += [ball for ball in frame.balls if ball in self.beside and ball not in hit]
-        hold(frames)
         if ago > 0:
             self.resolve_at_touch(group, hit, ago, frames)
         else:
             self.resolve(group, frames)
-        for body in hit:
-            reached[body] = ago
+        reached.update(dict.fromkeys(hit, ago))
         self.look_around(hit, ago)
 
     def resolve_at_touch(
@@ -229,9 +241,13 @@ class Impacts:
     def fly_on(self, hit: list[Body], seconds: float) -> None:
         """Let balls fly on for a time, or back. A bullet stops before a wall."""
         statics = self.contacts.world.statics
+        flying: dict[Frame, None] = {}
         for body in hit:
-            if body in self.pivots:
-                swing(body, self.pivots[body], seconds)
+            if body in self.frame_of:
+                if body in self.pivots:
+                    swing(body, self.pivots[body], seconds)
+                else:
+                    flying[self.frame_of[body]] = None
                 continue
             share = 1.0
             ax, ay = self.acceleration(body)
@@ -248,12 +264,34 @@ class Impacts:
             body.vx += dvx
             body.vy += dvy
             body.angle += body.w * share * seconds
+        for frame in flying:
+            self.fly_frame(frame, seconds)
+
+    def fly_frame(self, frame: Frame, seconds: float) -> None:
+        """Let a frame fly and turn for a time, or back, as if it were rigid."""
+        mass = sum([b.m for b in frame.balls])
+        x = sum([b.m * b.x for b in frame.balls]) / mass
+        y = sum([b.m * b.y for b in frame.balls]) / mass
+        ax, ay = self.acceleration(frame.balls[0])
+        vx, vy = frame.velocity()
+        spin = sum([b.m * ((b.x - x) * (b.vy - vy) - (b.y - y) * (b.vx - vx)) for b in frame.balls])
+        inertia = sum([b.m * ((b.x - x) ** 2 + (b.y - y) ** 2) for b in frame.balls])
+        c, s = cos(spin / inertia * seconds), sin(spin / inertia * seconds)
+        way_x = x + (vx + ax * (self.h + seconds) / 2) * seconds
+        way_y = y + (vy + ay * (self.h + seconds) / 2) * seconds
+        for b in frame.balls:
+            dx, dy, dvx, dvy = b.x - x, b.y - y, b.vx - vx, b.vy - vy
+            b.x, b.y = way_x + c * dx - s * dy, way_y + s * dx + c * dy
+            b.vx, b.vy = vx + c * dvx - s * dvy, vy + s * dvx + c * dvy
+            b.vx += ax * seconds
+            b.vy += ay * seconds
+            b.angle += b.w * seconds
 
     def acceleration(self, body: Body) -> tuple[float, float]:
         """Return the acceleration of a body (px/s²) between impacts."""
         if body.is_static:
             return 0.0, 0.0
-        return self.contacts.world.g
+        return self.pulls.get(body, self.contacts.world.g)
 
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
@@ -285,18 +323,29 @@ class Impacts:
         self.free = {
             body for body in self.beside if not (body in held or body.joint_count or stopped(body))
         }
-        swinging = {b for b in self.pivots if b in self.beside and not (b in held or b.is_bullet)}
         self.flying = {
             c: (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
             for c in self.touching
             if c.b.is_static and self.flies(c)
         }
-        self.can_go_back = self.free | swinging | {c.a for c in self.flying}
+        held -= {c.a for c in self.flying}
+        held |= self.stiff
+        self.can_go_back = {b for b in self.beside if not (b in held or stopped(b))}
+        for body in list(self.can_go_back):
+            frame = self.frame_of.get(body)
+            if frame and not (held.isdisjoint(frame.balls) and self.is_loose(frame, body)):
+                self.can_go_back.remove(body)
+
+    def is_loose(self, frame: Frame, body: Body) -> bool:
+        """Return whether a frame can be moved back: it hangs on one rod, or on none at all."""
+        if frame.hangs:
+            return body in self.pivots and not body.is_bullet
+        return not any([b.is_bullet or b in self.pulls or self.swings(b) for b in frame.balls])
 
     def flies(self, c: Contact) -> bool:
         """Return whether a ball only just meets a flat face, or has just left it."""
         a = c.a
-        if a.joint_count or self.contacts.was_stopped(a) or not is_at_face(c):
+        if a in self.pivots or self.contacts.was_stopped(a) or not is_at_face(c):
             return False
         if sum([other.b.is_static for other in self.beside[a]]) > 1:
             return False
@@ -400,6 +449,7 @@ class Impacts:
         Normal impulses come first, then friction limited by them, so no energy is created.
         In further turns, normal impulses stop motion that friction has caused.
         """
+        hold(frames)
         hits = [Hit(c, *self.law(c, bounces)) for c in group]
         for hit in hits if frames else []:
             hit.feel(frames)
@@ -480,6 +530,34 @@ def find_pivots(rods: Rods) -> dict[Body, Body]:
             if pivot.is_static and not pivot.is_kinematic and ball.joint_count == 1:
                 pivots[ball] = pivot
     return pivots
+
+
+def find_pulls(world: WorldState) -> dict[Body, Velocity]:
+    """Return the acceleration (px/s²) of each body that forces act on."""
+    gx, gy = world.g
+    return {
+        body: (gx + fx * body.inv_mass, gy + fy * body.inv_mass)
+        for body, (fx, fy, _) in world.forces.items()
+    }
+
+
+def add_springs(
+    pulls: dict[Body, Velocity], springs: Springs, gravity: Velocity, dt: float
+) -> set[Body]:
+    """Add the pull of springs. Return the balls whose springs swing too fast to follow."""
+    springs.find_networks()
+    stiff: set[Body] = set()
+    for spring in springs.awake:
+        a, b = spring.end_a, spring.end_b
+        if (spring.crowd * dt + spring.c / spring.m) * dt > STIFF:
+            stiff.update((a, b))
+            continue
+        spring.measure()
+        force = spring.k * (spring.distance - spring.rest) + spring.c * spring.speed()
+        for body, f in ((a, force * a.inv_mass), (b, -force * b.inv_mass)):
+            x, y = pulls.get(body, gravity)
+            pulls[body] = x + spring.nx * f, y + spring.ny * f
+    return stiff
 
 
 def swing(body: Body, pivot: Body, seconds: float) -> None:

@@ -98,12 +98,16 @@ class Springs(Joints[Spring]):
         self.is_stale = True
 
     def prepare(self, h: float) -> None:
-        """Find the networks if springs are new. Impacts are not part of the swing."""
+        """Take impacts out of the swing."""
+        self.find_networks()
+        self.relax(h)
+
+    def find_networks(self) -> None:
+        """Find the networks again, if springs were added, changed or removed."""
         if self.is_stale:
             self.is_stale = False
             self.networks = connect(self.awake)
             self.find_crowds()
-        self.relax(h)
 
     def find_crowds(self) -> None:
         """Find how fast each spring may swing, with all springs at its ends."""

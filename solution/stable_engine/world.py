@@ -28,7 +28,7 @@ class World(WorldState):
     """
 
     __slots__ = (
-        *("lengths", "added", "unchecked", "warned", "forces"),
+        *("lengths", "added", "unchecked", "warned"),
         *("detect_hooks", "impact_hooks", "prepare_hooks"),
         *("force_hooks", "warm_start_hooks", "solve_hooks", "relax_hooks", "finish_hooks"),
         *("tell_hooks", "coast_hooks", "static_moved_hooks", "body_moved_hooks"),
@@ -51,7 +51,7 @@ class World(WorldState):
         self.added = 0  # bodies added so far
         self.unchecked: list[Body] = []  # bodies and ends of joints that are new or changed
         self.warned: set[str] = set()  # the effects that a step has warned of
-        self.forces: dict[Body, tuple[float, float, float]] = {}  # kg px/s² twice, kg px²/s²
+        self.forces = {}
         self.effects = {}
         if not isinstance(effects, Iterable):
             refuse("World.effects", effects, "a list of effects")
