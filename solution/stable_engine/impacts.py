@@ -5,10 +5,9 @@ from math import cos, hypot, sin, sqrt
 from .body import Body
 from .contact import Contact, collide, is_at_face
 from .contacts import Contacts
-from .effect import WorldState
-from .rods import Frame, Rods, Velocity
+from .rods import Frame, Rods
 from .soft import SAME_DIRECTION
-from .springs import Springs
+from .springs import Spring, Springs
 from .sweep import first_hit, moment_of_touch
 
 ROUNDS = 20  # passes of impacts from ball to ball in one step, per contact
@@ -68,13 +67,15 @@ class Impacts:
             rods.find_frames()
             self.frame_of = rods.frame_of
             self.pivots = find_pivots(rods)
-        self.pulls = find_pulls(contacts.world)
-        self.stiff: set[Body] = set()  # balls on springs that swing too fast to follow
+        self.forces = contacts.world.forces
+        self.springs_of: dict[Body, list[Spring]] = {}
+        self.stiff: set[Body] = set()  # bodies whose springs swing too fast to follow
         if springs:
-            self.stiff = add_springs(self.pulls, springs, contacts.world.g, self.last_dt)
+            self.springs_of, self.stiff = find_springs(springs, self.last_dt)
 
     def find(self) -> None:
         """Find all impacts. For a new contact, the moment of its touch counts."""
+        self.find_faces()
         for c in self.touching:
             self.look(c, c in self.begun)
 
@@ -242,6 +243,7 @@ class Impacts:
         """Let balls fly on for a time, or back. A bullet stops before a wall."""
         statics = self.contacts.world.statics
         flying: dict[Frame, None] = {}
+        flown = []
         for body in hit:
             if body in self.frame_of:
                 if body in self.pivots:
@@ -251,9 +253,8 @@ class Impacts:
                 continue
             share = 1.0
             ax, ay = self.acceleration(body)
-            dvx, dvy = ax * seconds, ay * seconds
-            x = (body.vx + (ax * self.h + dvx) / 2) * seconds
-            y = (body.vy + (ay * self.h + dvy) / 2) * seconds
+            x = (body.vx + ax * (self.h + seconds) / 2) * seconds
+            y = (body.vy + ay * (self.h + seconds) / 2) * seconds
             if body.is_bullet:
                 share = first_hit(statics, body.r, body.x, body.y, x, y)
                 if share < 1:
@@ -261,9 +262,12 @@ class Impacts:
                     self.free.discard(body)
             body.x += x * share
             body.y += y * share
-            body.vx += dvx
-            body.vy += dvy
             body.angle += body.w * share * seconds
+            flown.append((body, ax, ay))
+        for body, ax, ay in flown:
+            now_x, now_y = self.acceleration(body) if body in self.springs_of else (ax, ay)
+            body.vx += (ax + now_x) / 2 * seconds + (ax - now_x) * self.h / 2
+            body.vy += (ay + now_y) / 2 * seconds + (ay - now_y) * self.h / 2
         for frame in flying:
             self.fly_frame(frame, seconds)
 
@@ -291,7 +295,19 @@ class Impacts:
         """Return the acceleration of a body (px/s²) between impacts."""
         if body.is_static:
             return 0.0, 0.0
-        return self.pulls.get(body, self.contacts.world.g)
+        x, y = self.contacts.world.g
+        if body in self.forces:
+            fx, fy, _ = self.forces[body]
+            x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
+        for spring in self.springs_of.get(body, []):
+            if body not in self.stiff:
+                fx, fy = spring.force_on(body)
+                x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
+        for c in self.bearing.get(body, []):
+            into = x * c.nx + y * c.ny
+            if into > 0:
+                x, y = x - c.nx * into, y - c.ny * into
+        return x, y
 
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
@@ -300,12 +316,22 @@ class Impacts:
             if ago > 0:
                 self.look_where(c)
             self.look(c)
+            if c.gap < 0 and c in self.faces and not (c in self.due or c.a.joint_count):
+                self.lift(c)
+
+    def lift(self, c: Contact) -> None:
+        """Put a ball onto a face that stops it, but not higher than it was before."""
+        up = min(self.depths[c], 0.0) - c.gap
+        if up > 0:
+            c.a.x -= c.nx * up
+            c.a.y -= c.ny * up
+            c.gap += up
 
     def look_where(self, c: Contact) -> None:
         """Find normal and gap of a contact anew. A ball stays on its side of a face."""
         nx, ny, gap = collide(c.a, c.b)
-        if c in self.flying and nx * c.nx + ny * c.ny < SAME_DIRECTION:
-            below = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - self.flying[c]
+        if c in self.faces and nx * c.nx + ny * c.ny < SAME_DIRECTION:
+            below = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - self.faces[c]
             if below < 0:
                 c.gap = below
                 return
@@ -323,12 +349,7 @@ class Impacts:
         self.free = {
             body for body in self.beside if not (body in held or body.joint_count or stopped(body))
         }
-        self.flying = {
-            c: (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
-            for c in self.touching
-            if c.b.is_static and self.flies(c)
-        }
-        held -= {c.a for c in self.flying}
+        held = {c.a for c in self.touching if c.b.is_static and c not in self.faces}
         held |= self.stiff
         self.can_go_back = {b for b in self.beside if not (b in held or stopped(b))}
         for body in list(self.can_go_back):
@@ -336,20 +357,24 @@ class Impacts:
             if frame and not (held.isdisjoint(frame.balls) and self.is_loose(frame, body)):
                 self.can_go_back.remove(body)
 
+    def find_faces(self) -> None:
+        """Find the contacts at flat faces, and the faces that bear balls."""
+        self.faces: dict[Contact, float] = {}  # px, from the centre of the static body to a touch
+        self.depths: dict[Contact, float] = {}  # px, the gap before
+        self.bearing: dict[Body, list[Contact]] = {}
+        for c in self.touching:
+            if c.b.is_static and is_at_face(c) and c.a not in self.pivots:
+                self.depths[c] = c.gap
+                self.faces[c] = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
+                if c.jn > 0 and abs(c.closing_speed()) <= self.slow:
+                    self.bearing.setdefault(c.a, []).append(c)
+
     def is_loose(self, frame: Frame, body: Body) -> bool:
         """Return whether a frame can be moved back: it hangs on one rod, or on none at all."""
         if frame.hangs:
             return body in self.pivots and not body.is_bullet
-        return not any([b.is_bullet or b in self.pulls or self.swings(b) for b in frame.balls])
-
-    def flies(self, c: Contact) -> bool:
-        """Return whether a ball only just meets a flat face, or has just left it."""
-        a = c.a
-        if a in self.pivots or self.contacts.was_stopped(a) or not is_at_face(c):
-            return False
-        if sum([other.b.is_static for other in self.beside[a]]) > 1:
-            return False
-        return c in self.due or c.closing_speed() < -self.slow
+        odd = self.forces.keys() | self.springs_of.keys() | self.bearing.keys()
+        return not any([b.is_bullet or b in odd or self.swings(b) for b in frame.balls])
 
     def take_first(self) -> tuple[list[Contact], float]:
         """Return the hardest of the earliest impacts, and how long (s) ago they touched."""
@@ -532,32 +557,18 @@ def find_pivots(rods: Rods) -> dict[Body, Body]:
     return pivots
 
 
-def find_pulls(world: WorldState) -> dict[Body, Velocity]:
-    """Return the acceleration (px/s²) of each body that forces act on."""
-    gx, gy = world.g
-    return {
-        body: (gx + fx * body.inv_mass, gy + fy * body.inv_mass)
-        for body, (fx, fy, _) in world.forces.items()
-    }
-
-
-def add_springs(
-    pulls: dict[Body, Velocity], springs: Springs, gravity: Velocity, dt: float
-) -> set[Body]:
-    """Add the pull of springs. Return the balls whose springs swing too fast to follow."""
+def find_springs(springs: Springs, dt: float) -> tuple[dict[Body, list[Spring]], set[Body]]:
+    """Return the springs of each body, and the bodies whose springs swing too fast to follow."""
     springs.find_networks()
+    found: dict[Body, list[Spring]] = {}
     stiff: set[Body] = set()
     for spring in springs.awake:
-        a, b = spring.end_a, spring.end_b
+        ends = spring.end_a, spring.end_b
         if (spring.crowd * dt + spring.c / spring.m) * dt > STIFF:
-            stiff.update((a, b))
-            continue
-        spring.measure()
-        force = spring.k * (spring.distance - spring.rest) + spring.c * spring.speed()
-        for body, f in ((a, force * a.inv_mass), (b, -force * b.inv_mass)):
-            x, y = pulls.get(body, gravity)
-            pulls[body] = x + spring.nx * f, y + spring.ny * f
-    return stiff
+            stiff.update(ends)
+        for body in ends:
+            found.setdefault(body, []).append(spring)
+    return found, stiff
 
 
 def swing(body: Body, pivot: Body, seconds: float) -> None:

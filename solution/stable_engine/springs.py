@@ -65,6 +65,14 @@ class Spring(Joint):
         self.c = not_negative("Spring.damping", value)
         self.changed()
 
+    def force_on(self, end: Body) -> tuple[float, float]:
+        """Return the present force on one end, in kg px/s²."""
+        self.measure()
+        force = self.k * (self.distance - self.rest) + self.c * self.speed()
+        if end is self.end_b:
+            force = -force
+        return force * self.nx, force * self.ny
+
 
 class Springs(Joints[Spring]):
     """Springs as soft constraints, solved together: stable at any stiffness and damping.
