@@ -7,7 +7,7 @@ from .contact import Contact, collide, is_at_face
 from .contacts import Contacts
 from .rods import Frame, Rods
 from .soft import SAME_DIRECTION
-from .springs import Spring, Springs
+from .springs import Spring, Springs, State
 from .sweep import first_hit, moment_of_touch
 
 ROUNDS = 20  # passes of impacts from ball to ball in one step, per contact
@@ -72,6 +72,9 @@ class Impacts:
         self.stiff: set[Body] = set()  # bodies whose springs swing too fast to follow
         if springs:
             self.springs_of, self.stiff = find_springs(springs, self.last_dt)
+        # of bodies on springs: mirrored impacts, resolved in turn, must not see each other's moves
+        self.before = {body: state_of(body) for body in self.springs_of}
+        self.moved: set[Body] = set()  # by the present impact
 
     def find(self) -> None:
         """Find all impacts. For a new contact, the moment of its touch counts."""
@@ -231,6 +234,7 @@ class Impacts:
                 back = (c.b.vx * c.nx + c.b.vy * c.ny) * ago
                 c.b.x -= c.nx * back
                 c.b.y -= c.ny * back
+        self.moved = set(hit)
         self.fly_on(hit, -ago)
         for c in group:
             self.look_where(c)
@@ -238,21 +242,22 @@ class Impacts:
         for wall, x, y in walls:
             wall.x, wall.y = x, y
         self.fly_on(hit, ago)
+        self.moved = set()
 
     def fly_on(self, hit: list[Body], seconds: float) -> None:
         """Let balls fly on for a time, or back. A bullet stops before a wall."""
         statics = self.contacts.world.statics
         flying: dict[Frame, None] = {}
-        flown = []
+        free = []
         for body in hit:
-            if body in self.frame_of:
-                if body in self.pivots:
-                    swing(body, self.pivots[body], seconds)
-                else:
-                    flying[self.frame_of[body]] = None
-                continue
+            if body not in self.frame_of:
+                free.append((body, *self.acceleration(body)))
+            elif body in self.pivots:
+                swing(body, self.pivots[body], seconds)
+            else:
+                flying[self.frame_of[body]] = None
+        for body, ax, ay in free:
             share = 1.0
-            ax, ay = self.acceleration(body)
             x = (body.vx + ax * (self.h + seconds) / 2) * seconds
             y = (body.vy + ay * (self.h + seconds) / 2) * seconds
             if body.is_bullet:
@@ -263,8 +268,7 @@ class Impacts:
             body.x += x * share
             body.y += y * share
             body.angle += body.w * share * seconds
-            flown.append((body, ax, ay))
-        for body, ax, ay in flown:
+        for body, ax, ay in free:
             now_x, now_y = self.acceleration(body) if body in self.springs_of else (ax, ay)
             body.vx += (ax + now_x) / 2 * seconds + (ax - now_x) * self.h / 2
             body.vy += (ay + now_y) / 2 * seconds + (ay - now_y) * self.h / 2
@@ -299,10 +303,11 @@ class Impacts:
         if body in self.forces:
             fx, fy, _ = self.forces[body]
             x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
-        for spring in self.springs_of.get(body, []):
-            if body not in self.stiff:
-                fx, fy = spring.force_on(body)
-                x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
+        for spring in self.springs_of.get(body, []) if body not in self.stiff else []:
+            other = spring.end_b if body is spring.end_a else spring.end_a
+            there = state_of(other) if other in self.moved else self.before[other]
+            fx, fy = spring.pull_between(state_of(body), there)
+            x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
         for c in self.bearing.get(body, []):
             into = x * c.nx + y * c.ny
             if into > 0:
@@ -312,7 +317,8 @@ class Impacts:
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
         self.flown.update(dict.fromkeys(hit, ago))
-        for c in dict.fromkeys([c for body in hit for c in self.beside[body]]):
+        around = dict.fromkeys([c for body in hit for c in self.beside[body]])
+        for c in sorted(around, key=lambda c: c not in self.faces):  # faces first, as they lift
             if ago > 0:
                 self.look_where(c)
             self.look(c)
@@ -555,6 +561,11 @@ def find_pivots(rods: Rods) -> dict[Body, Body]:
             if pivot.is_static and not pivot.is_kinematic and ball.joint_count == 1:
                 pivots[ball] = pivot
     return pivots
+
+
+def state_of(body: Body) -> State:
+    """Return the position (px) and velocity (px/s) of a body."""
+    return body.x, body.y, body.vx, body.vy
 
 
 def find_springs(springs: Springs, dt: float) -> tuple[dict[Body, list[Spring]], set[Body]]:

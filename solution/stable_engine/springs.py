@@ -1,5 +1,7 @@
 """Springs: Hooke's law, with damping."""
 
+from math import hypot
+
 from .body import Body
 from .joint import Joint, Joints
 from .network import Network, connect
@@ -7,6 +9,8 @@ from .validate import not_negative
 
 NUMEROV = 1 / 12  # of how the stretch curves in a substep: see Springs
 LEAST_DRAG = 1e-12  # share of the mass: a spring without drag would have no row in the network
+
+State = tuple[float, float, float, float]  # position (px) and velocity (px/s) of a body
 
 
 class Spring(Joint):
@@ -65,13 +69,15 @@ class Spring(Joint):
         self.c = not_negative("Spring.damping", value)
         self.changed()
 
-    def force_on(self, end: Body) -> tuple[float, float]:
-        """Return the present force on one end, in kg px/s²."""
-        self.measure()
-        force = self.k * (self.distance - self.rest) + self.c * self.speed()
-        if end is self.end_b:
-            force = -force
-        return force * self.nx, force * self.ny
+    def pull_between(self, here: State, there: State) -> tuple[float, float]:
+        """Return the force (kg px/s²) on an end with the state `here`, the other being `there`."""
+        dx, dy, vx, vy = [b - a for a, b in zip(here, there, strict=True)]
+        distance = hypot(dx, dy)
+        if distance == 0:
+            return 0.0, 0.0
+        nx, ny = dx / distance, dy / distance
+        force = self.k * (distance - self.rest) + self.c * (vx * nx + vy * ny)
+        return force * nx, force * ny
 
 
 class Springs(Joints[Spring]):
