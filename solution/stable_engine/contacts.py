@@ -46,7 +46,16 @@ class Contacts(Effect):
 
     __slots__ = (
         *("on_hit", "on_part", "hits", "parted", "touching", "begun", "changed", "lets_none_pass"),
-        *("friction_warms", "last_dt", "flown", "broad_phase", "crowd", "near", "beside_static"),
+        *(
+            "friction_warms",
+            "last_dt",
+            "flown",
+            "hit_ago",
+            "broad_phase",
+            "crowd",
+            "near",
+            "beside_static",
+        ),
         *("balls", "statics", "groups", "beginnings", "is_mirrored", "unpaired", "ignored", "pace"),
         *("h", "touching_gap", "slow", "max_push_speed", "begin_contact_hooks"),
     )
@@ -66,7 +75,9 @@ class Contacts(Effect):
         self.lets_none_pass = False  # for Bounce: whether balls that touched and passed on count
         self.friction_warms = False  # whether Friction warm starts both, in one pass
         self.last_dt = 0.0  # s, of the step before
-        self.flown: dict[Body, float] = {}  # s, how long a ball flew before it was stopped
+        # s, how long a ball has flown freely: since its last impact, or until it was stopped
+        self.flown: dict[Body, float] = {}
+        self.hit_ago: dict[Body, float] = {}  # s, since the last impact of a ball in this step
         self.broad_phase = BroadPhase()
         self.crowd: dict[Contact, None] = {}  # of balls that part_crowd separates
         self.near: list[Body] = []  # can move, and are near others
@@ -222,16 +233,26 @@ class Contacts(Effect):
     def have_passed(self, a: Body, b: Body, gap: float) -> bool:
         """Return whether two free balls have touched on their way here and passed each other."""
         vx, vy = a.vx - b.vx, a.vy - b.vy
-        way = sqrt(vx * vx + vy * vy) * self.last_dt
+        seconds = self.flight_of(a, b)
+        way = sqrt(vx * vx + vy * vy) * seconds
         if way <= gap or way <= FAR * (a.r + b.r) or not b.r:
             return False
         if a.joint_count or b.joint_count or self.was_stopped(a) or self.was_stopped(b):
             return False
-        return moment_of_touch(a, b, self.flown.get(a, self.last_dt))[0] > 0
+        return moment_of_touch(a, b, seconds)[0] > 0
+
+    def flight_of(self, a: Body, b: Body) -> float:
+        """Return how long (s) two bodies have flown freely: a step, if none was hit or stopped."""
+        known = [
+            self.hit_ago.get(body, self.flown.get(body, self.last_dt))
+            for body in (a, b)
+            if body in self.hit_ago or body in self.flown
+        ]
+        return min(known, default=self.last_dt)
 
     def was_stopped(self, body: Body) -> bool:
         """Return whether a bullet met something static in the step before."""
-        return body.is_bullet and body in self.flown
+        return body.is_bullet and self.flown.get(body, self.last_dt) < self.last_dt
 
     def ignore_pair(self, a: Body, b: Body) -> None:
         """Let A and B pass through each other: a joint may hold them overlapping."""
@@ -376,7 +397,9 @@ class Contacts(Effect):
         if self.crowd:
             self.part_crowd(h * self.world.substep_count)
         self.begun = []
-        self.flown, self.last_dt = {}, h * self.world.substep_count
+        self.last_dt = h * self.world.substep_count
+        self.flown = {body: ago + self.last_dt for body, ago in self.hit_ago.items()}
+        self.hit_ago = {}
         for one in self.broad_phase.find_leavers(self.last_dt):
             if self.world.statics:
                 if not one.near:

@@ -53,7 +53,6 @@ class Impacts:
     ) -> None:
         self.touching = contacts.touching
         self.begun = set(contacts.begun)
-        self.flown = dict(contacts.flown)  # s, how long a ball has flown straight, if not a step
         self.contacts = contacts
         self.last_dt = contacts.last_dt  # s, of the step in which they touched
         self.touching_gap = contacts.touching_gap
@@ -105,7 +104,7 @@ class Impacts:
         touch while both flew straight; balls that swing fast or were just stopped did not.
         Nothing flies through a wall.
         """
-        since = min(self.flown.get(c.a, self.last_dt), self.flown.get(c.b, self.last_dt))
+        since = self.contacts.flight_of(c.a, c.b)
         if since <= 0 or self.swings(c.a) or self.swings(c.b):
             return 0.0
         if is_at_face(c):
@@ -177,6 +176,7 @@ class Impacts:
         if ago > 0 and self.can_go_back.issuperset(hit):
             self.resolve_at_touch([c], hit, ago, [])
             self.look_where(c)
+            self.contacts.hit_ago.update(dict.fromkeys(hit, ago))
         else:
             self.resolve([c], [])
 
@@ -316,7 +316,7 @@ class Impacts:
 
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
-        self.flown.update(dict.fromkeys(hit, ago))
+        self.contacts.hit_ago.update(dict.fromkeys(hit, ago))
         around = dict.fromkeys([c for body in hit for c in self.beside[body]])
         for c in sorted(around, key=lambda c: c not in self.faces):  # faces first, as they lift
             if ago > 0:
