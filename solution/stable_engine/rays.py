@@ -8,6 +8,8 @@ from pygame import Vector2
 from .body import Body
 from .sweep import NO_HIT, hit_body
 
+ROUNDING = 1e-12  # share of the way, and of a box, by which a ray may miss an edge
+
 
 class RayHit(NamedTuple):
     """Where a ray first meets a body."""
@@ -21,24 +23,43 @@ class RayHit(NamedTuple):
 def cast_ray(
     bodies: list[Body], start: tuple[float, float], end: tuple[float, float]
 ) -> RayHit | None:
-    """Return where a ray from start first meets one of the bodies before its end, or None.
+    """Return where a ray from start first meets one of the bodies, at its end or before, or None.
 
-    At equal distances, the first body in the list counts.
+    Edges belong to bodies: a ray along the edge of a box meets the box. At equal distances, the
+    first body in the list counts.
     """
     x, y = start
     dx, dy = end[0] - x, end[1] - y
-    nearest, met = NO_HIT, None
+    nearest, met = 1 + 2 * ROUNDING, None
     if not (dx or dy):
         return None
     for body in bodies:
-        fraction = hit_body(body, 0.0, x - body.x, y - body.y, dx, dy)
+        # on twice the way, as hits at the very end do not count there
+        fraction = 2 * meet_body(body, x - body.x, y - body.y, 2 * dx, 2 * dy)
         if fraction < nearest:
             nearest, met = fraction, body
     if met is None:
         return None
+    nearest = min(nearest, 1.0)
     x, y = x + dx * nearest, y + dy * nearest
     normal = normal_at(met, x - met.x, y - met.y, dx, dy)
     return RayHit(met, Vector2(x, y), Vector2(normal), hypot(dx, dy) * nearest)
+
+
+def meet_body(body: Body, x: float, y: float, dx: float, dy: float) -> float:
+    """Return the share of the way at which a ray from (x, y) enters a body, or NO_HIT."""
+    if body.r or body.segment is not None:
+        return hit_body(body, 0.0, x, y, dx, dy)
+    enter, leave = 0.0, NO_HIT
+    for start, move, half in ((x, dx, body.hx), (y, dy, body.hy)):
+        if move == 0:
+            if abs(start) > half * (1 + ROUNDING):
+                return NO_HIT
+        else:
+            side = copysign(half, move)
+            enter = max(enter, (-side - start) / move)
+            leave = min(leave, (side - start) / move)
+    return enter if 0 < enter <= leave else NO_HIT
 
 
 def normal_at(body: Body, x: float, y: float, dx: float, dy: float) -> tuple[float, float]:
@@ -51,7 +72,7 @@ def normal_at(body: Body, x: float, y: float, dx: float, dy: float) -> tuple[flo
         near_x, near_y = wall.nearest(x, y)
         x, y = x - near_x, y - near_y
     elif not body.r:
-        if body.hx - abs(x) < body.hy - abs(y):
+        if dy == 0 or (dx != 0 and body.hx - abs(x) < body.hy - abs(y)):
             return copysign(1.0, x), 0.0
         return 0.0, copysign(1.0, y)
     distance = hypot(x, y)

@@ -212,8 +212,8 @@ class World(WorldState):
     def ray_cast(self, start: Iterable[float], end: Iterable[float]) -> RayHit | None:
         """Return where the straight line from start to end (px) first meets a body, or None.
 
-        The hit has the body, the point, the normal out of the body and the distance from start. The
-        ray leaves a body that it starts in without a hit.
+        The hit has the body, the point, the normal out of the body and the distance from start.
+        Edges belong to bodies. The ray leaves a body that it starts in without a hit.
         """
         way = pair("World.ray_cast's start", start), pair("World.ray_cast's end", end)
         return cast_ray(self.bodies, *way)

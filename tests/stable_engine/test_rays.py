@@ -55,6 +55,38 @@ def test_a_ray_that_ends_before_or_passes_by_meets_nothing(make, start, end):
     assert world_of(make()).ray_cast(start, end) is None
 
 
+@pytest.mark.parametrize("size", [10.0, 0.1, 1 / 3])
+def test_no_ray_passes_along_the_seam_of_two_boxes(size):
+    """What touches leaves no gap: edges belong to bodies."""
+    left, right = (Body(Box((size, 2 * size)), (7 * size + x, 0)) for x in (0, 2 * size))
+    hit = world_of(left, right).ray_cast((8 * size, -50), (8 * size, 50))
+    assert tuple(hit.point) == pytest.approx((8 * size, -2 * size))
+    assert tuple(hit.normal) == (0, -1)
+
+
+def test_a_ray_along_the_edge_of_a_box_meets_it_and_one_beside_does_not():
+    world = world_of(BOX())
+    hit = world.ray_cast((0, -20), (300, -20))
+    assert (*hit.point, *hit.normal) == (90, -20, -1, 0)
+    assert world.ray_cast((0, 0), (180, -40)).body  # through its corner
+    assert world.ray_cast((0, -20.001), (300, -20.001)) is None
+
+
+@pytest.mark.parametrize("make", [CIRCLE, BOX, WALL, THICK, TILTED])
+@pytest.mark.parametrize("angle", [0.0, 0.1, 1.0, 3.0])
+def test_a_ray_that_ends_on_an_edge_meets_it(make, angle):
+    """The point of a hit belongs to the body, so a ray that ends there hits it too."""
+    body = make()
+    world = world_of(body)
+    start = (100 + 200 * math.cos(angle), 200 * math.sin(angle))
+    hit = world.ray_cast(start, (200 - start[0], 1.7 - start[1]))
+    again = world.ray_cast(start, hit.point)
+    assert again.body is body
+    assert tuple(again.point) == pytest.approx(tuple(hit.point))
+    way = hit.point - start
+    assert world.ray_cast(start, start + way * (1 - 1e-9)) is None
+
+
 def test_the_nearest_body_counts_and_the_one_it_starts_in_does_not():
     me, far, near = (Body(Circle(10), (x, 0), mass=1) for x in (0, 200, 100))
     world = world_of(me, far, near)
