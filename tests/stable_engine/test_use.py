@@ -98,6 +98,41 @@ def test_damping_takes_no_weight_off_what_is_held(rate):
     assert borne == pytest.approx([2 * G] * 3, rel=1e-6)
 
 
+@pytest.mark.parametrize("substeps", [1, 4])
+@pytest.mark.parametrize("rate", [0.5, 2.0, 20.0])
+def test_drag_balances_a_force_at_its_terminal_speed(rate, substeps):
+    """v = a / rate (1 - exp(-rate t)) under gravity, a push and a torque, whatever the step."""
+    world = World((0, G), substeps, [Damping(rate, rate)])
+    ball = world.add(Body(Circle(10), (0, 0), mass=2))
+    for _ in range(round(1 / DT)):
+        ball.apply_force((3000, 0))
+        ball.apply_torque(2 * 10**2 / 2)
+        world.step(DT)
+    share = -math.expm1(-rate) / rate
+    assert (*ball.vel, ball.omega) == pytest.approx((1500 * share, G * share, share), rel=1e-9)
+    way = G / rate * (1 - share)
+    assert ball.y == pytest.approx(way, abs=G * share * DT / substeps)
+
+
+def test_drag_alone_leaves_exactly_its_share():
+    world = World((0, 0), 4, [Damping(0.5, 2.0)])
+    ball = world.add(Body(Circle(10), (0, 0), mass=2))
+    ball.vel, ball.omega = (300, -40), 5.0
+    run(world, 1)
+    kept = math.exp(-0.5)
+    assert (*ball.vel, ball.omega) == pytest.approx((300 * kept, -40 * kept, 5 * math.exp(-2)))
+
+
+def test_a_lift_carries_a_ball_through_drag():
+    """Drag slows a ball, but not the lift that it stands on."""
+    effects = [*make(["Contacts", "Kinematics"]), Damping(2.0, 2.0)]
+    world = World(effects=effects)
+    lift = world.add(Body(Box((100, 10)), (0, 10), kinematic=True))
+    lift.vel, ball = (0, -100), world.add(Body(Circle(10), (0, -10), mass=2))
+    run(world, 3)
+    assert ball.y - lift.y == pytest.approx(-20, abs=0.1)
+
+
 # ---------------------------------------------------------------- all that can be set
 
 # Each attribute, and whether setting it has an effect. Other attributes cannot be set.
