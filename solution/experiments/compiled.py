@@ -7,6 +7,9 @@ the leaderboard use it once it is built, and accuracy.py times it beside the pla
     python -m experiments.compiled
 
 A wheel that pip installed is used as well, if it is of the same source.
+
+Compiled worlds cannot be copied or pickled: copy.deepcopy raises TypeError. mypyc's switch for that
+makes attributes slower, and a copy would call methods of the effects it was copied from.
 """
 
 import argparse
