@@ -54,7 +54,7 @@ class Contacts(Effect):
             "broad_phase",
             "crowd",
             "near",
-            "beside_static",
+            *("beside_static", "stopped"),
         ),
         *("balls", "statics", "groups", "beginnings", "is_mirrored", "unpaired", "ignored", "pace"),
         *("h", "touching_gap", "slow", "max_push_speed", "begin_contact_hooks"),
@@ -78,6 +78,7 @@ class Contacts(Effect):
         # s, how long a ball has flown freely: since its last impact, or until it was stopped
         self.flown: dict[Body, float] = {}
         self.hit_ago: dict[Body, float] = {}  # s, since the last impact of a ball in this step
+        self.stopped: set[Body] = set()  # on their way, by a static body, in the step before
         self.broad_phase = BroadPhase()
         self.crowd: dict[Contact, None] = {}  # of balls that part_crowd separates
         self.near: list[Body] = []  # can move, and are near others
@@ -212,6 +213,15 @@ class Contacts(Effect):
             self.hits.append((a, b, max(c.closing_speed(), 0.0)))
         return c
 
+    def meet(self, pair: Pair, nx: float, ny: float, gap: float) -> Contact:
+        """Add the contact of two bodies that an impact has moved together."""
+        c = pair.contact = self.make_contact(pair.a, pair.b, nx, ny)
+        c.gap = c.found = gap
+        self.touching.append(c)
+        (self.balls if pair.b.inv_mass else self.statics).contacts.append(c)
+        self.groups = [group for group in (self.balls, self.statics) if group.contacts]
+        return c
+
     def end_contact(self, pair: Pair) -> None:
         """End the contact of two bodies that have parted."""
         pair.contact = None
@@ -252,7 +262,7 @@ class Contacts(Effect):
 
     def was_stopped(self, body: Body) -> bool:
         """Return whether a bullet met something static in the step before."""
-        return body.is_bullet and self.flown.get(body, self.last_dt) < self.last_dt
+        return body.is_bullet and body in self.stopped
 
     def ignore_pair(self, a: Body, b: Body) -> None:
         """Let A and B pass through each other: a joint may hold them overlapping."""
@@ -400,6 +410,7 @@ class Contacts(Effect):
         self.last_dt = h * self.world.substep_count
         self.flown = {body: ago + self.last_dt for body, ago in self.hit_ago.items()}
         self.hit_ago = {}
+        self.stopped = set()
         for one in self.broad_phase.find_leavers(self.last_dt):
             if self.world.statics:
                 if not one.near:
@@ -509,7 +520,8 @@ class Contacts(Effect):
             statics = [s for s in statics if pair_number(body, s) not in self.ignored]
         fraction = stop_at_first_hit(body, start, radius, overlap, statics, self.world.g, h)
         if fraction < 1:
-            self.flown[body] = fraction * h * self.world.substep_count
+            self.flown[body] = self.flown.get(body, self.last_dt) - (1 - fraction) * self.last_dt
+            self.stopped.add(body)
 
     def all_contacts(self) -> list[Contact]:
         """Return all contacts, also those between sleeping bodies."""

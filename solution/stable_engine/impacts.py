@@ -3,8 +3,9 @@
 from math import cos, hypot, sin, sqrt
 
 from .body import Body
+from .broad_phase import Pair
 from .contact import Contact, collide, is_at_face
-from .contacts import Contacts
+from .contacts import FAR, Contacts
 from .rods import Frame, Rods
 from .soft import SAME_DIRECTION
 from .springs import Spring, Springs, State
@@ -66,6 +67,7 @@ class Impacts:
             rods.find_frames()
             self.frame_of = rods.frame_of
             self.pivots = find_pivots(rods)
+        self.strangers: dict[Body, list[Pair]] = {}
         self.forces = contacts.world.forces
         self.springs_of: dict[Body, list[Spring]] = {}
         self.stiff: set[Body] = set()  # bodies whose springs swing too fast to follow
@@ -173,10 +175,13 @@ class Impacts:
     def resolve_alone(self, c: Contact, ago: float) -> None:
         """Resolve an impact, some seconds ago, that affects no other contact."""
         hit = [c.a] if c.b.is_static else [c.a, c.b]
-        if ago > 0 and self.can_go_back.issuperset(hit):
+        if ago > 0 and all(self.can_go_back(body) for body in hit):
             self.resolve_at_touch([c], hit, ago, [])
             self.look_where(c)
             self.contacts.hit_ago.update(dict.fromkeys(hit, ago))
+            self.due = {}
+            if self.meet_others(hit):
+                self.resolve_island(ROUNDS)
         else:
             self.resolve([c], [])
 
@@ -212,7 +217,7 @@ class Impacts:
         """Resolve the first impacts. Note which balls they moved, and how long ago."""
         group, ago = self.take_first()
         hit = balls_of(group)
-        if ago > 0 and not self.can_go_back.issuperset(hit):
+        if ago > 0 and not all(self.can_go_back(body) for body in hit):
             ago = 0.0
         frames = self.frames_of(group)
         for frame in frames:
@@ -317,6 +322,8 @@ class Impacts:
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
         self.contacts.hit_ago.update(dict.fromkeys(hit, ago))
+        if ago > 0:
+            self.meet_others(hit)
         around = dict.fromkeys([c for body in hit for c in self.beside[body]])
         for c in sorted(around, key=lambda c: c not in self.faces):  # faces first, as they lift
             if ago > 0:
@@ -355,13 +362,41 @@ class Impacts:
         self.free = {
             body for body in self.beside if not (body in held or body.joint_count or stopped(body))
         }
-        held = {c.a for c in self.touching if c.b.is_static and c not in self.faces}
-        held |= self.stiff
-        self.can_go_back = {b for b in self.beside if not (b in held or stopped(b))}
-        for body in list(self.can_go_back):
-            frame = self.frame_of.get(body)
-            if frame and not (held.isdisjoint(frame.balls) and self.is_loose(frame, body)):
-                self.can_go_back.remove(body)
+        self.held = {c.a for c in self.touching if c.b.is_static and c not in self.faces}
+        self.held |= self.stiff
+
+    def can_go_back(self, body: Body) -> bool:
+        """Return whether a ball can be moved back to a touch, with all that hangs on its rods."""
+        if body in self.held or self.contacts.was_stopped(body):
+            return False
+        frame = self.frame_of.get(body)
+        return not frame or (self.held.isdisjoint(frame.balls) and self.is_loose(frame, body))
+
+    def meet_others(self, hit: list[Body]) -> bool:
+        """Find impacts with balls that were not in touch before. Return whether there are any."""
+        found = False
+        for body in hit:
+            if hypot(body.x - body.last_x, body.y - body.last_y) > FAR * body.r:
+                for pair in self.strangers_of(body):
+                    nx, ny, gap = collide(pair.a, pair.b)
+                    if gap < 0 and not pair.contact:
+                        c = self.contacts.meet(pair, nx, ny, gap)
+                        for end in (c.a, c.b):
+                            if not end.is_static:
+                                self.beside.setdefault(end, []).append(c)
+                        self.note_face(c)
+                        self.look(c, is_new=True)
+                        found = True
+        return found
+
+    def strangers_of(self, body: Body) -> list[Pair]:
+        """Return the pairs of a ball with others near it that it does not touch."""
+        if not self.strangers:
+            for pair in self.contacts.broad_phase.pairs:
+                if not pair.contact:
+                    self.strangers.setdefault(pair.a, []).append(pair)
+                    self.strangers.setdefault(pair.b, []).append(pair)
+        return self.strangers.get(body, [])
 
     def find_faces(self) -> None:
         """Find the contacts at flat faces, and the faces that bear balls."""
@@ -369,11 +404,15 @@ class Impacts:
         self.depths: dict[Contact, float] = {}  # px, the gap before
         self.bearing: dict[Body, list[Contact]] = {}
         for c in self.touching:
-            if c.b.is_static and is_at_face(c) and c.a not in self.pivots:
-                self.depths[c] = c.gap
-                self.faces[c] = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
-                if c.jn > 0 and abs(c.closing_speed()) <= self.slow:
-                    self.bearing.setdefault(c.a, []).append(c)
+            self.note_face(c)
+
+    def note_face(self, c: Contact) -> None:
+        """Note a contact at a flat face, and whether the face bears the ball."""
+        if c.b.is_static and is_at_face(c) and c.a not in self.pivots:
+            self.depths[c] = c.gap
+            self.faces[c] = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
+            if c.jn > 0 and abs(c.closing_speed()) <= self.slow:
+                self.bearing.setdefault(c.a, []).append(c)
 
     def is_loose(self, frame: Frame, body: Body) -> bool:
         """Return whether a frame can be moved back: it hangs on one rod, or on none at all."""
