@@ -10,6 +10,7 @@ from .rods import Rods
 from .springs import Springs
 
 RESTING_STEPS = 3.7  # impacts slower than gravity's speed after so many do not bounce
+FAR_APART = 1e6  # radii: no step takes a ball as far
 LEAST_SPEED = 0.001  # 1/s, in units of the world: the same without gravity
 
 
@@ -46,6 +47,8 @@ class Bounce(Effect):
         impacts.find()
         if impacts.due:
             impacts.resolve_all()
+            for c in impacts.met:  # only the next step may push these apart or stop them
+                c.gap = FAR_APART * c.a.r
         self.contacts.changed = True
         for c in touching:
             if c.gap < 0 and self.is_separating(c):

@@ -68,6 +68,7 @@ class Impacts:
             self.frame_of = rods.frame_of
             self.pivots = find_pivots(rods)
         self.strangers: dict[Body, list[Pair]] = {}
+        self.met: list[Contact] = []  # contacts that began through an impact
         self.forces = contacts.world.forces
         self.springs_of: dict[Body, list[Spring]] = {}
         self.stiff: set[Body] = set()  # bodies whose springs swing too fast to follow
@@ -153,17 +154,22 @@ class Impacts:
 
     def resolve_all(self) -> None:
         """Resolve all impacts, and those that they cause, island by island."""
-        self.link()
         self.fastest = max([impact.speed for impact in self.due.values()])
-        due, done = self.due, set[Contact]()
-        for c, impact in due.items():
-            if self.is_alone(c):
-                self.resolve_alone(c, impact.ago)
-            elif c not in done:
-                island = self.contacts_from(c)
-                done.update(island)
-                self.due = {other: due[other] for other in island if other in due}
-                self.resolve_island(ROUNDS * len(island))
+        for _ in range(SETTLINGS):
+            self.link()
+            due, done = self.due, set[Contact]()
+            for c, impact in due.items():
+                if self.is_alone(c):
+                    self.resolve_alone(c, impact.ago)
+                elif c not in done:
+                    island = self.contacts_from(c)
+                    done.update(island)
+                    self.due = {other: due[other] for other in island if other in due}
+                    self.resolve_island(ROUNDS * len(island))
+            self.due = {}
+            self.meet_others()
+            if not self.due:
+                break
 
     def is_alone(self, c: Contact) -> bool:
         """Return whether an impact affects no other contact."""
@@ -179,9 +185,6 @@ class Impacts:
             self.resolve_at_touch([c], hit, ago, [])
             self.look_where(c)
             self.contacts.hit_ago.update(dict.fromkeys(hit, ago))
-            self.due = {}
-            if self.meet_others(hit):
-                self.resolve_island(ROUNDS)
         else:
             self.resolve([c], [])
 
@@ -322,8 +325,6 @@ class Impacts:
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
         self.contacts.hit_ago.update(dict.fromkeys(hit, ago))
-        if ago > 0:
-            self.meet_others(hit)
         around = dict.fromkeys([c for body in hit for c in self.beside[body]])
         for c in sorted(around, key=lambda c: c not in self.faces):  # faces first, as they lift
             if ago > 0:
@@ -372,22 +373,22 @@ class Impacts:
         frame = self.frame_of.get(body)
         return not frame or (self.held.isdisjoint(frame.balls) and self.is_loose(frame, body))
 
-    def meet_others(self, hit: list[Body]) -> bool:
-        """Find impacts with balls that were not in touch before. Return whether there are any."""
-        found = False
-        for body in hit:
+    def meet_others(self) -> None:
+        """Find impacts of balls that were hit with others which they did not touch before.
+
+        All are sought at once, so that a mirrored scene stays mirrored.
+        """
+        met = []
+        for body in self.contacts.hit_ago:
             if hypot(body.x - body.last_x, body.y - body.last_y) > FAR * body.r:
                 for pair in self.strangers_of(body):
                     nx, ny, gap = collide(pair.a, pair.b)
                     if gap < 0 and not pair.contact:
-                        c = self.contacts.meet(pair, nx, ny, gap)
-                        for end in (c.a, c.b):
-                            if not end.is_static:
-                                self.beside.setdefault(end, []).append(c)
-                        self.note_face(c)
-                        self.look(c, is_new=True)
-                        found = True
-        return found
+                        met.append(self.contacts.meet(pair, nx, ny, gap))
+        self.met += met
+        for c in met:
+            self.note_face(c)
+            self.look(c, is_new=True)
 
     def strangers_of(self, body: Body) -> list[Pair]:
         """Return the pairs of a ball with others near it that it does not touch."""
