@@ -78,7 +78,7 @@ class Contacts(Effect):
         # s, how long a ball has flown freely: since its last impact, or until it was stopped
         self.flown: dict[Body, float] = {}
         self.hit_ago: dict[Body, float] = {}  # s, since the last impact of a ball in this step
-        self.stopped: set[Body] = set()  # on their way, by a static body, in the step before
+        self.stopped: dict[Body, float] = {}  # s, into the step, until a static body stopped it
         self.broad_phase = BroadPhase()
         self.crowd: dict[Contact, None] = {}  # of balls that part_crowd separates
         self.near: list[Body] = []  # can move, and are near others
@@ -214,11 +214,11 @@ class Contacts(Effect):
         return c
 
     def meet(self, pair: Pair, nx: float, ny: float, gap: float) -> Contact:
-        """Add the contact of two bodies that an impact has moved together."""
+        """Add the contact of two balls that an impact has moved together."""
         c = pair.contact = self.make_contact(pair.a, pair.b, nx, ny)
         c.gap = c.found = gap
         self.touching.append(c)
-        (self.balls if pair.b.inv_mass else self.statics).contacts.append(c)
+        self.balls.contacts.append(c)
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
         return c
 
@@ -410,7 +410,7 @@ class Contacts(Effect):
         self.last_dt = h * self.world.substep_count
         self.flown = {body: ago + self.last_dt for body, ago in self.hit_ago.items()}
         self.hit_ago = {}
-        self.stopped = set()
+        self.stopped = {}
         for one in self.broad_phase.find_leavers(self.last_dt):
             if self.world.statics:
                 if not one.near:
@@ -520,8 +520,9 @@ class Contacts(Effect):
             statics = [s for s in statics if pair_number(body, s) not in self.ignored]
         fraction = stop_at_first_hit(body, start, radius, overlap, statics, self.world.g, h)
         if fraction < 1:
-            self.flown[body] = self.flown.get(body, self.last_dt) - (1 - fraction) * self.last_dt
-            self.stopped.add(body)
+            before = self.stopped.get(body, self.last_dt)
+            self.stopped[body] = fraction * before
+            self.flown[body] = self.flown.get(body, self.last_dt) - (1 - fraction) * before
 
     def all_contacts(self) -> list[Contact]:
         """Return all contacts, also those between sleeping bodies."""

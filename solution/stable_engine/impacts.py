@@ -387,14 +387,16 @@ class Impacts:
                         met.append(self.contacts.meet(pair, nx, ny, gap))
         self.met += met
         for c in met:
-            self.note_face(c)
             self.look(c, is_new=True)
 
     def strangers_of(self, body: Body) -> list[Pair]:
-        """Return the pairs of a ball with others near it that it does not touch."""
+        """Return the pairs of a ball with other balls near it that it does not touch.
+
+        If it flew through a static body, Contacts.finish takes it back.
+        """
         if not self.strangers:
             for pair in self.contacts.broad_phase.pairs:
-                if not pair.contact:
+                if pair.b.inv_mass and not pair.contact:
                     self.strangers.setdefault(pair.a, []).append(pair)
                     self.strangers.setdefault(pair.b, []).append(pair)
         return self.strangers.get(body, [])
@@ -405,15 +407,11 @@ class Impacts:
         self.depths: dict[Contact, float] = {}  # px, the gap before
         self.bearing: dict[Body, list[Contact]] = {}
         for c in self.touching:
-            self.note_face(c)
-
-    def note_face(self, c: Contact) -> None:
-        """Note a contact at a flat face, and whether the face bears the ball."""
-        if c.b.is_static and is_at_face(c) and c.a not in self.pivots:
-            self.depths[c] = c.gap
-            self.faces[c] = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
-            if c.jn > 0 and abs(c.closing_speed()) <= self.slow:
-                self.bearing.setdefault(c.a, []).append(c)
+            if c.b.is_static and is_at_face(c) and c.a not in self.pivots:
+                self.depths[c] = c.gap
+                self.faces[c] = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
+                if c.jn > 0 and abs(c.closing_speed()) <= self.slow:
+                    self.bearing.setdefault(c.a, []).append(c)
 
     def is_loose(self, frame: Frame, body: Body) -> bool:
         """Return whether a frame can be moved back: it hangs on one rod, or on none at all."""
