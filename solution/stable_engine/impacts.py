@@ -170,6 +170,10 @@ class Impacts:
             self.meet_others()
             if not self.due:
                 break
+        for c, distance in self.faces.items():
+            c.gap = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - distance
+            if c.gap < 0:
+                self.lift(c)
 
     def is_alone(self, c: Contact) -> bool:
         """Return whether an impact affects no other contact."""
@@ -334,7 +338,7 @@ class Impacts:
                 self.lift(c)
 
     def lift(self, c: Contact) -> None:
-        """Put a ball onto a face that stops it, but not higher than it was before."""
+        """Put a ball onto a face that stops it, but not higher than it was at first."""
         up = min(self.depths[c], 0.0) - c.gap
         if up > 0:
             c.a.x -= c.nx * up
