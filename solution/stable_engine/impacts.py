@@ -1,15 +1,16 @@
 """Impacts: their order, those at one moment, and the positions afterwards."""
 
-from math import cos, hypot, sin, sqrt
+from math import hypot, sqrt
 
 from .body import Body
 from .broad_phase import Pair
 from .contact import Contact, collide, is_at_face
 from .contacts import FAR, Contacts
+from .flight import Flight
 from .rods import Frame, Rods
 from .soft import SAME_DIRECTION
-from .springs import Spring, Springs, State
-from .sweep import first_hit, moment_of_touch
+from .springs import Springs
+from .sweep import NO_HIT, first_hit, moment_of_touch
 
 ROUNDS = 20  # passes of impacts from ball to ball in one step, per contact
 SETTLINGS = 3  # each may cause further impacts
@@ -55,28 +56,14 @@ class Impacts:
         self.touching = contacts.touching
         self.begun = set(contacts.begun)
         self.contacts = contacts
-        self.last_dt = contacts.last_dt  # s, of the step in which they touched
         self.touching_gap = contacts.touching_gap
         self.slow = slow  # px/s, slower impacts are ignored
-        self.h = h  # s, of a substep
         self.due: dict[Contact, Impact] = {}
         self.fastest = 0.0  # px/s, at the start
-        self.frame_of: dict[Body, Frame] = {}
-        self.pivots: dict[Body, Body] = {}  # of balls that swing on one rod
-        if rods:
-            rods.find_frames()
-            self.frame_of = rods.frame_of
-            self.pivots = find_pivots(rods)
+        self.flight = Flight(contacts, rods, springs, h)
+        self.frame_of = self.flight.frame_of
         self.strangers: dict[Body, list[Pair]] = {}
         self.met: list[Contact] = []  # contacts that began through an impact
-        self.forces = contacts.world.forces
-        self.springs_of: dict[Body, list[Spring]] = {}
-        self.stiff: set[Body] = set()  # bodies whose springs swing too fast to follow
-        if springs:
-            self.springs_of, self.stiff = find_springs(springs, self.last_dt)
-        # of bodies on springs: mirrored impacts, resolved in turn, must not see each other's moves
-        self.before = {body: state_of(body) for body in self.springs_of}
-        self.moved: set[Body] = set()  # by the present impact
 
     def find(self) -> None:
         """Find all impacts. For a new contact, the moment of its touch counts."""
@@ -108,15 +95,11 @@ class Impacts:
         Nothing flies through a wall.
         """
         since = self.contacts.flight_of(c.a, c.b)
-        if since <= 0 or self.swings(c.a) or self.swings(c.b):
+        if since <= 0 or self.flight.swings(c.a) or self.flight.swings(c.b):
             return 0.0
         if is_at_face(c):
-            speed = (self.speed_at_touch(c) + c.closing_speed() + self.pull(c)[1]) / 2
-            early = -c.gap - speed * since
-            if c.gap >= 0 or early > self.touching_gap + abs(self.pull(c)[0]) * since * since:
-                return 0.0
-            return since if early >= 0 else -c.gap / speed
-        is_arc = c.a in self.pivots or c.b in self.pivots
+            return self.time_below(c, since)
+        is_arc = c.a in self.flight.pivots or c.b in self.flight.pivots
         ago, nx, ny = self.look_back(c, since)
         if ago == 0:
             ago, nx, ny = moment_of_touch(c.a, c.b, since * ARC if is_arc else since)
@@ -127,6 +110,18 @@ class Impacts:
             c.nx, c.ny = nx, ny
             c.gap = -c.closing_speed() * ago
         return ago
+
+    def time_below(self, c: Contact, since: float) -> float:
+        """Return how long ago (s) a ball fell through a flat face; 0 if not `since` then.
+
+        In that time it may have been hit, so this has slack for a fall.
+        """
+        g, lag = self.flight.pull(c)
+        speed = (self.speed_at_touch(c) + c.closing_speed() + lag) / 2
+        deeper = -c.gap - speed * since
+        if c.gap >= 0 or deeper > self.touching_gap + abs(g) * since * since:
+            return 0.0
+        return since if deeper >= 0 else -c.gap / speed
 
     def look_back(self, c: Contact, since: float) -> tuple[float, float, float]:
         """Return `since` (s) and the normal if two round bodies began to touch then, else zeros.
@@ -140,17 +135,6 @@ class Impacts:
         if abs(distance - a.r - b.r) > self.touching_gap or x * vx + y * vy >= 0 or not b.r:
             return 0.0, 0.0, 0.0
         return since, x / distance, y / distance
-
-    def swings(self, body: Body) -> bool:
-        """Return whether a ball may not have flown freely: on a stiff spring, or fast on a rod."""
-        if not body.joint_count:
-            return False
-        return body in self.stiff or (body in self.frame_of and self.turns_far(body))
-
-    def turns_far(self, body: Body) -> bool:
-        """Return whether a ball's rods take it by more than its radius in a step."""
-        x, y = self.frame_of[body].velocity()
-        return hypot(body.vx - x, body.vy - y) * self.last_dt > body.r
 
     def resolve_all(self) -> None:
         """Resolve all impacts, and those that they cause, island by island."""
@@ -170,10 +154,24 @@ class Impacts:
             self.meet_others()
             if not self.due:
                 break
+        self.put_back()
         for c, distance in self.faces.items():
-            c.gap = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - distance
+            c.gap = c.found = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - distance
             if c.gap < 0:
                 self.lift(c)
+
+    def put_back(self) -> None:
+        """Put balls back that impacts would move through a static body, and bullets to its face."""
+        for body in self.contacts.hit_ago:
+            x, y = body.last_x, body.last_y
+            way = body.x - x, body.y - y
+            radius = body.r if body.is_bullet else 0.0
+            share = first_hit(self.contacts.world.statics, radius, x, y, *way)
+            if share < NO_HIT:
+                share = share if body.is_bullet else 0.0
+                body.x, body.y = x + way[0] * share, y + way[1] * share
+                for c in self.beside[body]:
+                    self.look_where(c)
 
     def is_alone(self, c: Contact) -> bool:
         """Return whether an impact affects no other contact."""
@@ -185,7 +183,7 @@ class Impacts:
     def resolve_alone(self, c: Contact, ago: float) -> None:
         """Resolve an impact, some seconds ago, that affects no other contact."""
         hit = [c.a] if c.b.is_static else [c.a, c.b]
-        if ago > 0 and all(self.can_go_back(body) for body in hit):
+        if ago > 0 and all(self.flight.can_go_back(body) for body in hit):
             self.resolve_at_touch([c], hit, ago, [])
             self.look_where(c)
             self.contacts.hit_ago.update(dict.fromkeys(hit, ago))
@@ -224,7 +222,7 @@ class Impacts:
         """Resolve the first impacts. Note which balls they moved, and how long ago."""
         group, ago = self.take_first()
         hit = balls_of(group)
-        if ago > 0 and not all(self.can_go_back(body) for body in hit):
+        if ago > 0 and not all(self.flight.can_go_back(body) for body in hit):
             ago = 0.0
         frames = self.frames_of(group)
         for frame in frames:
@@ -246,85 +244,15 @@ class Impacts:
                 back = (c.b.vx * c.nx + c.b.vy * c.ny) * ago
                 c.b.x -= c.nx * back
                 c.b.y -= c.ny * back
-        self.moved = set(hit)
-        self.fly_on(hit, -ago)
+        self.flight.moved = set(hit)
+        self.flight.fly_on(hit, -ago)
         for c in group:
             self.look_where(c)
         self.resolve(group, frames)
         for wall, x, y in walls:
             wall.x, wall.y = x, y
-        self.fly_on(hit, ago)
-        self.moved = set()
-
-    def fly_on(self, hit: list[Body], seconds: float) -> None:
-        """Let balls fly on for a time, or back. A bullet stops before a wall."""
-        statics = self.contacts.world.statics
-        flying: dict[Frame, None] = {}
-        free = []
-        for body in hit:
-            if body not in self.frame_of:
-                free.append((body, *self.acceleration(body)))
-            elif body in self.pivots:
-                swing(body, self.pivots[body], seconds)
-            else:
-                flying[self.frame_of[body]] = None
-        for body, ax, ay in free:
-            share = 1.0
-            x = (body.vx + ax * (self.h + seconds) / 2) * seconds
-            y = (body.vy + ay * (self.h + seconds) / 2) * seconds
-            if body.is_bullet:
-                share = first_hit(statics, body.r, body.x, body.y, x, y)
-                if share < 1:
-                    share = max(share - BEFORE * body.r / hypot(x, y), 0.0)
-                    self.free.discard(body)
-            body.x += x * share
-            body.y += y * share
-            body.angle += body.w * share * seconds
-        for body, ax, ay in free:
-            now_x, now_y = self.acceleration(body) if body in self.springs_of else (ax, ay)
-            body.vx += (ax + now_x) / 2 * seconds + (ax - now_x) * self.h / 2
-            body.vy += (ay + now_y) / 2 * seconds + (ay - now_y) * self.h / 2
-        for frame in flying:
-            self.fly_frame(frame, seconds)
-
-    def fly_frame(self, frame: Frame, seconds: float) -> None:
-        """Let a frame fly and turn for a time, or back, as if it were rigid."""
-        mass = sum([b.m for b in frame.balls])
-        x = sum([b.m * b.x for b in frame.balls]) / mass
-        y = sum([b.m * b.y for b in frame.balls]) / mass
-        ax, ay = self.acceleration(frame.balls[0])
-        vx, vy = frame.velocity()
-        spin = sum([b.m * ((b.x - x) * (b.vy - vy) - (b.y - y) * (b.vx - vx)) for b in frame.balls])
-        inertia = sum([b.m * ((b.x - x) ** 2 + (b.y - y) ** 2) for b in frame.balls])
-        c, s = cos(spin / inertia * seconds), sin(spin / inertia * seconds)
-        way_x = x + (vx + ax * (self.h + seconds) / 2) * seconds
-        way_y = y + (vy + ay * (self.h + seconds) / 2) * seconds
-        for b in frame.balls:
-            dx, dy, dvx, dvy = b.x - x, b.y - y, b.vx - vx, b.vy - vy
-            b.x, b.y = way_x + c * dx - s * dy, way_y + s * dx + c * dy
-            b.vx, b.vy = vx + c * dvx - s * dvy, vy + s * dvx + c * dvy
-            b.vx += ax * seconds
-            b.vy += ay * seconds
-            b.angle += b.w * seconds
-
-    def acceleration(self, body: Body) -> tuple[float, float]:
-        """Return the acceleration of a body (px/s²) between impacts."""
-        if body.is_static:
-            return 0.0, 0.0
-        x, y = self.contacts.world.g
-        if body in self.forces:
-            fx, fy, _ = self.forces[body]
-            x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
-        for spring in self.springs_of.get(body, []) if body not in self.stiff else []:
-            other = spring.end_b if body is spring.end_a else spring.end_a
-            there = state_of(other) if other in self.moved else self.before[other]
-            fx, fy = spring.pull_between(state_of(body), there)
-            x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
-        for c in self.bearing.get(body, []):
-            into = x * c.nx + y * c.ny
-            if into > 0:
-                x, y = x - c.nx * into, y - c.ny * into
-        return x, y
+        self.flight.fly_on(hit, ago)
+        self.flight.moved = set()
 
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
@@ -343,7 +271,7 @@ class Impacts:
         if up > 0:
             c.a.x -= c.nx * up
             c.a.y -= c.ny * up
-            c.gap += up
+            c.gap = c.found = c.gap + up
 
     def look_where(self, c: Contact) -> None:
         """Find normal and gap of a contact anew. A ball stays on its side of a face."""
@@ -351,9 +279,9 @@ class Impacts:
         if c in self.faces and nx * c.nx + ny * c.ny < SAME_DIRECTION:
             below = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - self.faces[c]
             if below < 0:
-                c.gap = below
+                c.gap = c.found = below
                 return
-        c.nx, c.ny, c.gap = nx, ny, gap
+        c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
 
     def link(self) -> None:
         """Find the contacts of each ball, and the balls that may be moved."""
@@ -367,15 +295,9 @@ class Impacts:
         self.free = {
             body for body in self.beside if not (body in held or body.joint_count or stopped(body))
         }
-        self.held = {c.a for c in self.touching if c.b.is_static and c not in self.faces}
-        self.held |= self.stiff
-
-    def can_go_back(self, body: Body) -> bool:
-        """Return whether a ball can be moved back to a touch, with all that hangs on its rods."""
-        if body in self.held or self.contacts.was_stopped(body):
-            return False
-        frame = self.frame_of.get(body)
-        return not frame or (self.held.isdisjoint(frame.balls) and self.is_loose(frame, body))
+        self.flight.held = {
+            c.a for c in self.touching if c.b.is_static and (c not in self.faces or c.a.is_bullet)
+        }
 
     def meet_others(self) -> None:
         """Find impacts of balls that were hit with others which they did not touch before.
@@ -409,20 +331,12 @@ class Impacts:
         """Find the contacts at flat faces, and the faces that bear balls."""
         self.faces: dict[Contact, float] = {}  # px, from the centre of the static body to a touch
         self.depths: dict[Contact, float] = {}  # px, the gap before
-        self.bearing: dict[Body, list[Contact]] = {}
         for c in self.touching:
-            if c.b.is_static and is_at_face(c) and c.a not in self.pivots:
+            if c.b.is_static and is_at_face(c) and c.a not in self.flight.pivots:
                 self.depths[c] = c.gap
                 self.faces[c] = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
                 if c.jn > 0 and abs(c.closing_speed()) <= self.slow:
-                    self.bearing.setdefault(c.a, []).append(c)
-
-    def is_loose(self, frame: Frame, body: Body) -> bool:
-        """Return whether a frame can be moved back: it hangs on one rod, or on none at all."""
-        if frame.hangs:
-            return body in self.pivots and not body.is_bullet
-        odd = self.forces.keys() | self.springs_of.keys() | self.bearing.keys()
-        return not any([b.is_bullet or b in odd or self.swings(b) for b in frame.balls])
+                    self.flight.bearing.setdefault(c.a, []).append(c)
 
     def take_first(self) -> tuple[list[Contact], float]:
         """Return the hardest of the earliest impacts, and how long (s) ago they touched."""
@@ -444,14 +358,15 @@ class Impacts:
         """
         slow = self.island_of(body, reached)
         hit = balls_of(slow)
-        if len(slow) < 2 or not self.free.issuperset(hit):
+        free = self.free - self.flight.cut_short
+        if len(slow) < 2 or not free.issuperset(hit):
             return
-        self.fly_on(hit, -ago)
+        self.flight.fly_on(hit, -ago)
         for c in slow:
             c.nx, c.ny, c.gap = collide(c.a, c.b)
         if all(c.closing_speed() <= self.slow for c in slow):
             self.resolve(slow, [], bounces=False, turns=TURNS)
-        self.fly_on(hit, ago)
+        self.flight.fly_on(hit, ago)
         self.look_around(hit, ago)
 
     def island_of(self, body: Body, reached: dict[Body, float]) -> list[Contact]:
@@ -490,7 +405,7 @@ class Impacts:
         """
         closing, crossing = c.closing_speed(), self.speed_at_touch(c)
         e = c.e if bounces else 0.0
-        g, lag = self.pull(c)
+        g, lag = self.flight.pull(c)
         if g == 0:
             return e * closing, 1.0
         gap = c.gap if abs(c.gap) > self.touching_gap else 0.0
@@ -500,19 +415,9 @@ class Impacts:
 
     def speed_at_touch(self, c: Contact) -> float:
         """Return how fast (px/s) a pair came together when it touched."""
-        g, lag = self.pull(c)
+        g, lag = self.flight.pull(c)
         speed = c.closing_speed() + lag
         return sqrt(max(speed * abs(speed) + 2 * g * c.gap, 0.0)) if g else speed
-
-    def pull(self, c: Contact) -> tuple[float, float]:
-        """Return gravity into a static surface (px/s²), negative at a ceiling.
-
-        Also return by how much (px/s) a velocity lags behind the position: with semi-implicit
-        Euler half a substep.
-        """
-        (ax, ay), (bx, by) = self.acceleration(c.a), self.acceleration(c.b)
-        g = (ax - bx) * c.nx + (ay - by) * c.ny
-        return g, g * self.h / 2
 
     def resolve(
         self, group: list[Contact], frames: list[Frame], bounces: bool = True, turns: int = 1
@@ -593,45 +498,6 @@ def hold(frames: list[Frame]) -> None:
     """Make rods pass on the impulses on their balls."""
     for frame in frames:
         frame.hold()
-
-
-def find_pivots(rods: Rods) -> dict[Body, Body]:
-    """Return the pivot of each ball whose only joint is a rod to a body at rest."""
-    pivots: dict[Body, Body] = {}
-    for rod in rods.awake:
-        for ball, pivot in ((rod.end_a, rod.end_b), (rod.end_b, rod.end_a)):
-            if pivot.is_static and not pivot.is_kinematic and ball.joint_count == 1:
-                pivots[ball] = pivot
-    return pivots
-
-
-def state_of(body: Body) -> State:
-    """Return the position (px) and velocity (px/s) of a body."""
-    return body.x, body.y, body.vx, body.vy
-
-
-def find_springs(springs: Springs, dt: float) -> tuple[dict[Body, list[Spring]], set[Body]]:
-    """Return the springs of each body, and the bodies whose springs swing too fast to follow."""
-    springs.find_networks()
-    found: dict[Body, list[Spring]] = {}
-    stiff: set[Body] = set()
-    for spring in springs.awake:
-        ends = spring.end_a, spring.end_b
-        if (spring.crowd * dt + spring.c / spring.m) * dt > STIFF:
-            stiff.update(ends)
-        for body in ends:
-            found.setdefault(body, []).append(spring)
-    return found, stiff
-
-
-def swing(body: Body, pivot: Body, seconds: float) -> None:
-    """Turn a ball about the pivot of its rod at its speed for a time, or back."""
-    x, y = body.x - pivot.x, body.y - pivot.y
-    angle = (x * body.vy - y * body.vx) / (x * x + y * y) * seconds
-    c, s = cos(angle), sin(angle)
-    body.x, body.y = pivot.x + c * x - s * y, pivot.y + s * x + c * y
-    body.vx, body.vy = c * body.vx - s * body.vy, s * body.vx + c * body.vy
-    body.angle += body.w * seconds
 
 
 def passes_for(count: int, frames: list[Frame]) -> int:

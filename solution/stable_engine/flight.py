@@ -1,0 +1,188 @@
+"""How balls fly between the impacts of a step, forwards, and back to a touch."""
+
+from math import cos, hypot, sin
+
+from .body import Body
+from .contact import Contact
+from .contacts import Contacts
+from .rods import Frame, Rods
+from .springs import Spring, Springs, State
+from .sweep import first_hit
+
+STIFF = 0.25  # a spring is stiff if (omega dt)² and its damping in a step are more than this
+BEFORE = 0.01  # radii between a bullet and a wall, so that the next step finds the contact
+
+
+class Flight:
+    """The free flight of balls: under gravity, forces and soft springs, and with their rods.
+
+    With semi-implicit Euler a velocity lags half a substep behind the position.
+    """
+
+    def __init__(
+        self, contacts: Contacts, rods: Rods | None, springs: Springs | None, h: float
+    ) -> None:
+        self.contacts = contacts
+        self.world = contacts.world
+        self.h = h  # s, of a substep
+        self.dt = dt = contacts.last_dt  # s, of the step in which balls touched
+        self.held: set[Body] = set()  # balls at static bodies that cannot go back
+        self.cut_short: set[Body] = set()  # bullets that a wall stopped
+        self.bearing: dict[Body, list[Contact]] = {}  # at faces that bear a ball
+        self.frame_of: dict[Body, Frame] = {}
+        self.pivots: dict[Body, Body] = {}  # of balls that swing on one rod
+        if rods:
+            rods.find_frames()
+            self.frame_of = rods.frame_of
+            self.pivots = find_pivots(rods)
+        self.springs_of: dict[Body, list[Spring]] = {}
+        self.stiff: set[Body] = set()  # bodies whose springs swing too fast to follow
+        if springs:
+            self.springs_of, self.stiff = find_springs(springs, dt)
+        # of bodies on springs: mirrored impacts, resolved in turn, must not see each other's moves
+        self.before = {body: state_of(body) for body in self.springs_of}
+        self.moved: set[Body] = set()  # by the present impact
+
+    def swings(self, body: Body) -> bool:
+        """Return whether a ball may not have flown freely: on a stiff spring, or fast on a rod."""
+        if not body.joint_count:
+            return False
+        return body in self.stiff or (body in self.frame_of and self.turns_far(body))
+
+    def turns_far(self, body: Body) -> bool:
+        """Return whether a ball's rods take it by more than its radius in a step."""
+        x, y = self.frame_of[body].velocity()
+        return hypot(body.vx - x, body.vy - y) * self.dt > body.r
+
+    def can_go_back(self, body: Body) -> bool:
+        """Return whether a ball can be moved back to a touch, with all that hangs on its rods."""
+        if body in self.held or body in self.stiff or self.contacts.was_stopped(body):
+            return False
+        frame = self.frame_of.get(body)
+        return not frame or self.is_loose(frame, body)
+
+    def is_loose(self, frame: Frame, body: Body) -> bool:
+        """Return whether a frame can be moved back: it hangs on one rod, or flies freely."""
+        if frame.hangs:
+            return body in self.pivots and not body.is_bullet
+        odd = self.held | self.springs_of.keys() | self.bearing.keys() | self.world.forces.keys()
+        return not any([b.is_bullet or b in odd or self.swings(b) for b in frame.balls])
+
+    def fly_on(self, hit: list[Body], seconds: float) -> None:
+        """Let balls fly on for a time, or back. A bullet stops before a wall."""
+        statics = self.world.statics
+        flying: dict[Frame, None] = {}
+        free = []
+        for body in hit:
+            if body not in self.frame_of:
+                free.append((body, *self.acceleration(body)))
+            elif body in self.pivots:
+                swing(body, self.pivots[body], seconds)
+            else:
+                flying[self.frame_of[body]] = None
+        for body, ax, ay in free:
+            share = 1.0
+            x = (body.vx + ax * (self.h + seconds) / 2) * seconds
+            y = (body.vy + ay * (self.h + seconds) / 2) * seconds
+            if body.is_bullet:
+                share = first_hit(statics, body.r, body.x, body.y, x, y)
+                if share < 1:
+                    share = max(share - BEFORE * body.r / hypot(x, y), 0.0)
+                    self.cut_short.add(body)
+            body.x += x * share
+            body.y += y * share
+            body.angle += body.w * share * seconds
+        for body, ax, ay in free:
+            now_x, now_y = self.acceleration(body) if body in self.springs_of else (ax, ay)
+            body.vx += (ax + now_x) / 2 * seconds + (ax - now_x) * self.h / 2
+            body.vy += (ay + now_y) / 2 * seconds + (ay - now_y) * self.h / 2
+        for frame in flying:
+            self.fly_frame(frame, seconds)
+
+    def fly_frame(self, frame: Frame, seconds: float) -> None:
+        """Let a frame fly and turn for a time, or back, as if it were rigid."""
+        mass = sum([b.m for b in frame.balls])
+        x = sum([b.m * b.x for b in frame.balls]) / mass
+        y = sum([b.m * b.y for b in frame.balls]) / mass
+        ax, ay = self.acceleration(frame.balls[0])
+        vx, vy = frame.velocity()
+        spin = sum([b.m * ((b.x - x) * (b.vy - vy) - (b.y - y) * (b.vx - vx)) for b in frame.balls])
+        inertia = sum([b.m * ((b.x - x) ** 2 + (b.y - y) ** 2) for b in frame.balls])
+        c, s = cos(spin / inertia * seconds), sin(spin / inertia * seconds)
+        way_x = x + (vx + ax * (self.h + seconds) / 2) * seconds
+        way_y = y + (vy + ay * (self.h + seconds) / 2) * seconds
+        for b in frame.balls:
+            dx, dy, dvx, dvy = b.x - x, b.y - y, b.vx - vx, b.vy - vy
+            b.x, b.y = way_x + c * dx - s * dy, way_y + s * dx + c * dy
+            b.vx, b.vy = vx + c * dvx - s * dvy, vy + s * dvx + c * dvy
+            b.vx += ax * seconds
+            b.vy += ay * seconds
+            b.angle += b.w * seconds
+
+    def acceleration(self, body: Body) -> tuple[float, float]:
+        """Return the acceleration of a body (px/s²) between impacts."""
+        if body.is_static:
+            return 0.0, 0.0
+        x, y = self.world.g
+        if body in self.world.forces:
+            fx, fy, _ = self.world.forces[body]
+            x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
+        for spring in self.springs_of.get(body, []) if body not in self.stiff else []:
+            other = spring.end_b if body is spring.end_a else spring.end_a
+            there = state_of(other) if other in self.moved else self.before[other]
+            fx, fy = spring.pull_between(state_of(body), there)
+            x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
+        for c in self.bearing.get(body, []):
+            into = x * c.nx + y * c.ny
+            if into > 0:
+                x, y = x - c.nx * into, y - c.ny * into
+        return x, y
+
+    def pull(self, c: Contact) -> tuple[float, float]:
+        """Return gravity into a static surface (px/s²), negative at a ceiling.
+
+        Also return by how much (px/s) a velocity lags behind the position: with semi-implicit
+        Euler half a substep.
+        """
+        (ax, ay), (bx, by) = self.acceleration(c.a), self.acceleration(c.b)
+        g = (ax - bx) * c.nx + (ay - by) * c.ny
+        return g, g * self.h / 2
+
+
+def find_pivots(rods: Rods) -> dict[Body, Body]:
+    """Return the pivot of each ball whose only joint is a rod to a body at rest."""
+    pivots: dict[Body, Body] = {}
+    for rod in rods.awake:
+        for ball, pivot in ((rod.end_a, rod.end_b), (rod.end_b, rod.end_a)):
+            if pivot.is_static and not pivot.is_kinematic and ball.joint_count == 1:
+                pivots[ball] = pivot
+    return pivots
+
+
+def state_of(body: Body) -> State:
+    """Return the position (px) and velocity (px/s) of a body."""
+    return body.x, body.y, body.vx, body.vy
+
+
+def find_springs(springs: Springs, dt: float) -> tuple[dict[Body, list[Spring]], set[Body]]:
+    """Return the springs of each body, and the bodies whose springs swing too fast to follow."""
+    springs.find_networks()
+    found: dict[Body, list[Spring]] = {}
+    stiff: set[Body] = set()
+    for spring in springs.awake:
+        ends = spring.end_a, spring.end_b
+        if (spring.crowd * dt + spring.c / spring.m) * dt > STIFF:
+            stiff.update(ends)
+        for body in ends:
+            found.setdefault(body, []).append(spring)
+    return found, stiff
+
+
+def swing(body: Body, pivot: Body, seconds: float) -> None:
+    """Turn a ball about the pivot of its rod at its speed for a time, or back."""
+    x, y = body.x - pivot.x, body.y - pivot.y
+    angle = (x * body.vy - y * body.vx) / (x * x + y * y) * seconds
+    c, s = cos(angle), sin(angle)
+    body.x, body.y = pivot.x + c * x - s * y, pivot.y + s * x + c * y
+    body.vx, body.vy = c * body.vx - s * body.vy, s * body.vx + c * body.vy
+    body.angle += body.w * seconds
