@@ -4,7 +4,7 @@ from math import cos, hypot, sin
 
 from .body import Body
 from .contact import Contact
-from .contacts import Contacts
+from .contacts import CORE, Contacts
 from .rods import Frame, Rods
 from .springs import Spring, Springs, State
 from .sweep import first_hit
@@ -69,7 +69,7 @@ class Flight:
         return not any([b.is_bullet or b in odd or self.swings(b) for b in frame.balls])
 
     def fly_on(self, hit: list[Body], seconds: float) -> None:
-        """Let balls fly on for a time, or back. A bullet stops before a wall."""
+        """Let balls fly on for a time, or back. One that flies far stops before a wall."""
         statics = self.world.statics
         flying: dict[Frame, None] = {}
         free = []
@@ -84,7 +84,7 @@ class Flight:
             share = 1.0
             x = (body.vx + ax * (self.h + seconds) / 2) * seconds
             y = (body.vy + ay * (self.h + seconds) / 2) * seconds
-            if body.is_bullet:
+            if body.is_bullet or hypot(x, y) > CORE * body.r:
                 share = first_hit(statics, body.r, body.x, body.y, x, y)
                 if share < 1:
                     share = max(share - BEFORE * body.r / hypot(x, y), 0.0)

@@ -10,7 +10,7 @@ from .flight import Flight
 from .rods import Frame, Rods
 from .soft import SAME_DIRECTION
 from .springs import Springs
-from .sweep import NO_HIT, first_hit, moment_of_touch
+from .sweep import moment_of_touch
 
 ROUNDS = 20  # passes of impacts from ball to ball in one step, per contact
 SETTLINGS = 3  # each may cause further impacts
@@ -154,24 +154,10 @@ class Impacts:
             self.meet_others()
             if not self.due:
                 break
-        self.put_back()
         for c, distance in self.faces.items():
             c.gap = c.found = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - distance
             if c.gap < 0:
                 self.lift(c)
-
-    def put_back(self) -> None:
-        """Put balls back that impacts would move through a static body, and bullets to its face."""
-        for body in self.contacts.hit_ago:
-            x, y = body.last_x, body.last_y
-            way = body.x - x, body.y - y
-            radius = body.r if body.is_bullet else 0.0
-            share = first_hit(self.contacts.world.statics, radius, x, y, *way)
-            if share < NO_HIT:
-                share = share if body.is_bullet else 0.0
-                body.x, body.y = x + way[0] * share, y + way[1] * share
-                for c in self.beside[body]:
-                    self.look_where(c)
 
     def is_alone(self, c: Contact) -> bool:
         """Return whether an impact affects no other contact."""
