@@ -462,9 +462,10 @@ class Contacts(Effect):
             self.crowd = {}
 
     def stop_core(self, body: Body, h: float) -> None:
-        """Stop a ball that moved by more than its radius where its core met a static body."""
+        """Stop a ball that moved far, or was hit, where its core met a static body."""
         distance = abs(body.x - body.last_x) + abs(body.y - body.last_y)
-        if distance > body.r > 0 and not (body.is_bullet or body.is_static):
+        is_far = distance > body.r > 0 or (distance > 0 and body in self.flown)
+        if is_far and not (body.is_bullet or body.is_static):
             self.sweep(body, (body.last_x, body.last_y), CORE * body.r, 0.0, h)
 
     def let_no_deeper(self, c: Contact, gap: float) -> bool:

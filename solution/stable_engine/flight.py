@@ -84,8 +84,9 @@ class Flight:
             share = 1.0
             x = (body.vx + ax * (self.h + seconds) / 2) * seconds
             y = (body.vy + ay * (self.h + seconds) / 2) * seconds
-            if body.is_bullet or hypot(x, y) > CORE * body.r:
-                share = first_hit(statics, body.r, body.x, body.y, x, y)
+            radius = body.r if body.is_bullet else CORE * body.r
+            if body.is_bullet or hypot(x, y) > radius:
+                share = first_hit(statics, radius, body.x, body.y, x, y)
                 if share < 1:
                     share = max(share - BEFORE * body.r / hypot(x, y), 0.0)
                     self.cut_short.add(body)

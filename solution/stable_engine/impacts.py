@@ -5,12 +5,12 @@ from math import hypot, sqrt
 from .body import Body
 from .broad_phase import Pair
 from .contact import Contact, collide, is_at_face
-from .contacts import FAR, Contacts
+from .contacts import CORE, FAR, Contacts
 from .flight import Flight
 from .rods import Frame, Rods
 from .soft import SAME_DIRECTION
 from .springs import Springs
-from .sweep import moment_of_touch
+from .sweep import NO_HIT, first_hit, moment_of_touch
 
 ROUNDS = 20  # passes of impacts from ball to ball in one step, per contact
 SETTLINGS = 3  # each may cause further impacts
@@ -158,6 +158,16 @@ class Impacts:
             c.gap = c.found = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - distance
             if c.gap < 0:
                 self.lift(c)
+        self.begin_anew()
+
+    def begin_anew(self) -> None:
+        """Let Contacts.finish look for walls from where impacts have taken balls without any."""
+        statics = self.contacts.world.statics
+        for body in self.contacts.hit_ago:
+            x, y, core = body.last_x, body.last_y, CORE * body.r
+            way = body.x - x, body.y - y
+            if hypot(*way) > core and first_hit(statics, core, x, y, *way) == NO_HIT:
+                body.last_x, body.last_y = body.x, body.y
 
     def is_alone(self, c: Contact) -> bool:
         """Return whether an impact affects no other contact."""
