@@ -28,6 +28,7 @@ class Flight:
         self.dt = dt = contacts.last_dt  # s, of the step in which balls touched
         self.held: set[Body] = set()  # balls at static bodies that cannot go back
         self.cut_short: set[Body] = set()  # bullets that a wall stopped
+        self.walls: dict[Body, list[Body]] = {}  # at which a ball is: it may fly into them
         self.bearing: dict[Body, list[Contact]] = {}  # at faces that bear a ball
         self.frame_of: dict[Body, Frame] = {}
         self.pivots: dict[Body, Body] = {}  # of balls that swing on one rod
@@ -80,23 +81,26 @@ class Flight:
                 swing(body, self.pivots[body], seconds)
             else:
                 flying[self.frame_of[body]] = None
+        moved = []
         for body, ax, ay in free:
-            share = 1.0
+            share, known = 1.0, self.walls.get(body, [])
             x = (body.vx + ax * (self.h + seconds) / 2) * seconds
             y = (body.vy + ay * (self.h + seconds) / 2) * seconds
             radius = body.r if body.is_bullet else CORE * body.r
             if body.is_bullet or hypot(x, y) > radius:
-                share = first_hit(statics, radius, body.x, body.y, x, y)
+                others = [s for s in statics if s not in known] if known else statics
+                share = first_hit(others, radius, body.x, body.y, x, y)
                 if share < 1:
                     share = max(share - BEFORE * body.r / hypot(x, y), 0.0)
                     self.cut_short.add(body)
             body.x += x * share
             body.y += y * share
             body.angle += body.w * share * seconds
-        for body, ax, ay in free:
+            moved.append((body, ax, ay, share * seconds))
+        for body, ax, ay, time in moved:
             now_x, now_y = self.acceleration(body) if body in self.springs_of else (ax, ay)
-            body.vx += (ax + now_x) / 2 * seconds + (ax - now_x) * self.h / 2
-            body.vy += (ay + now_y) / 2 * seconds + (ay - now_y) * self.h / 2
+            body.vx += (ax + now_x) / 2 * time + (ax - now_x) * self.h / 2
+            body.vy += (ay + now_y) / 2 * time + (ay - now_y) * self.h / 2
         for frame in flying:
             self.fly_frame(frame, seconds)
 

@@ -330,6 +330,8 @@ class Impacts:
         for c in self.touching:
             if c.b.is_static and is_at_face(c) and c.a not in self.flight.pivots:
                 self.depths[c] = c.gap
+                if not c.a.is_bullet:
+                    self.flight.walls.setdefault(c.a, []).append(c.b)
                 self.faces[c] = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
                 if c.jn > 0 and abs(c.closing_speed()) <= self.slow:
                     self.flight.bearing.setdefault(c.a, []).append(c)
