@@ -42,12 +42,12 @@ class Impacts:
     together: so an impact travels through a row of balls, and a mirrored scene stays mirrored. At
     the end, pairs that still close in slowly are stopped, a whole island at once.
 
-    A contact is found after the touch. Impulses go along the normal at the touch. Free balls, and
-    balls that swing on one rod, are moved to where a bounce at the touch would have taken them:
-    otherwise the overlap would push them apart. This keeps angular momentum. So is a ball that
-    bounces off a flat static face: a push out of it would lift the ball for nothing. Balls on other
-    joints or at other static bodies stay, and so do bullets that were stopped at one. Rods pass an
-    impact on at once, so a ball weighs as much as all that hangs on it along the normal.
+    A contact is found after the touch, so balls are moved back to it, along the way they flew: see
+    Flight. There they bounce, by the normal at the touch, and fly on. So nothing is left in a wall
+    or in another ball, from which a push would lift it for nothing, and angular momentum is kept.
+    If they meet others on the way, these impacts come next. Where the way back is not known, on
+    stiff springs, hanging chains and static corners, balls stay; energy gives their speeds. Rods
+    pass an impact on at once, so a ball weighs as much as all that hangs on it along the normal.
     """
 
     def __init__(
@@ -91,8 +91,7 @@ class Impacts:
         """Turn a contact's normal back to that of the touch. Return the time (s) since then.
 
         A flat face of a static body has one normal. Other normals stay unless the two began to
-        touch while both flew straight; balls that swing fast or were just stopped did not.
-        Nothing flies through a wall.
+        touch while both flew freely. Nothing flies through a wall.
         """
         since = self.contacts.flight_of(c.a, c.b)
         if since <= 0 or self.flight.swings(c.a) or self.flight.swings(c.b):
@@ -154,8 +153,8 @@ class Impacts:
             self.meet_others()
             if not self.due:
                 break
-        for c, distance in self.faces.items():
-            c.gap = c.found = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - distance
+        for c in self.faces:
+            self.look_where(c)
             if c.gap < 0:
                 self.lift(c)
         self.begin_anew()
@@ -272,11 +271,11 @@ class Impacts:
     def look_where(self, c: Contact) -> None:
         """Find normal and gap of a contact anew. A ball stays on its side of a face."""
         nx, ny, gap = collide(c.a, c.b)
-        if c in self.faces and nx * c.nx + ny * c.ny < SAME_DIRECTION:
-            below = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - self.faces[c]
-            if below < 0:
-                c.gap = c.found = below
-                return
+        if c in self.faces:
+            face_x, face_y, reach = self.faces[c]
+            below = (c.b.x - c.a.x) * face_x + (c.b.y - c.a.y) * face_y - reach
+            if below < 0 and nx * face_x + ny * face_y < SAME_DIRECTION:
+                nx, ny, gap = face_x, face_y, below
         c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
 
     def link(self) -> None:
@@ -325,14 +324,16 @@ class Impacts:
 
     def find_faces(self) -> None:
         """Find the contacts at flat faces, and the faces that bear balls."""
-        self.faces: dict[Contact, float] = {}  # px, from the centre of the static body to a touch
+        # their normals, and how far (px) along it the centres are at a touch
+        self.faces: dict[Contact, tuple[float, float, float]] = {}
         self.depths: dict[Contact, float] = {}  # px, the gap before
         for c in self.touching:
             if c.b.is_static and is_at_face(c) and c.a not in self.flight.pivots:
                 self.depths[c] = c.gap
                 if not c.a.is_bullet:
                     self.flight.walls.setdefault(c.a, []).append(c.b)
-                self.faces[c] = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
+                reach = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
+                self.faces[c] = c.nx, c.ny, reach
                 if c.jn > 0 and abs(c.closing_speed()) <= self.slow:
                     self.flight.bearing.setdefault(c.a, []).append(c)
 
@@ -395,9 +396,8 @@ class Impacts:
     def law(self, c: Contact, bounces: bool) -> tuple[float, float]:
         """Return the speed (px/s) at which a pair separates.
 
-        At any step size a ball leaves a static body exactly. A contact is found when the ball is
-        below the surface and too fast, so e is applied to its speed at the surface, which
-        conservation of energy gives.
+        At any step size a ball leaves a wall exactly: e is applied to its speed at the surface. If
+        it was not moved back there, conservation of energy gives that speed, and the present one.
 
         Also return the share of the impulse without the speed gained below the surface.
         """
