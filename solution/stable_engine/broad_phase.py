@@ -5,14 +5,17 @@ from operator import attrgetter
 
 from .body import Body
 from .contact import Contact
+from .sweep import NO_HIT, hit_point
 
 ROOM = 0.1  # radii, on each side of a body that can move
-SWEEP = 3  # checks of near pairs per such body, which cost as much as a sweep
+SWEEP = 5  # checks of near pairs per such body, which cost as much as a sweep
 LONGEST = 0.5  # s of motion in a room
-SHUFFLED = 8  # steps until the order of the sweep has changed much
 WIDER = 1.1  # ratio of the spreads along both axes at which the sweep changes its axis
+SHUFFLED = 8  # steps until the order of the sweep has changed much
 LANE = 6.0  # width of a lane, in half widths of a ball
 FEW = 4  # boxes in a lane; up to so many, ended ones may stay
+ROUNDING = 1e-3  # steps
+MANY = 30  # bodies that leave their rooms at once: a sweep costs less than a search for each
 
 
 class Pair:
@@ -35,7 +38,7 @@ class Bounds:
 
     __slots__ = (
         *("body", "place", "near", "margin", "left", "right", "top", "bottom"),
-        *("high", "low", "side_high", "side_low", "first_lane"),
+        *("vx", "vy", "high", "low", "side_high", "side_low", "first_lane"),
     )
 
     def __init__(self, body: Body, place: int) -> None:
@@ -45,6 +48,7 @@ class Bounds:
         self.margin = ROOM * min(body.hx, body.hy)  # px, room on each side
         self.left = self.right = body.x  # px
         self.top = self.bottom = body.y  # px
+        self.vx, self.vy = body.vx, body.vy  # px/s, when the room was made
         self.low = self.high = self.side_low = self.side_high = 0.0  # px
         self.first_lane = 0
 
@@ -52,14 +56,11 @@ class Bounds:
         """Make room for a body's path, from `back` seconds ago to `ahead` s from now."""
         body, margin = self.body, self.margin
         x, y, vx, vy = body.x, body.y, body.vx, body.vy
-        if vx > 0:
-            self.left, self.right = x - vx * back - margin, x + vx * ahead + margin
-        else:
-            self.left, self.right = x + vx * ahead - margin, x - vx * back + margin
-        if vy > 0:
-            self.top, self.bottom = y - vy * back - margin, y + vy * ahead + margin
-        else:
-            self.top, self.bottom = y + vy * ahead - margin, y - vy * back + margin
+        self.vx, self.vy = vx, vy
+        self.left = x + min(-vx * back, vx * ahead) - margin
+        self.right = x + max(-vx * back, vx * ahead) + margin
+        self.top = y + min(-vy * back, vy * ahead) - margin
+        self.bottom = y + max(-vy * back, vy * ahead) + margin
 
     def make_room_to_fall(self, fall_x: float, fall_y: float) -> None:
         """Make more room for a body that falls by so many px."""
@@ -84,11 +85,7 @@ class Bounds:
 
     def precedes(self, other: "Bounds") -> bool:
         """Return whether the sweep meets this box before another."""
-        if self.low != other.low:
-            return self.low < other.low
-        if self.side_low != other.side_low:
-            return self.side_low < other.side_low
-        return self.place < other.place
+        return self.low < other.low or (self.low == other.low and self.place < other.place)
 
 
 LOW = attrgetter("low")
@@ -98,12 +95,14 @@ class BroadPhase:
     """The pairs of bodies that are near each other, found by a sweep.
 
     Each body has room to move. Two bodies are near if their boxes, rooms included, overlap. No
-    other pair can touch until a body leaves its room; then the sweep is repeated. New rooms are
-    longer if the last ones lasted long, and shorter if many near pairs did not touch.
+    other pair can touch until a body leaves its room. Then it gets a new one, and its box is
+    compared with all others. The sweep is repeated once the rooms have lasted as long as they
+    should, or if many bodies leave theirs at once. New rooms are longer if the last ones lasted
+    long, and shorter if many near pairs did not touch.
 
     The sweep goes along the axis on which moving bodies are spread wider. A new box can
     only be near boxes that began before and have not ended. Lanes along the sweep leave few of
-    these to compare. A lane is at least as wide as the mean room, or long rooms would cross many.
+    these to compare. A lane is at least as wide as the mean box, or long boxes would cross many.
     Boxes that have ended are dropped now and then, which costs less than dropping each at once.
     """
 
@@ -113,11 +112,18 @@ class BroadPhase:
         self.widest = 0.0  # px, half of the widest that can move
         self.narrowest = 0.0  # px, the least width of a lane
         self.pairs: list[Pair] = []
-        self.is_stale = True
+        self.spare: list[Pair] = []  # pairs of the last sweep: reuse is cheaper
+        self.near: list[Bounds] = []  # of bodies that can move and have others near
+        self.far: list[Bounds] = []  # of the others that can move
+        self.leavers: list[Bounds] = []  # of bodies that have left their rooms
+        self.is_quiet = False  # whether no near pair will touch unless a velocity changes
         self.is_sorted = False
+        self.is_stale = True  # whether all rooms are renewed in the next step
         self.upright = False  # whether the sweep goes along y
         self.ahead = LONGEST  # s of motion in a room
         self.age = 0.0  # s, of the rooms
+        self.end = 0.0  # s, the age up to which a body that nothing pushes stays in its room
+        self.falls = False  # whether gravity pushes all
         self.looks = 0  # checks of pairs that did not touch, since the last sweep
 
     def take(self, bodies: list[Body]) -> None:
@@ -131,37 +137,84 @@ class BroadPhase:
     def find_leavers(self, dt: float) -> list[Bounds]:
         """Return the bounds of the bodies that have left their rooms in a step of dt seconds."""
         self.age += dt
-        leavers = []
-        for one in self.moving:
+        late = self.age > self.end
+        doubtful = self.moving if late or self.falls else self.near + self.find_pushed()
+        self.leavers = leavers = []
+        for one in doubtful:
             body = one.body
             if not (one.left <= body.x <= one.right and one.top <= body.y <= one.bottom):
                 leavers.append(one)
-        if leavers:
+        if (leavers and (late or len(leavers) > MANY)) or (doubtful and self.is_quiet):
             self.is_stale = True
         return leavers
 
+    def find_pushed(self) -> list[Bounds]:
+        """Return the bounds of bodies with nobody near whose velocity has changed.
+
+        The others of these cannot leave their rooms before the `end`.
+        """
+        return [one for one in self.far if one.body.vx != one.vx or one.body.vy != one.vy]
+
     def renew(
         self, g: tuple[float, float], held: set[Body], dt: float, back: float, margin: float
-    ) -> None:
-        """Make room for all bodies that can move, and find pairs of boxes within margin px.
+    ) -> list[Pair]:
+        """Make room for the leavers, or for all if rooms are stale. Return the new near pairs.
 
-        Rooms also cover the path of the last `back` seconds, and the fall of bodies that nothing
-        holds.
+        Those are pairs of boxes within margin px. Rooms also cover the path of the last `back`
+        seconds, and the fall of bodies that nothing holds.
         """
-        if self.is_crowded() or self.age < self.ahead + dt / 2:
-            ahead = max(self.ahead / 2, dt)
-        else:
-            ahead = min(2 * self.ahead, LONGEST)
-        self.is_sorted = self.is_sorted and self.age < SHUFFLED * dt
-        self.ahead, self.age, self.looks = ahead, 0.0, 0
+        if self.is_stale:
+            self.set_ahead(dt)
+            self.leavers = self.moving
+            steady = all(one.body.vx == one.vx and one.body.vy == one.vy for one in self.moving)
+            self.is_quiet, self.falls = False, g != (0.0, 0.0)
+            self.end, self.pairs, self.spare = self.ahead + ROUNDING * dt, [], self.pairs
+        count, ahead = len(self.pairs), max(self.ahead - self.age, dt)
         fall_x, fall_y = g[0] * ahead * ahead / 2, g[1] * ahead * ahead / 2
-        for one in self.moving:
+        for one in self.leavers:
             one.make_room(back, ahead)
-        for one in self.moving if fall_x or fall_y else []:
+        for one in self.leavers if self.falls else []:
             if not (one.body in held or one.body.idle):
                 one.make_room_to_fall(fall_x, fall_y)
-        self.pairs = self.sweep(margin)
-        self.is_stale = False
+        if self.is_stale:
+            self.sweep(margin)
+            if steady and not self.falls:
+                self.skip_pairs(ahead + 2 * dt, margin)
+        else:
+            self.search(margin)
+        found = self.pairs[count:]
+        if found or self.is_stale:
+            self.near = [one for one in self.moving if one.near]
+            self.far = [one for one in self.moving if not one.near]
+        self.leavers, self.is_stale = [], False
+        return found
+
+    def set_ahead(self, dt: float) -> None:
+        """Choose the length of new rooms by how the last ones did."""
+        if self.is_crowded() or self.age <= self.end:
+            self.ahead = max(self.ahead / 2, dt)
+        elif 4 * self.looks < SWEEP * len(self.moving):
+            self.ahead = min(2 * self.ahead, LONGEST)
+        self.is_sorted = self.is_sorted and self.age < SHUFFLED * dt
+        self.age, self.looks = 0.0, 0
+
+    def skip_pairs(self, seconds: float, margin: float) -> None:
+        """Look at no pair while all fly straight on, unless two balls then come within margin px.
+
+        A static body counts as if a ball came near it.
+        """
+        self.looks += len(self.pairs)
+        for pair in self.pairs:
+            a, b = pair.a, pair.b
+            x, y, reach = a.x - b.x, a.y - b.y, a.r + b.r + margin
+            dx, dy = (a.vx - b.vx) * seconds, (a.vy - b.vy) * seconds
+            if b.is_static or x * x + y * y <= reach * reach:
+                return
+            if hit_point(reach, x, y, dx, dy) < NO_HIT:
+                return
+        self.is_quiet = True
+        for one in self.moving:
+            one.near = False
 
     def add_looks(self, count: int, dt: float) -> None:
         """Count checks of pairs that did not touch. After many, the next step has smaller rooms."""
@@ -173,17 +226,47 @@ class BroadPhase:
         """Return whether checks of pairs that did not touch cost more than a sweep."""
         return self.looks > SWEEP * len(self.moving)
 
-    def sweep(self, margin: float) -> list[Pair]:
-        """Return pairs of boxes within margin px, if at least one can move."""
+    def search(self, margin: float) -> None:
+        """Add the pairs of leavers that are newly near. Those no longer near stay on the list."""
+        for one in self.leavers:
+            one.update_box(self.upright, margin)
+        for one in self.leavers:
+            a, pairs = one.body, self.pairs
+            known = [p.b if p.a is a else p.a for p in pairs if p.a is a or p.b is a]
+            low, high, side_low, side_high = one.low, one.high, one.side_low, one.side_high
+            for other in self.bounds:
+                if (
+                    other.low < high
+                    and other.high > low
+                    and other.side_low < side_high
+                    and other.side_high > side_low
+                    and not (other is one or other.body in known)
+                ):
+                    self.pair_up(one, other)
+
+    def pair_up(self, one: Bounds, other: Bounds) -> None:
+        """Add two bodies to the near pairs, if at least one can move."""
+        a, b = one.body, other.body
+        if a.idle and b.idle:
+            return
+        if a.id < b.id:
+            a, b = b, a
+        pair = self.spare.pop() if self.spare else Pair(a, b)
+        pair.a, pair.b, pair.contact = a, b, None
+        self.pairs.append(pair)
+        one.near = other.near = True
+
+    def sweep(self, margin: float) -> None:
+        """Add all pairs of boxes within margin px, if at least one can move."""
         left, right, top, bottom = self.find_hull(self.widest + margin)
         taller = (bottom - top) / (right - left)
         upright = taller > (1 / WIDER if self.upright else WIDER)
         for one in self.bounds:
             one.near = False
             one.update_box(upright, margin)
-        breadth = 0.0  # px, the sum over all rooms
+        breadth = 0.0  # px, the sum over all boxes
         for one in self.moving:
-            breadth += one.right - one.left if upright else one.bottom - one.top
+            breadth += one.side_high - one.side_low
         lane = max(self.narrowest, breadth / len(self.moving))
         self.sort(upright)
         if upright:
@@ -191,15 +274,13 @@ class BroadPhase:
         count = min(int((bottom - top) / lane), int(sqrt(len(self.bounds)))) + 1
         lanes: list[list[Bounds]] = [[] for _ in range(count + 1)]
         per_px = count / (bottom - top)
-        pairs: list[Pair] = []
-        spare = self.pairs
         for one in self.bounds:
             low, side_low, side_high = one.low, one.side_low, one.side_high
             if low >= right:
                 break
             if one.high <= left or side_low >= bottom or side_high <= top:
                 continue  # far from all bodies that can move
-            a, first = one.body, int((side_low - top) * per_px) if side_low > top else 0
+            first = int((side_low - top) * per_px) if side_low > top else 0
             last = int((side_high - top) * per_px) if side_high < bottom else count
             one.first_lane = first
             for index in range(first, last + 1):
@@ -213,16 +294,8 @@ class BroadPhase:
                         and other.side_high > side_low
                         and (index == first or index == other.first_lane)
                     ):
-                        b = other.body
-                        if a.idle and b.idle:
-                            continue
-                        one.near = other.near = True
-                        pair = spare.pop() if spare else Pair(a, b)  # reuse is cheaper
-                        pair.a, pair.b = (a, b) if a.id > b.id else (b, a)
-                        pair.contact = None
-                        pairs.append(pair)
+                        self.pair_up(one, other)
                 met.append(one)
-        return pairs
 
     def find_hull(self, edge: float) -> tuple[float, float, float, float]:
         """Return left, right, top and bottom of all rooms, with an edge (px) around them."""

@@ -46,16 +46,8 @@ class Contacts(Effect):
 
     __slots__ = (
         *("on_hit", "on_part", "hits", "parted", "touching", "begun", "changed", "lets_none_pass"),
-        *(
-            "friction_warms",
-            "last_dt",
-            "flown",
-            "hit_ago",
-            "broad_phase",
-            "crowd",
-            "near",
-            *("beside_static", "stopped"),
-        ),
+        *("friction_warms", "last_dt", "flown", "hit_ago", "stopped", "broad_phase", "crowd"),
+        "beside_static",
         *("balls", "statics", "groups", "beginnings", "is_mirrored", "unpaired", "ignored", "pace"),
         *("h", "touching_gap", "slow", "max_push_speed", "begin_contact_hooks"),
     )
@@ -81,8 +73,7 @@ class Contacts(Effect):
         self.stopped: dict[Body, float] = {}  # s, into the step, until a static body stopped it
         self.broad_phase = BroadPhase()
         self.crowd: dict[Contact, None] = {}  # of balls that part_crowd separates
-        self.near: list[Body] = []  # can move, and are near others
-        self.beside_static: list[Body] = []  # balls that are near static bodies
+        self.beside_static: dict[Body, None] = {}  # balls that are near static bodies
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
         self.groups: list[Group] = []  # of these two, those with any contact
         self.beginnings = 0.0  # in how many steps any contact has begun
@@ -103,11 +94,13 @@ class Contacts(Effect):
         world, phase, dt = self.world, self.broad_phase, h * self.world.substep_count
         if len(phase.bounds) != len(world.bodies):
             phase.take(world.bodies)
-        self.changed = phase.is_stale or self.any_moved()
-        if phase.is_stale:
+        renews = phase.is_stale or len(phase.leavers) > 0
+        self.changed = renews or self.any_moved()
+        if renews:
             self.renew_pairs(dt)
         if self.changed:
-            for body in self.near:
+            for one in phase.near:
+                body = one.body
                 body.last_x, body.last_y = body.x, body.y
             self.find_contacts(dt)
 
@@ -115,25 +108,30 @@ class Contacts(Effect):
         """Return whether a body with others near has moved since contacts were last found."""
         far = REDETECT_DISTANCE * self.world.unit
         far2 = far * far
-        for body in self.near:
+        for one in self.broad_phase.near:
+            body = one.body
             dx, dy = body.x - body.last_x, body.y - body.last_y
             if dx * dx + dy * dy > far2:
                 return True
         return False
 
     def renew_pairs(self, dt: float) -> None:
-        """Find the near pairs anew, and keep the contacts of bodies that still touch."""
-        phase, margin = self.broad_phase, self.slow * dt
-        held = {body for c in self.touching for body in (c.a, c.b)}
-        phase.renew(self.world.g, held, dt, self.last_dt if self.lets_none_pass else 0.0, margin)
+        """Find the near pairs that are new, and keep the contacts of bodies that still touch."""
+        phase, g = self.broad_phase, self.world.g
+        if phase.is_stale:  # all pairs are new
+            self.beside_static = {}
+            for c in self.touching:
+                self.unpaired[pair_number(c.a, c.b)] = c
+        held = {body for c in self.touching for body in (c.a, c.b)} if g != (0.0, 0.0) else set()
+        back = self.last_dt if self.lets_none_pass else 0.0
+        found = phase.renew(g, held, dt, back, self.slow * dt)
         if self.ignored:
             phase.pairs = [p for p in phase.pairs if pair_number(p.a, p.b) not in self.ignored]
-        self.near = [one.body for one in phase.moving if one.near]
-        self.beside_static = list(dict.fromkeys([p.a for p in phase.pairs if not p.b.inv_mass]))
-        for c in self.touching:
-            self.unpaired[pair_number(c.a, c.b)] = c
+        for pair in found:
+            if pair.b.is_static:
+                self.beside_static[pair.a] = None
         touched = {c.a for c in self.unpaired.values()}
-        for pair in phase.pairs if touched else []:
+        for pair in found if touched else []:
             if pair.a in touched:
                 pair.contact = self.unpaired.pop(pair_number(pair.a, pair.b), None)
 
@@ -154,15 +152,16 @@ class Contacts(Effect):
         back = self.last_dt if self.lets_none_pass else 0.0
         for pair in self.broad_phase.pairs:
             a, b = pair.a, pair.b
-            dvx, dvy = b.vx - a.vx, b.vy - a.vy
             if b.r:
                 dx, dy, reach = b.x - a.x, b.y - a.y, a.r + b.r + margin
                 if back:
+                    dvx, dvy = b.vx - a.vx, b.vy - a.vy
                     reach += sqrt(dvx * dvx + dvy * dvy) * back
                 if dx * dx + dy * dy > reach * reach:
                     if pair.contact:
                         self.end_contact(pair)
                     continue
+            dvx, dvy = b.vx - a.vx, b.vy - a.vy
             nx, ny, gap = collide(a, b)
             if (
                 gap > touching_gap
