@@ -5,7 +5,7 @@ from itertools import combinations
 
 import pytest
 
-from stable_engine import Body, Box, Circle, World
+from stable_engine import Body, Box, Circle, Contacts, World
 from stable_engine.broad_phase import BroadPhase
 
 MARGIN = 0.5
@@ -87,3 +87,19 @@ def test_sleeping_bodies_form_no_pairs():
     asleep = {body.id for body in world.bodies if body.idle}
     assert {frozenset(pair) for pair in found} >= by_looking(world)
     assert not any(set(pair) <= asleep for pair in found)
+
+
+def test_a_pair_that_flies_past_is_skipped_until_one_of_the_two_is_pushed():
+    hits = []
+    contacts = Contacts(on_hit=lambda *hit: hits.append(hit))
+    world = World((0, 0), effects=[contacts])
+    low, high = (world.add(Body(Circle(10), (0, y), 1.0)) for y in (0, 100))
+    for ball in (low, high):
+        ball.vel = (3000, 0)
+    for _ in range(20):
+        world.step(DT)
+    assert contacts.broad_phase.is_quiet
+    low.vel = (3000, 3000)
+    for _ in range(STEPS):
+        world.step(DT)
+    assert [(a, b) for a, b, _ in hits] == [(high, low)]
