@@ -78,7 +78,7 @@ class Body:
         *("e", "mu", "restitution_given", "friction_given"),
         *("x", "y", "vx", "vy", "angle", "w", "last_x", "last_y"),
         *("id", "world", "is_bullet", "is_kinematic", "idle", "sleeps", "island", "joint_count"),
-        *("still", "calm", "kept", "place"),
+        *("still", "calm", "kept", "place", "is_thrown"),
     )
 
     def __init__(
@@ -128,6 +128,7 @@ class Body:
         self.is_kinematic = kinematic
         self.sleeps = False
         self.still = 0.0  # s, how long it has been slow and steady enough to sleep
+        self.is_thrown = False  # whether an impact has moved it
         self.calm = 0.0, 0.0, 0.0  # px/s: vx, vy and the speed of its rim when that began
         self.kept = 0.0  # s, how long it has stayed where it is
         self.place = inf, 0.0, 0.0  # x, y and angle when that began

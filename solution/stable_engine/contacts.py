@@ -1,7 +1,7 @@
 """Contacts: bodies do not pass through each other."""
 
 from collections.abc import Callable
-from math import sqrt
+from math import inf, sqrt
 
 from .body import Body
 from .broad_phase import BroadPhase, Pair
@@ -252,12 +252,12 @@ class Contacts(Effect):
 
     def flight_of(self, a: Body, b: Body) -> float:
         """Return how long (s) two bodies have flown freely: a step, if none was hit or stopped."""
-        known = [
-            self.hit_ago.get(body, self.flown.get(body, self.last_dt))
-            for body in (a, b)
-            if body in self.hit_ago or body in self.flown
-        ]
-        return min(known, default=self.last_dt)
+        if not (self.hit_ago or self.flown):
+            return self.last_dt
+        least = inf
+        for body in (a, b):
+            least = min(least, self.hit_ago.get(body, self.flown.get(body, inf)))
+        return self.last_dt if least == inf else least
 
     def was_stopped(self, body: Body) -> bool:
         """Return whether a bullet met something static in the step before."""

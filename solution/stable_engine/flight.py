@@ -43,6 +43,7 @@ class Flight:
         # of bodies on springs: mirrored impacts, resolved in turn, must not see each other's moves
         self.before = {body: state_of(body) for body in self.springs_of}
         self.moved: set[Body] = set()  # by the present impact
+        self.is_simple = not (self.springs_of or self.world.forces)  # whether only gravity pulls
 
     def swings(self, body: Body) -> bool:
         """Return whether a ball may not have flown freely: on a stiff spring, or fast on a rod."""
@@ -55,12 +56,16 @@ class Flight:
         x, y = self.frame_of[body].velocity()
         return hypot(body.vx - x, body.vy - y) * self.dt > body.r
 
-    def can_go_back(self, body: Body) -> bool:
-        """Return whether a ball can be moved back to a touch, with all that hangs on its rods."""
-        if body in self.held or body in self.stiff or self.contacts.was_stopped(body):
-            return False
-        frame = self.frame_of.get(body)
-        return not frame or self.is_loose(frame, body)
+    def can_all_go_back(self, bodies: list[Body]) -> bool:
+        """Return whether balls can be moved back to a touch, with all that hangs on their rods."""
+        for body in bodies:
+            if body in self.held or self.contacts.was_stopped(body):
+                return False
+            if body.joint_count:
+                frame = self.frame_of.get(body)
+                if body in self.stiff or (frame and not self.is_loose(frame, body)):
+                    return False
+        return True
 
     def is_loose(self, frame: Frame, body: Body) -> bool:
         """Return whether a frame can be moved back: it hangs on one rod, or flies freely."""
@@ -71,38 +76,47 @@ class Flight:
 
     def fly_on(self, hit: list[Body], seconds: float) -> None:
         """Let balls fly on for a time, or back. One that flies far stops before a wall."""
-        statics = self.world.statics
-        flying: dict[Frame, None] = {}
-        free = []
-        for body in hit:
-            if body not in self.frame_of:
-                free.append((body, *self.acceleration(body)))
-            elif body in self.pivots:
-                swing(body, self.pivots[body], seconds)
-            else:
-                flying[self.frame_of[body]] = None
-        moved = []
-        for body, ax, ay in free:
-            share, known = 1.0, self.walls.get(body, [])
-            x = (body.vx + ax * (self.h + seconds) / 2) * seconds
-            y = (body.vy + ay * (self.h + seconds) / 2) * seconds
-            radius = body.r if body.is_bullet else CORE * body.r
-            if body.is_bullet or hypot(x, y) > radius:
-                others = [s for s in statics if s not in known] if known else statics
-                share = first_hit(others, radius, body.x, body.y, x, y)
-                if share < 1:
-                    share = max(share - BEFORE * body.r / hypot(x, y), 0.0)
-                    self.cut_short.add(body)
-            body.x += x * share
-            body.y += y * share
-            body.angle += body.w * share * seconds
-            moved.append((body, ax, ay, share * seconds))
-        for body, ax, ay, time in moved:
-            now_x, now_y = self.acceleration(body) if body in self.springs_of else (ax, ay)
-            body.vx += (ax + now_x) / 2 * time + (ax - now_x) * self.h / 2
-            body.vy += (ay + now_y) / 2 * time + (ay - now_y) * self.h / 2
-        for frame in flying:
-            self.fly_frame(frame, seconds)
+        free = hit
+        if self.frame_of:
+            free = [body for body in hit if body not in self.frame_of]
+            flying: dict[Frame, None] = {}
+            for body in hit:
+                if body in self.pivots:
+                    swing(body, self.pivots[body], seconds)
+                elif body in self.frame_of:
+                    flying[self.frame_of[body]] = None
+            for frame in flying:
+                self.fly_frame(frame, seconds)
+        if not self.springs_of:
+            for body in free:
+                self.fly_ball(body, *self.acceleration(body), seconds)
+            return
+        before = [self.acceleration(body) for body in free]
+        times = [self.fly_ball(body, *a, seconds) for body, a in zip(free, before, strict=True)]
+        for body, (ax, ay), time in zip(free, before, times, strict=True):
+            now_x, now_y = self.acceleration(body)
+            body.vx += (now_x - ax) * (time - self.h) / 2
+            body.vy += (now_y - ay) * (time - self.h) / 2
+
+    def fly_ball(self, body: Body, ax: float, ay: float, seconds: float) -> float:
+        """Let a ball fly on under an acceleration (px/s²). Return for how long (s) it could."""
+        x = (body.vx + ax * (self.h + seconds) / 2) * seconds
+        y = (body.vy + ay * (self.h + seconds) / 2) * seconds
+        radius = body.r if body.is_bullet else CORE * body.r
+        if body.is_bullet or x * x + y * y > radius * radius:
+            known = self.walls.get(body, [])
+            others = [s for s in self.world.statics if s not in known]
+            share = first_hit(others, radius, body.x, body.y, x, y)
+            if share < 1:
+                share = max(share - BEFORE * body.r / hypot(x, y), 0.0)
+                self.cut_short.add(body)
+                x, y, seconds = x * share, y * share, seconds * share
+        body.x += x
+        body.y += y
+        body.angle += body.w * seconds
+        body.vx += ax * seconds
+        body.vy += ay * seconds
+        return seconds
 
     def fly_frame(self, frame: Frame, seconds: float) -> None:
         """Let a frame fly and turn for a time, or back, as if it were rigid."""
@@ -128,6 +142,8 @@ class Flight:
         """Return the acceleration of a body (px/s²) between impacts."""
         if body.is_static:
             return 0.0, 0.0
+        if self.is_simple and body not in self.bearing:
+            return self.world.g
         x, y = self.world.g
         if body in self.world.forces:
             fx, fy, _ = self.world.forces[body]
@@ -149,6 +165,8 @@ class Flight:
         Also return by how much (px/s) a velocity lags behind the position: with semi-implicit
         Euler half a substep.
         """
+        if self.is_simple and not (c.b.is_static or self.bearing):
+            return 0.0, 0.0
         (ax, ay), (bx, by) = self.acceleration(c.a), self.acceleration(c.b)
         g = (ax - bx) * c.nx + (ay - by) * c.ny
         return g, g * self.h / 2

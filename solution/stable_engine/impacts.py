@@ -3,7 +3,6 @@
 from math import hypot, sqrt
 
 from .body import Body
-from .broad_phase import Pair
 from .contact import Contact, collide, is_at_face
 from .contacts import CORE, FAR, Contacts
 from .flight import Flight
@@ -62,7 +61,6 @@ class Impacts:
         self.fastest = 0.0  # px/s, at the start
         self.flight = Flight(contacts, rods, springs, h)
         self.frame_of = self.flight.frame_of
-        self.strangers: dict[Body, list[Pair]] = {}
         self.met: list[Contact] = []  # contacts that began through an impact
 
     def find(self) -> None:
@@ -130,7 +128,7 @@ class Impacts:
         a, b = c.a, c.b
         vx, vy = b.vx - a.vx, b.vy - a.vy
         x, y = b.x - a.x - vx * since, b.y - a.y - vy * since
-        distance = hypot(x, y)
+        distance = sqrt(x * x + y * y)
         if abs(distance - a.r - b.r) > self.touching_gap or x * vx + y * vy >= 0 or not b.r:
             return 0.0, 0.0, 0.0
         return since, x / distance, y / distance
@@ -178,7 +176,7 @@ class Impacts:
     def resolve_alone(self, c: Contact, ago: float) -> None:
         """Resolve an impact, some seconds ago, that affects no other contact."""
         hit = [c.a] if c.b.is_static else [c.a, c.b]
-        if ago > 0 and all(self.flight.can_go_back(body) for body in hit):
+        if ago > 0 and self.flight.can_all_go_back(hit):
             self.resolve_at_touch([c], hit, ago, [])
             self.look_where(c)
             self.contacts.hit_ago.update(dict.fromkeys(hit, ago))
@@ -217,7 +215,7 @@ class Impacts:
         """Resolve the first impacts. Note which balls they moved, and how long ago."""
         group, ago = self.take_first()
         hit = balls_of(group)
-        if ago > 0 and not all(self.flight.can_go_back(body) for body in hit):
+        if ago > 0 and not self.flight.can_all_go_back(hit):
             ago = 0.0
         frames = self.frames_of(group)
         for frame in frames:
@@ -252,8 +250,10 @@ class Impacts:
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
         self.contacts.hit_ago.update(dict.fromkeys(hit, ago))
-        around = dict.fromkeys([c for body in hit for c in self.beside[body]])
-        for c in sorted(around, key=lambda c: c not in self.faces):  # faces first, as they lift
+        around = list(dict.fromkeys([c for body in hit for c in self.beside[body]]))
+        if self.faces and len(around) > 1:  # faces first, as they lift
+            around.sort(key=lambda c: c not in self.faces)
+        for c in around:
             if ago > 0:
                 self.look_where(c)
             self.look(c)
@@ -297,30 +297,28 @@ class Impacts:
     def meet_others(self) -> None:
         """Find impacts of balls that were hit with others which they did not touch before.
 
-        All are sought at once, so that a mirrored scene stays mirrored.
+        All are sought at once, so that a mirrored scene stays mirrored. If a ball flew through a
+        static body, Contacts.finish takes it back.
         """
-        met = []
+        thrown = []
         for body in self.contacts.hit_ago:
-            if hypot(body.x - body.last_x, body.y - body.last_y) > FAR * body.r:
-                for pair in self.strangers_of(body):
-                    nx, ny, gap = collide(pair.a, pair.b)
-                    if gap < 0 and not pair.contact:
-                        met.append(self.contacts.meet(pair, nx, ny, gap))
+            x, y, far = body.x - body.last_x, body.y - body.last_y, FAR * body.r
+            if x * x + y * y > far * far:
+                body.is_thrown = True
+                thrown.append(body)
+        if not thrown:
+            return
+        met = []
+        for pair in self.contacts.broad_phase.pairs:
+            if (pair.a.is_thrown or pair.b.is_thrown) and pair.contact is None and pair.b.r:
+                nx, ny, gap = collide(pair.a, pair.b)
+                if gap < 0 and pair.b.inv_mass:
+                    met.append(self.contacts.meet(pair, nx, ny, gap))
+        for body in thrown:
+            body.is_thrown = False
         self.met += met
         for c in met:
             self.look(c, is_new=True)
-
-    def strangers_of(self, body: Body) -> list[Pair]:
-        """Return the pairs of a ball with other balls near it that it does not touch.
-
-        If it flew through a static body, Contacts.finish takes it back.
-        """
-        if not self.strangers:
-            for pair in self.contacts.broad_phase.pairs:
-                if pair.b.inv_mass and not pair.contact:
-                    self.strangers.setdefault(pair.a, []).append(pair)
-                    self.strangers.setdefault(pair.b, []).append(pair)
-        return self.strangers.get(body, [])
 
     def find_faces(self) -> None:
         """Find the contacts at flat faces, and the faces that bear balls."""
