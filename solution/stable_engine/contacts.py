@@ -562,7 +562,8 @@ class Contacts(Effect):
                 c.jt *= left
 
     def body_moved(self, body: Body) -> None:
-        """Look for near pairs anew."""
+        """Look for near pairs anew. Nobody flew to where a program has put the body."""
+        self.flown.pop(body, None)
         self.broad_phase.bounds = []
 
     def static_moved(self, body: Body) -> None:

@@ -231,10 +231,11 @@ class Impacts:
         self, group: list[Contact], hit: list[Body], ago: float, frames: list[Frame]
     ) -> None:
         """Move bodies back to the touch, some seconds ago. Resolve it, and let them fly on."""
-        walls = [(c.b, c.b.x, c.b.y) for c in group if c.b.is_static]
+        walls: dict[Body, tuple[float, float]] = {}
         for c in group:
-            if c.b.is_static:
-                back = (c.b.vx * c.nx + c.b.vy * c.ny) * ago
+            if c.b.is_static and c.b not in walls:
+                walls[c.b] = c.b.x, c.b.y
+                back = (c.b.vx * c.nx + c.b.vy * c.ny) * ago  # the way of a belt does not count
                 c.b.x -= c.nx * back
                 c.b.y -= c.ny * back
         self.flight.moved = set(hit)
@@ -242,7 +243,7 @@ class Impacts:
         for c in group:
             self.look_where(c)
         self.resolve(group, frames)
-        for wall, x, y in walls:
+        for wall, (x, y) in walls.items():
             wall.x, wall.y = x, y
         self.flight.fly_on(hit, ago)
         self.flight.moved = set()
