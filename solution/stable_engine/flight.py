@@ -10,7 +10,7 @@ from .springs import Spring, Springs, State
 from .sweep import first_hit
 
 STIFF = 0.25  # a spring is stiff if (omega dt)² and its damping in a step are more than this
-BEFORE = 0.01  # radii between a bullet and a wall, so that the next step finds the contact
+BEFORE = 0.01  # radii between a ball and a wall, so that the next step finds the contact
 
 
 class Flight:
@@ -27,7 +27,7 @@ class Flight:
         self.h = h  # s, of a substep
         self.dt = dt = contacts.last_dt  # s, of the step in which balls touched
         self.held: set[Body] = set()  # balls at static bodies that cannot go back
-        self.cut_short: set[Body] = set()  # bullets that a wall stopped
+        self.cut_short: set[Body] = set()  # balls that a wall stopped on their way
         self.walls: dict[Body, list[Body]] = {}  # at which a ball is: it may fly into them
         self.bearing: dict[Body, list[Contact]] = {}  # at faces that bear a ball
         self.frame_of: dict[Body, Frame] = {}
@@ -71,8 +71,11 @@ class Flight:
         """Return whether a frame can be moved back: it hangs on one rod, or flies freely."""
         if frame.hangs:
             return body in self.pivots and not body.is_bullet
-        odd = self.held | self.springs_of.keys() | self.bearing.keys() | self.world.forces.keys()
-        return not any([b.is_bullet or b in odd or self.swings(b) for b in frame.balls])
+        odd = self.held, self.springs_of, self.bearing, self.world.forces
+        for ball in frame.balls:
+            if ball.is_bullet or any([ball in some for some in odd]) or self.swings(ball):
+                return False
+        return True
 
     def fly_on(self, hit: list[Body], seconds: float) -> None:
         """Let balls fly on for a time, or back. One that flies far stops before a wall."""
@@ -160,7 +163,7 @@ class Flight:
         return x, y
 
     def pull(self, c: Contact) -> tuple[float, float]:
-        """Return gravity into a static surface (px/s²), negative at a ceiling.
+        """Return the acceleration (px/s²) with which A and B are drawn together, below 0 apart.
 
         Also return by how much (px/s) a velocity lags behind the position: with semi-implicit
         Euler half a substep.

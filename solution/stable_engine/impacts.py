@@ -18,8 +18,6 @@ PASSES = 200  # of the solver for impacts at one moment
 WORK = 4000  # contacts, over all passes of the solver for one large group
 ARC = 1.1  # ratio by which the touch may lie further back for flights on an arc
 SAME = 1e-9  # share by which equal times and speeds may differ
-STIFF = 0.25  # a spring is stiff if (omega dt)² and its damping in a step are more than this
-BEFORE = 0.01  # radii between a bullet and a wall, so that the next step finds the contact
 FIXED = 1e-6  # share of an impulse that moves a ball which rods hold still
 CONVERGED = 1e-14  # share of an impulse; the last pass changes it by less
 
@@ -114,7 +112,8 @@ class Impacts:
         In that time it may have been hit, so this has slack for a fall.
         """
         g, lag = self.flight.pull(c)
-        speed = (self.speed_at_touch(c) + c.closing_speed() + lag) / 2
+        closing = c.closing_speed()
+        speed = (speed_at_touch(c, closing, g, lag) + closing + lag) / 2
         deeper = -c.gap - speed * since
         if c.gap >= 0 or deeper > self.touching_gap + abs(g) * since * since:
             return 0.0
@@ -356,8 +355,9 @@ class Impacts:
         """
         slow = self.island_of(body, reached)
         hit = balls_of(slow)
-        free = self.free - self.flight.cut_short
-        if len(slow) < 2 or not free.issuperset(hit):
+        if len(slow) < 2 or not self.free.issuperset(hit):
+            return
+        if not self.flight.cut_short.isdisjoint(hit):
             return
         self.flight.fly_on(hit, -ago)
         for c in slow:
@@ -400,21 +400,15 @@ class Impacts:
 
         Also return the share of the impulse without the speed gained below the surface.
         """
-        closing, crossing = c.closing_speed(), self.speed_at_touch(c)
-        e = c.e if bounces else 0.0
+        closing, e = c.closing_speed(), c.e if bounces else 0.0
         g, lag = self.flight.pull(c)
         if g == 0:
             return e * closing, 1.0
+        crossing = speed_at_touch(c, closing, g, lag)
         gap = c.gap if abs(c.gap) > self.touching_gap else 0.0
         parting = sqrt(max(e * e * crossing * crossing - 2 * g * gap, 0.0)) + lag
         whole = parting + closing
         return parting, min((1 + e) * crossing / whole, 1.0) if whole > 0 else 1.0
-
-    def speed_at_touch(self, c: Contact) -> float:
-        """Return how fast (px/s) a pair came together when it touched."""
-        g, lag = self.flight.pull(c)
-        speed = c.closing_speed() + lag
-        return sqrt(max(speed * abs(speed) + 2 * g * c.gap, 0.0)) if g else speed
 
     def resolve(
         self, group: list[Contact], frames: list[Frame], bounces: bool = True, turns: int = 1
@@ -462,6 +456,12 @@ class Hit:
                 share = before - c.closing_speed()
         if share > FIXED:
             self.mass = c.mn / share
+
+
+def speed_at_touch(c: Contact, closing: float, g: float, lag: float) -> float:
+    """Return how fast (px/s) a pair came together when it touched; g and lag: see Flight.pull."""
+    speed = closing + lag
+    return sqrt(max(speed * abs(speed) + 2 * g * c.gap, 0.0)) if g else speed
 
 
 def press(hits: list[Hit], frames: list[Frame]) -> bool:
