@@ -37,7 +37,8 @@ to `right/TODO.toml`, with `why`, and `change` or `code`. The other members:
   mini_engine.py there replaces the package.
 - `hostile/8a.toml` holds attacks in TODO 8a: `code`, or `tries` if the answer is right unless the
   attack raises OSError. They lose TODO 8a unless `loses` names something else. With the `numbers`
-  of a system call on x86_64 and aarch64, `tries` can `call(number, ...)` it.
+  of a system call on x86_64 and aarch64, `tries` can `call(number, ...)` it. One that does more
+  than the system refuses `lasts`: `verify` then runs all later checks after it.
 - `bank.toml` has the marks of members without a TOML.
 - `ladders/TODO.toml` holds the rungs of a ladder, lowest first (see ladders.py).
 """
@@ -161,6 +162,12 @@ class Attack(Entry, frozen=True):
     loses: tuple[str, ...] = (ATTACKED,)
     tries: str = ""  # imports, an empty line, and code that must raise OSError
     numbers: tuple[int, int] | None = None  # of the system call that `tries` makes
+    lasts: bool = False  # whether it works in other ways before it raises OSError
+
+    @property
+    def only_tries(self) -> bool:
+        """Return whether it does nothing outside its process if the system refuses it."""
+        return bool(self.tries) and not self.lasts
 
     def rewrite(self, usual: str) -> str:
         if not self.tries:

@@ -21,14 +21,14 @@ from rich.table import Table
 
 from grader.bank.halfway import Halfway, list_states
 from grader.bank.ladders import Ladder, list_ladders
-from grader.bank.members import Attack, Entry, Member, list_members
+from grader.bank.members import ATTACKED, Attack, Entry, Member, list_members
 from grader.bank.store import Store
 from grader.bank.sync import sync
 from grader.bank.traces import watch_traces
 from grader.errors import Stop
 from grader.judge.course import FULL, Course
 from grader.judge.grade import grade
-from grader.judge.passed import PASSED, PassedBefore, PassedPrograms
+from grader.judge.passed import PASSED, KnownPrograms, PassedBefore, PassedPrograms
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.judge.task import KIT, Options, shipped_reference
@@ -262,11 +262,8 @@ def grade_member(
 ) -> Verdict:
     """Grade it on all TODOs that may judge it, or on those in `only`.
 
-    Programs that have `passed` are not run again, except from the first hostile line on: an attack
-    begins in the checks of its TODO, other hostile programs with their import.
+    Programs that have `passed` are not run again; see `grade_submission`.
     """
-    if member.kind == "hostile" and passed:
-        passed = PassedBefore(passed) if isinstance(member.entry, Attack) else None
     with tempfile.TemporaryDirectory(prefix="bank-") as folder:
         submission = Path(folder).resolve() / member.name
         try:
@@ -291,13 +288,46 @@ def grade_member(
                         course=member.course,
                         passed=passed,
                     )
-                    result = grade(submission, options, shared)
+                    result = grade_submission(member, submission, options, shared)
         except Exception as error:  # a crash of the judge is the worst verdict
             text = f"the judge fell over: {type(error).__name__}: {error}"
             return Verdict(member, None, time.monotonic() - start, text)
         seconds = time.monotonic() - start
         complaint = find_complaint(member, result, seconds) or traces.complaint
         return Verdict(member, result, seconds, complaint)
+
+
+def grade_submission(
+    member: Member, submission: Path, options: Options, worker: Worker | None
+) -> Result:
+    """Grade a member that was built; run no program that has passed, unless it may be affected.
+
+    The first hostile line may affect all that runs after it: an attack begins in the checks of its
+    TODO, other hostile programs with their import. An attack that was refused has changed nothing.
+    """
+    passed = options.passed
+    if member.kind != "hostile" or passed is None:
+        return grade(submission, options, worker)
+    if not isinstance(member.entry, Attack):
+        return grade(submission, replace(options, passed=None), worker)
+    if member.entry.only_tries:
+        result = grade(submission, replace(options, passed=KnownPrograms(passed)), worker)
+        if list_answers(result) == answers_if_refused():
+            return result
+    return grade(submission, replace(options, passed=PassedBefore(passed)), worker)
+
+
+@cache
+def answers_if_refused() -> list[str]:
+    """Return what the checks get from an attack that was refused: its program stands still."""
+    still = Member("hostile", "stands-still", "package", Attack(code="return x, v"), None)
+    result = grade_member(still, frozenset({ATTACKED}), None).result
+    return list_answers(result) if result else []
+
+
+def list_answers(result: Result) -> list[str]:
+    """Return what the checks of the attacked TODO got."""
+    return [each.got for todo in result.todos if todo.id == ATTACKED for each in todo.checks]
 
 
 def find_complaint(member: Member, result: Result, seconds: float) -> str:

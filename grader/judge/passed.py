@@ -38,19 +38,24 @@ class PassedPrograms:
         (self.folder / key).touch()
 
 
-class PassedBefore(PassedPrograms):
-    """The programs that have passed, up to the first that has not: it may affect all after it."""
+class KnownPrograms(PassedPrograms):
+    """The programs that have passed; no program is added."""
 
     def __init__(self, programs: PassedPrograms) -> None:
         super().__init__(programs.folder)
-        self.over = False
+
+    def add(self, key: str) -> None:
+        """Remember nothing."""
+
+
+class PassedBefore(KnownPrograms):
+    """The programs that have passed, up to the first that has not: it may affect all after it."""
+
+    over = False
 
     def holds(self, key: str) -> bool:
         self.over = self.over or not super().holds(key)
         return not self.over
-
-    def add(self, key: str) -> None:
-        """Remember nothing."""
 
 
 PASSED = PassedPrograms(Path(__file__).parents[2] / "build" / "passed")

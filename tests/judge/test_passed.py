@@ -6,12 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from grader.bank.members import list_members
+from grader.bank.members import Attack, Entry, Member, list_members
 from grader.bank.verify import grade_member, shared_worker
 from grader.judge.grade import grade
+from grader.judge.jobs import Job
 from grader.judge.passed import PassedBefore, PassedPrograms, program_key, without_bodies
 from grader.judge.reference import Reference
 from grader.judge.rubric import load_rubric
+from grader.judge.running import Outcome, Runner
 from grader.judge.submission import take_in
 from grader.judge.task import KIT, Options, shipped_reference
 from grader.source.definitions import Function
@@ -109,6 +111,35 @@ def test_programs_are_known_up_to_the_first_that_is_new(tmp_path: Path):
     assert [before.holds(key) for key in "aba"] == [True, False, False]
     before.add("b")
     assert not passed.holds("b") and passed.holds("c")
+
+
+@pytest.mark.parametrize(
+    ("attack", "after"),
+    [
+        (Attack(tries="import os\n\nraise OSError(os.name)"), []),
+        (Attack(tries="import os\n\nraise OSError(os.name)", lasts=True), ["8b"]),
+        (Attack(tries="import os\n\nos.getpid()"), ["8b"]),
+        (Attack(code="raise OSError"), ["8b"]),
+    ],
+    ids=["refused", "lasts", "not refused", "raises"],
+)
+def test_later_checks_run_unless_an_attack_was_refused(
+    attack: Attack, after: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    passed = PassedPrograms(tmp_path / "passed")
+    right = Member("right", "solution", "package", Entry(), None)
+    assert grade_member(right, TODOS, passed).complaint == ""
+    ran, run = [], Runner.run
+
+    def note(self: Runner, job: Job) -> Outcome:
+        ran.append(job.todo.id)
+        return run(self, job)
+
+    monkeypatch.setattr(Runner, "run", note)
+    member = Member("hostile", "attacks", "package", attack, None)
+    with_memory = grade_member(member, TODOS, passed)
+    assert sorted({*ran} - {"8a"}) == after
+    assert with_memory.result == grade_member(member, TODOS, None).result
 
 
 @pytest.mark.soak
