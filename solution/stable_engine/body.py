@@ -13,6 +13,7 @@ from .shapes import Box, Circle, Segment
 from .validate import finite, not_negative, number, pair, refuse, require
 
 RESTITUTION, FRICTION = 0.3, 0.6  # where none is given
+State = tuple[float, float, float, float]  # position (px) and velocity (px/s) of a body
 LEAST = 1e-100  # kg and kg px²: far below, and far above its inverse, floats run out of range
 
 
@@ -356,3 +357,8 @@ class Body:
             pair("Body.vel", (self.vx, self.vy))
             finite("Body.angle", self.angle)
             finite("Body.omega", self.w)
+
+
+def state_of(body: Body) -> State:
+    """Return the position (px) and velocity (px/s) of a body."""
+    return body.x, body.y, body.vx, body.vy

@@ -1,15 +1,16 @@
 """Contacts: bodies do not pass through each other."""
 
 from collections.abc import Callable
-from math import inf, sqrt
+from math import hypot, inf, sqrt
 
-from .body import Body
+from .body import Body, State, state_of
 from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, the_way_it_came
 from .effect import Effect, WorldState
 from .order import Group, give_places, in_same_place, put_in_order, solve_ties
 from .soft import SAME_DIRECTION, Pace, softness
-from .sweep import NO_HIT, first_hit, moment_of_touch, stop_at_first_hit
+from .springs import Springs
+from .sweep import NO_HIT, first_hit, moment_of_touch, put_back
 from .validate import refuse
 
 FREQUENCY = 0.24  # of a contact of two balls, per substep; against a static body it is doubled
@@ -47,7 +48,7 @@ class Contacts(Effect):
     __slots__ = (
         *("on_hit", "on_part", "hits", "parted", "touching", "begun", "changed", "lets_none_pass"),
         *("friction_warms", "last_dt", "flown", "hit_ago", "stopped", "broad_phase", "crowd"),
-        "beside_static",
+        *("beside_static", "ends", "springs"),
         *("balls", "statics", "groups", "beginnings", "is_mirrored", "unpaired", "ignored", "pace"),
         *("h", "touching_gap", "slow", "max_push_speed", "begin_contact_hooks"),
     )
@@ -71,6 +72,8 @@ class Contacts(Effect):
         self.flown: dict[Body, float] = {}
         self.hit_ago: dict[Body, float] = {}  # s, since the last impact of a ball in this step
         self.stopped: dict[Body, float] = {}  # s, into the step, until a static body stopped it
+        # of a stopped ball: where it is, and where it would be
+        self.ends: dict[Body, tuple[State, State]] = {}
         self.broad_phase = BroadPhase()
         self.crowd: dict[Contact, None] = {}  # of balls that part_crowd separates
         self.beside_static: dict[Body, None] = {}  # balls that are near static bodies
@@ -89,6 +92,8 @@ class Contacts(Effect):
         self.slow = SPECULATIVE_SPEED * world.unit  # px/s
         self.max_push_speed = MAX_PUSH_SPEED * world.unit  # px/s
         self.begin_contact_hooks = world.hooks("begin_contact")
+        springs = world.effects.get("Springs")
+        self.springs = springs if isinstance(springs, Springs) else None
 
     def detect(self, h: float) -> None:
         world, phase, dt = self.world, self.broad_phase, h * self.world.substep_count
@@ -410,6 +415,7 @@ class Contacts(Effect):
         self.flown = {body: ago + self.last_dt for body, ago in self.hit_ago.items()}
         self.hit_ago = {}
         self.stopped = {}
+        self.ends = {}
         for one in self.broad_phase.find_leavers(self.last_dt):
             if self.world.statics:
                 if not one.near:
@@ -511,18 +517,34 @@ class Contacts(Effect):
     def sweep(
         self, body: Body, start: tuple[float, float], radius: float, overlap: float, h: float
     ) -> None:
-        """Stop a ball at the first static body on its way from `start`; skip ignored ones.
+        """Stop a ball of this radius at the first static body on its way from `start`, if any.
 
-        See stop_at_first_hit.
+        There it overlaps by `overlap` px: the next step finds the contact and resolves the impact.
         """
         statics = self.world.statics
         if self.ignored:
             statics = [s for s in statics if pair_number(body, s) not in self.ignored]
-        fraction = stop_at_first_hit(body, start, radius, overlap, statics, self.world.g, h)
+        x, y = start
+        way = body.x - x, body.y - y
+        fraction = first_hit(statics, radius, x, y, *way)
+        if fraction < NO_HIT:
+            fraction += overlap / hypot(*way)
         if fraction < 1:
+            end = state_of(body)
+            put_back(body, way, fraction, self.pull, h)
+            if not body.is_bullet:
+                self.ends[body] = state_of(body), self.ends.get(body, (end, end))[1]
             before = self.stopped.get(body, self.last_dt)
             self.stopped[body] = fraction * before
             self.flown[body] = self.flown.get(body, self.last_dt) - (1 - fraction) * before
+
+    def pull(self, body: Body) -> tuple[float, float]:
+        """Return the acceleration of a body (px/s²) by gravity, forces and soft springs."""
+        x, y = self.world.acceleration(body)
+        if self.springs and body.joint_count:
+            by_x, by_y = self.springs.pull(body, self.h)
+            x, y = x + by_x, y + by_y
+        return x, y
 
     def all_contacts(self) -> list[Contact]:
         """Return all contacts, also those between sleeping bodies."""

@@ -30,6 +30,14 @@ class WorldState(Listeners):
         """Return the length of a pixel in the lengths of the scene."""
         raise NotImplementedError
 
+    def acceleration(self, body: Body) -> tuple[float, float]:
+        """Return the acceleration (px/s²) of a ball by gravity and by forces on it alone."""
+        x, y = self.g
+        if body in self.forces:
+            fx, fy, _ = self.forces[body]
+            x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
+        return x, y
+
     def remove(self, thing: Any) -> None:
         """Take a body or joint out: see World.remove."""
         raise NotImplementedError

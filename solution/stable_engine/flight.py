@@ -2,14 +2,13 @@
 
 from math import cos, hypot, sin
 
-from .body import Body
+from .body import Body, state_of
 from .contact import Contact
 from .contacts import CORE, Contacts
 from .rods import Frame, Rods
-from .springs import Spring, Springs, State
+from .springs import Spring, Springs
 from .sweep import first_hit
 
-STIFF = 0.25  # a spring is stiff if (omega dt)² and its damping in a step are more than this
 BEFORE = 0.01  # radii between a ball and a wall, so that the next step finds the contact
 
 
@@ -25,7 +24,7 @@ class Flight:
         self.contacts = contacts
         self.world = contacts.world
         self.h = h  # s, of a substep
-        self.dt = dt = contacts.last_dt  # s, of the step in which balls touched
+        self.dt = contacts.last_dt  # s, of the step in which balls touched
         self.held: set[Body] = set()  # balls at static bodies that cannot go back
         self.cut_short: set[Body] = set()  # balls that a wall stopped on their way
         self.walls: dict[Body, list[Body]] = {}  # at which a ball is: it may fly into them
@@ -39,7 +38,10 @@ class Flight:
         self.springs_of: dict[Body, list[Spring]] = {}
         self.stiff: set[Body] = set()  # bodies whose springs swing too fast to follow
         if springs:
-            self.springs_of, self.stiff = find_springs(springs, dt)
+            springs.find_networks()
+            self.springs_of = springs.springs_of
+            stiff = [spring for spring in springs.awake if spring.is_stiff(h)]
+            self.stiff = {body for spring in stiff for body in (spring.end_a, spring.end_b)}
         # of bodies on springs: mirrored impacts, resolved in turn, must not see each other's moves
         self.before = {body: state_of(body) for body in self.springs_of}
         self.moved: set[Body] = set()  # by the present impact
@@ -85,7 +87,7 @@ class Flight:
             flying: dict[Frame, None] = {}
             for body in hit:
                 if body in self.pivots:
-                    swing(body, self.pivots[body], seconds)
+                    self.swing(body, seconds)
                 elif body in self.frame_of:
                     flying[self.frame_of[body]] = None
             for frame in flying:
@@ -94,12 +96,13 @@ class Flight:
             for body in free:
                 self.fly_ball(body, *self.acceleration(body), seconds)
             return
-        before = [self.acceleration(body) for body in free]
-        times = [self.fly_ball(body, *a, seconds) for body, a in zip(free, before, strict=True)]
-        for body, (ax, ay), time in zip(free, before, times, strict=True):
-            now_x, now_y = self.acceleration(body)
-            body.vx += (now_x - ax) * (time - self.h) / 2
-            body.vy += (now_y - ay) * (time - self.h) / 2
+        parts = self.world.substep_count  # as the pull of springs changes on the way
+        for _ in range(parts):
+            before = [self.acceleration(body) for body in free]
+            pairs = list(zip(free, before, strict=True))
+            times = [self.fly_ball(body, *a, seconds / parts) for body, a in pairs]
+            for (body, a), time in zip(pairs, times, strict=True):
+                self.adjust(body, *a, time)
 
     def fly_ball(self, body: Body, ax: float, ay: float, seconds: float) -> float:
         """Let a ball fly on under an acceleration (px/s²). Return for how long (s) it could."""
@@ -120,6 +123,25 @@ class Flight:
         body.vx += ax * seconds
         body.vy += ay * seconds
         return seconds
+
+    def adjust(self, body: Body, ax: float, ay: float, seconds: float) -> None:
+        """Adjust a velocity to the acceleration now, after a flight with that at its start."""
+        now_x, now_y = self.acceleration(body)
+        body.vx += (now_x - ax) * (seconds - self.h) / 2
+        body.vy += (now_y - ay) * (seconds - self.h) / 2
+
+    def swing(self, body: Body, seconds: float) -> None:
+        """Turn a ball about the pivot of its rod for a time, or back."""
+        pivot, (ax, ay) = self.pivots[body], self.acceleration(body)
+        x, y = body.x - pivot.x, body.y - pivot.y
+        mean = (self.h + seconds) / 2
+        turn = (x * (body.vy + ay * mean) - y * (body.vx + ax * mean)) / (x * x + y * y or 1.0)
+        c, s = cos(turn * seconds), sin(turn * seconds)
+        vx, vy = body.vx + ax * seconds, body.vy + ay * seconds
+        body.x, body.y = pivot.x + c * x - s * y, pivot.y + s * x + c * y
+        body.vx, body.vy = c * vx - s * vy, s * vx + c * vy
+        body.angle += body.w * seconds
+        self.adjust(body, c * ax - s * ay, s * ax + c * ay, seconds)
 
     def fly_frame(self, frame: Frame, seconds: float) -> None:
         """Let a frame fly and turn for a time, or back, as if it were rigid."""
@@ -145,17 +167,18 @@ class Flight:
         """Return the acceleration of a body (px/s²) between impacts."""
         if body.is_static:
             return 0.0, 0.0
-        if self.is_simple and body not in self.bearing:
+        if self.is_simple and not (body in self.bearing or body in self.pivots):
             return self.world.g
-        x, y = self.world.g
-        if body in self.world.forces:
-            fx, fy, _ = self.world.forces[body]
-            x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
+        x, y = self.world.acceleration(body)
         for spring in self.springs_of.get(body, []) if body not in self.stiff else []:
             other = spring.end_b if body is spring.end_a else spring.end_a
             there = state_of(other) if other in self.moved else self.before[other]
             fx, fy = spring.pull_between(state_of(body), there)
             x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
+        if body in self.pivots:
+            rod_x, rod_y = body.x - self.pivots[body].x, body.y - self.pivots[body].y
+            share = (x * rod_x + y * rod_y) / (rod_x * rod_x + rod_y * rod_y or 1.0)
+            x, y = x - share * rod_x, y - share * rod_y
         for c in self.bearing.get(body, []):
             into = x * c.nx + y * c.ny
             if into > 0:
@@ -168,7 +191,7 @@ class Flight:
         Also return by how much (px/s) a velocity lags behind the position: with semi-implicit
         Euler half a substep.
         """
-        if self.is_simple and not (c.b.is_static or self.bearing):
+        if self.is_simple and not (c.b.is_static or self.bearing or self.pivots):
             return 0.0, 0.0
         (ax, ay), (bx, by) = self.acceleration(c.a), self.acceleration(c.b)
         g = (ax - bx) * c.nx + (ay - by) * c.ny
@@ -183,32 +206,3 @@ def find_pivots(rods: Rods) -> dict[Body, Body]:
             if pivot.is_static and not pivot.is_kinematic and ball.joint_count == 1:
                 pivots[ball] = pivot
     return pivots
-
-
-def state_of(body: Body) -> State:
-    """Return the position (px) and velocity (px/s) of a body."""
-    return body.x, body.y, body.vx, body.vy
-
-
-def find_springs(springs: Springs, dt: float) -> tuple[dict[Body, list[Spring]], set[Body]]:
-    """Return the springs of each body, and the bodies whose springs swing too fast to follow."""
-    springs.find_networks()
-    found: dict[Body, list[Spring]] = {}
-    stiff: set[Body] = set()
-    for spring in springs.awake:
-        ends = spring.end_a, spring.end_b
-        if (spring.crowd * dt + spring.c / spring.m) * dt > STIFF:
-            stiff.update(ends)
-        for body in ends:
-            found.setdefault(body, []).append(spring)
-    return found, stiff
-
-
-def swing(body: Body, pivot: Body, seconds: float) -> None:
-    """Turn a ball about the pivot of its rod at its speed for a time, or back."""
-    x, y = body.x - pivot.x, body.y - pivot.y
-    angle = (x * body.vy - y * body.vx) / (x * x + y * y) * seconds
-    c, s = cos(angle), sin(angle)
-    body.x, body.y = pivot.x + c * x - s * y, pivot.y + s * x + c * y
-    body.vx, body.vy = c * body.vx - s * body.vy, s * body.vx + c * body.vy
-    body.angle += body.w * seconds

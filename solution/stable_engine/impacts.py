@@ -2,7 +2,7 @@
 
 from math import hypot, sqrt
 
-from .body import Body
+from .body import Body, State, state_of
 from .contact import Contact, collide, is_at_face
 from .contacts import CORE, FAR, Contacts
 from .flight import Flight
@@ -64,8 +64,40 @@ class Impacts:
     def find(self) -> None:
         """Find all impacts. For a new contact, the moment of its touch counts."""
         self.find_faces()
+        if self.contacts.ends:
+            self.let_pass()
         for c in self.touching:
             self.look(c, c in self.begun)
+
+    def let_pass(self) -> None:
+        """Let balls that a face stopped fly on to the end of the step, if they will bounce off it.
+
+        They are moved back to the touch from there, so no time is lost.
+        """
+        self.link()
+        contacts = self.contacts
+        for body, (stop, end) in contacts.ends.items():
+            walls = [c for c in self.beside.get(body, []) if c.b.is_static]
+            is_free = bool(walls) and self.faces.keys() >= set(walls)
+            if is_free and state_of(body) == stop:
+                flown = contacts.flown[body]
+                contacts.flown[body] = flown + contacts.last_dt - contacts.stopped[body]
+                self.put(body, end)
+                for c in walls:
+                    self.look(c, c in self.begun)
+                known = [c for c in walls if c in self.due and self.due[c].ago > 0]
+                others = [c for c in walls if c not in known]
+                if not known or any([self.is_deeper(c) for c in others]):
+                    contacts.flown[body] = flown
+                    self.put(body, stop)
+
+    def put(self, body: Body, state: State) -> None:
+        """Put a ball that nothing has hit yet elsewhere."""
+        body.x, body.y, body.vx, body.vy = state
+        if body in self.flight.before:
+            self.flight.before[body] = state
+        for c in self.beside[body]:
+            self.look_where(c)
 
     def look(self, c: Contact, is_new: bool = False) -> None:
         """Note an impact if the pair closes in fast."""
@@ -268,6 +300,10 @@ class Impacts:
             c.a.y -= c.ny * up
             c.gap = c.found = c.gap + up
 
+    def is_deeper(self, c: Contact) -> bool:
+        """Return whether a ball is deeper in a face than it was at first."""
+        return c.gap < min(self.depths[c], 0.0) - self.touching_gap
+
     def look_where(self, c: Contact) -> None:
         """Find normal and gap of a contact anew. A ball stays on its side of a face."""
         nx, ny, gap = collide(c.a, c.b)
@@ -406,7 +442,8 @@ class Impacts:
             return e * closing, 1.0
         crossing = speed_at_touch(c, closing, g, lag)
         gap = c.gap if abs(c.gap) > self.touching_gap else 0.0
-        parting = sqrt(max(e * e * crossing * crossing - 2 * g * gap, 0.0)) + lag
+        most = (closing + lag) * (closing + lag)
+        parting = sqrt(max(min(e * e * crossing * crossing - 2 * g * gap, most), 0.0)) + lag
         whole = parting + closing
         return parting, min((1 + e) * crossing / whole, 1.0) if whole > 0 else 1.0
 

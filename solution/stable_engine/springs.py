@@ -2,15 +2,14 @@
 
 from math import hypot
 
-from .body import Body
+from .body import Body, State, state_of
 from .joint import Joint, Joints
 from .network import Network, connect
 from .validate import not_negative
 
 NUMEROV = 1 / 12  # of how the stretch curves in a substep: see Springs
+STIFF = 0.25  # a spring is stiff if (omega h)² and its damping in a substep are more than this
 LEAST_DRAG = 1e-12  # share of the mass: a spring without drag would have no row in the network
-
-State = tuple[float, float, float, float]  # position (px) and velocity (px/s) of a body
 
 
 class Spring(Joint):
@@ -69,6 +68,10 @@ class Spring(Joint):
         self.c = not_negative("Spring.damping", value)
         self.changed()
 
+    def is_stiff(self, h: float) -> bool:
+        """Return whether it, with all springs at its ends, swings too fast for substeps of h s."""
+        return (self.crowd * h + self.c / self.m) * h > STIFF
+
     def pull_between(self, here: State, there: State) -> tuple[float, float]:
         """Return the force (kg px/s²) on an end with the state `here`, the other being `there`."""
         dx, dy, vx, vy = [b - a for a, b in zip(here, there, strict=True)]
@@ -91,12 +94,13 @@ class Springs(Joints[Spring]):
     change of its speed counts as extra stretch: Numerov's method, with an error of h⁴.
     """
 
-    __slots__ = ("is_stale", "networks")
+    __slots__ = ("is_stale", "networks", "springs_of")
     rank = 1
 
     def __init__(self) -> None:
         super().__init__()
         self.networks: list[Network[Spring]] = []
+        self.springs_of: dict[Body, list[Spring]] = {}
         self.is_stale = False
 
     def add(self, spring: Spring) -> None:
@@ -125,12 +129,23 @@ class Springs(Joints[Spring]):
 
     def find_crowds(self) -> None:
         """Find how fast each spring may swing, with all springs at its ends."""
-        sums: dict[Body, float] = {}
+        self.springs_of = {}
         for spring in self.awake:
             for body in (spring.end_a, spring.end_b):
-                sums[body] = sums.get(body, 0.0) + spring.k * body.inv_mass
+                self.springs_of.setdefault(body, []).append(spring)
+        sums = {end: sum([s.k for s in at]) * end.inv_mass for end, at in self.springs_of.items()}
         for spring in self.awake:
             spring.crowd = sums[spring.end_a] + sums[spring.end_b]
+
+    def pull(self, body: Body, h: float) -> tuple[float, float]:
+        """Return the acceleration (px/s²) of a body by its springs that are not stiff."""
+        x = y = 0.0
+        for spring in self.springs_of.get(body, []):
+            if not spring.is_stiff(h):
+                other = spring.end_b if body is spring.end_a else spring.end_a
+                fx, fy = spring.pull_between(state_of(body), state_of(other))
+                x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
+        return x, y
 
     def warm_start(self, h: float) -> None:
         for spring in self.awake:

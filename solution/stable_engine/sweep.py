@@ -1,6 +1,7 @@
 """Continuous collision detection: find where a ball's flight first hits a static body."""
 
-from math import copysign, hypot, sqrt
+from collections.abc import Callable
+from math import copysign, sqrt
 
 from .body import Body
 from .shapes import Segment
@@ -8,37 +9,29 @@ from .shapes import Segment
 NO_HIT = 1.0
 
 
-def stop_at_first_hit(
+def put_back(
     body: Body,
-    start: tuple[float, float],
-    radius: float,
-    overlap: float,
-    statics: list[Body],
-    gravity: tuple[float, float],
+    way: tuple[float, float],
+    fraction: float,
+    pull: Callable[[Body], tuple[float, float]],
     h: float,
-) -> float:
-    """Put a ball back to its first hit with a static body on its way from start, if any.
+) -> None:
+    """Put a ball back to where it was after this fraction of its way (px) in a step.
 
-    Return the fraction of the way to the hit.
-
-    The step counts as one straight flight of a ball of this radius (px). There it overlaps
-    by `overlap` px: the next step finds the contact and resolves the impact. It keeps its
-    velocity, less the speed from gravity on the rest of the way.
+    The step counts as one straight flight. The ball keeps its velocity, less the speed gained on
+    the rest of the way by its acceleration: `pull` returns that (px/s²).
     """
-    x, y = start
-    dx, dy = body.x - x, body.y - y
-    fraction = first_hit(statics, radius, x, y, dx, dy)
-    if fraction < NO_HIT:
-        fraction = min(fraction + overlap / hypot(dx, dy), 1.0)
-    if fraction == 1:
-        return 1.0
-    body.x, body.y = x + dx * fraction, y + dy * fraction
-    gx, gy = gravity
-    ux, uy = body.vx + gx * h / 2, body.vy + gy * h / 2  # velocities lag half a substep behind
-    speed2, fallen = ux * ux + uy * uy, 2 * (1 - fraction) * (gx * dx + gy * dy)  # px²/s²
-    share = sqrt(max(1 - fallen / speed2, 0.0)) if speed2 else 1.0
-    body.vx, body.vy = ux * share - gx * h / 2, uy * share - gy * h / 2
-    return fraction
+    x, y, dx, dy = body.x, body.y, way[0] * (1 - fraction), way[1] * (1 - fraction)
+    pulls = []
+    for part in (0.0, 0.5, 1.0):
+        body.x, body.y = x - dx * part, y - dy * part
+        pulls.append(pull(body))
+    (ax, ay), (mx, my), (bx, by) = pulls
+    ux, uy = body.vx + ax * h / 2, body.vy + ay * h / 2  # velocities lag half a substep behind
+    gained = ((ax + 4 * mx + bx) * dx + (ay + 4 * my + by) * dy) / 3  # px²/s², by Simpson's rule
+    speed2 = ux * ux + uy * uy
+    share = sqrt(max(1 - gained / speed2, 0.0)) if speed2 else 1.0
+    body.vx, body.vy = ux * share - bx * h / 2, uy * share - by * h / 2
 
 
 def moment_of_touch(a: Body, b: Body, dt: float) -> tuple[float, float, float]:

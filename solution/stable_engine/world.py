@@ -222,7 +222,7 @@ class World(WorldState):
         """Add to the force and the torque that act on a body in the next step."""
         if not self.forces:
             self.force_hooks = [*self.hooks("force", busy=True), self.apply_forces]
-            self.finish_hooks = [self.clear_forces, *self.hooks("finish")]
+            self.finish_hooks = [*self.hooks("finish"), self.clear_forces]
         before_x, before_y, before = self.forces.get(body, (0.0, 0.0, 0.0))
         self.forces[body] = before_x + fx, before_y + fy, before + torque
 

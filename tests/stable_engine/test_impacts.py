@@ -138,7 +138,7 @@ def test_a_column_that_falls_on_the_floor_keeps_its_energy(masses, apart):
     assert watch(engine, 10, lambda: total(engine)) == pytest.approx([start] * 1200, rel=1e-9)
 
 
-@pytest.mark.parametrize("fast", [100.0, 300.0, 550.0])
+@pytest.mark.parametrize("fast", [100.0, 300.0, 550.0, 1730.0])
 @pytest.mark.parametrize("degrees", [0, 37])
 def test_a_ball_between_two_walls_is_where_exact_bounces_take_it(fast, degrees):
     """At any phase of the steps: a wall mirrors the way that goes on behind it."""
@@ -184,17 +184,56 @@ def test_a_ball_that_a_force_pushes_bounces_as_high_as_under_such_gravity(push):
     assert highest == pytest.approx(-60, abs=(980 + push) * DT * DT)
 
 
+def energy_on_spring(spring, substeps):
+    """Return the energy of two bodies on a spring: velocities lag half a substep behind."""
+    a, b = spring.a, spring.b
+    pull = spring.stiffness * (b.x - a.x - spring.length)
+    lag = pull * DT / substeps / 2
+    ends = [
+        (body.vx + sign * lag / body.mass, body.mass)
+        for body, sign in ((a, 1), (b, -1))
+        if body.mass
+    ]
+    return sum(mass * fast**2 / 2 for fast, mass in ends) + pull**2 / spring.stiffness / 2
+
+
 def test_two_balls_on_a_spring_that_hit_each_other_keep_their_energy():
-    """The spring pulls while they overlap. 5 %: it pulls by another length there."""
+    """The spring pulls by another length while they overlap, so they are moved back."""
     world = World((0, 0), effects=[Contacts(), Bounce(), Springs()])
     a, b = [world.add(Body(Circle(10), (x, 0), m, **IDEAL)) for x, m in ((-60, 1.0), (60, 2.0))]
-    world.add(Spring(a, b, 60.0, 0.0, 60.0))
-    start = 30.0 * 60**2
+    spring = world.add(Spring(a, b, 60.0, 0.0, 60.0))
+    start = energy_on_spring(spring, world.substeps)
     for _ in range(2400):
         world.step(DT)
-        lag = 60 * (b.x - a.x - 60) * DT / world.substeps / 2
-        fast = (a.vx + lag) ** 2 / 2 + (b.vx - lag / 2) ** 2
-        assert fast + 30 * (b.x - a.x - 60) ** 2 == pytest.approx(start, rel=0.05)
+        assert energy_on_spring(spring, world.substeps) == pytest.approx(start, rel=1e-3)
+
+
+@pytest.mark.parametrize(("stiffness", "length"), [(60.0, 190.0), (60.0, 110.0), (400.0, 190.0)])
+def test_a_ball_that_a_spring_pulls_onto_a_wall_keeps_its_energy(stiffness, length):
+    """It is so fast that the wall stops its core, and the spring still pulls at the wall."""
+    world = World((0, 0), effects=[Contacts(), Bounce(), Springs()])
+    world.add(Body(Box((20, 50)), (-20, 0), **IDEAL))
+    peg = world.add(Body(Circle(5), (-200, 0)))
+    ball = world.add(Body(Circle(10), (90, 0), 1.0, **IDEAL))
+    spring = world.add(Spring(peg, ball, stiffness, 0.0, length))
+    start, hits = energy_on_spring(spring, world.substeps), 0
+    for _ in range(1200):
+        before = ball.vx
+        world.step(DT)
+        hits += before < 0 < ball.vx
+        assert energy_on_spring(spring, world.substeps) == pytest.approx(start, rel=3e-3)
+    assert hits > 10
+
+
+@pytest.mark.parametrize("degrees", [20, 40, 80])
+def test_a_pendulum_that_bounces_off_a_wall_at_plumb_rises_as_high_as_before(degrees):
+    turn, length = math.radians(degrees), 150.0
+    bob = Ball((-length * math.sin(turn), length * math.cos(turn)), **IDEAL)
+    wall = Block((30, length), (20, 40), **IDEAL)
+    engine = Stable(Scene([Block((0, 0), (1, 1)), wall, bob], (*SMOOTH, "Rods"), [(0, 2)]))
+    heights = watch(engine, 30, lambda: states(engine)[2].y)
+    top = min(heights[-120:])
+    assert top == pytest.approx(length * math.cos(turn), abs=5e-4 * length)
 
 
 def test_a_dense_rain_of_elastic_balls_gains_no_energy():
