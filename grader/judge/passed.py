@@ -10,7 +10,7 @@ import hashlib
 import platform
 import sys
 from collections.abc import Sequence
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 import msgspec
@@ -82,7 +82,7 @@ def program_key(
     for path in program.list_files([module]):
         text, data = program.texts[path], (tree / path).read_bytes()
         as_usual = data == text.encode("utf-8", "replace")  # else another encoding, or CRLF
-        usual = without_bodies(text, replaced.get(path, [])).encode("utf-8", "replace")
+        usual = without_bodies(text, tuple(replaced.get(path, ()))).encode("utf-8", "replace")
         contents[path.as_posix()] = usual if as_usual else data
     for file in tree.rglob("*"):
         if file.is_file() and file.suffix not in (".py", ".ipynb"):
@@ -94,7 +94,8 @@ def program_key(
     return digest.hexdigest()
 
 
-def without_bodies(text: str, functions: Sequence[Function]) -> str:
+@lru_cache(maxsize=256)  # most files of the bank are those of the solution
+def without_bodies(text: str, functions: tuple[Function, ...]) -> str:
     """Return a file's text without the bodies of some functions."""
     lines: list[str | None] = [*text.splitlines()]
     for function in functions:

@@ -97,7 +97,7 @@ def test_other_bytes_are_another_program_even_with_the_same_text(tmp_path: Path)
 
 def test_a_body_of_any_length_leaves_the_lines_of_the_next():
     text = "def f(x):\n    x += 1\n    return x\n\ndef g(x):\n    return 2\n\nend = 3"
-    functions = [Function("f", 1, 3, ("x",)), Function("g", 5, 6, ("x",))]
+    functions = (Function("f", 1, 3, ("x",)), Function("g", 5, 6, ("x",)))
     left = without_bodies(text, functions)
     assert left == "def f(x):\n<the reference's>\n\ndef g(x):\n<the reference's>\n\nend = 3"
     assert without_bodies(text, functions[::-1]) == left
