@@ -259,6 +259,16 @@ class Member:
         return frozenset(wanted | {"whole"} if whole else wanted)
 
     @property
+    def uses_numpy(self) -> bool:
+        """Return whether its code names numpy, which its children then load."""
+        texts = [str(self.entry)]
+        if self.source is not None and self.source.is_dir():
+            texts += map(read_source, python_files(self.source))
+        elif self.source is not None and self.source.suffix == ".py":
+            texts.append(read_source(self.source))
+        return any("numpy" in text for text in texts)
+
+    @property
     def lineage(self) -> Iterator["Member"]:
         """Yield the member itself and the right members that it is based on."""
         yield self

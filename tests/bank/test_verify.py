@@ -192,6 +192,12 @@ def test_members_that_sleep_get_one_more_process(jobs: int, processes: int, monk
     assert len(set(ran)) == processes
 
 
+def test_members_with_numpy_come_last(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(verify, "run_in_processes", lambda run, chosen, jobs, sleeps: chosen)
+    ordered = ["numpy" in member.name for member in verify.grade_all(bank(), 1)]
+    assert sum(ordered[-15:]) == sum(ordered) > 2
+
+
 # ---------------------------------------------------------------- counts
 
 
