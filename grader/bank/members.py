@@ -215,6 +215,21 @@ class Member:
         return frozenset({self.name.partition("-")[0]} if by_edits else ())
 
     @property
+    def is_patch(self) -> bool:
+        """Return whether it is the solution with other code in some regions, given in one file."""
+        entry = self.entry
+        edits = (
+            entry.files,
+            entry.add,
+            entry.copy,
+            entry.remove,
+            entry.everywhere,
+            entry.transform,
+        )
+        one_file = self.source is not None and self.source.suffix == ".py"
+        return one_file and entry.base == "solution" and not any(edits)
+
+    @property
     def is_rung(self) -> bool:
         return self.kind == "ladder" and self.name != CONSTANTS
 

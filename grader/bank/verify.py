@@ -304,15 +304,16 @@ def grade_submission(
 ) -> Result:
     """Grade a member that was built; run no program that has passed, unless it may be affected.
 
-    The first hostile line may affect all that runs after it: an attack begins in the checks of its
-    TODO, other hostile programs with their import. An attack that was refused has changed nothing.
+    The first hostile line may affect all that runs after it: code in regions begins in the checks
+    of its TODO, other hostile code with its import. An attack that was refused has changed nothing.
     """
     passed = options.passed
     if member.kind != "hostile" or passed is None:
         return grade(submission, options, worker)
-    if not isinstance(member.entry, Attack):
+    attack = member.entry if isinstance(member.entry, Attack) else None
+    if attack is None and not member.is_patch:
         return grade(submission, replace(options, passed=None), worker)
-    if member.entry.only_tries:
+    if attack is not None and attack.only_tries:
         result = grade(submission, replace(options, passed=KnownPrograms(passed)), worker)
         if list_answers(result) == answers_if_refused():
             return result

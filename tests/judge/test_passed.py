@@ -142,6 +142,18 @@ def test_later_checks_run_unless_an_attack_was_refused(
     assert with_memory.result == grade_member(member, TODOS, None).result
 
 
+def test_only_hostile_code_in_regions_begins_with_their_checks():
+    hostile = {each.name: each for each in list_members() if each.kind == "hostile"}
+    assert hostile["recurses-forever"].is_patch  # in TODO 8b
+    for name in (
+        "changes-its-answers",
+        "loops-in-every-todo",
+        "not-utf-8",
+        "blows-up-when-compiled",
+    ):
+        assert not hostile[name].is_patch
+
+
 @pytest.mark.soak
 def test_the_bank_gets_the_same_results_without_a_memory(tmp_path: Path):
     """Grade every member, without a time limit."""
