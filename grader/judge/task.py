@@ -119,6 +119,7 @@ class Task:
 def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) -> Sandbox:
     """Return the sandbox of a tree, which cannot reach the grader and the reference."""
     hidden = [str(KIT / "grader"), str(options.reference or KIT / "solution")]
+    wanted = filter(options.wants, load_rubric().todos)
     return Sandbox(
         tree.folder,
         work,
@@ -128,7 +129,7 @@ def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) 
         loads=["numpy"] if tree.uses_numpy else [],
         trusted=options.trusted,
         shown=as_in_reference(tree.folder, options.reference),
-        programs=sorted(load_rubric().modules),
+        programs=sorted({module for todo in wanted for module in todo.modules}),
     )
 
 

@@ -284,6 +284,22 @@ def test_programs_are_compiled_with_the_files_that_they_name(tmp_path: Path):
     assert len(list_sources(tmp_path, [])) == len(files)
 
 
+@pytest.mark.parametrize(
+    ("todos", "programs"),
+    [
+        ("8a", "integrators"),
+        ("4 7a", "mini_engine pymunk_scene"),
+        ("whole", "mini_engine pymunk_scene"),
+    ],
+)
+def test_the_programs_of_the_todos_are_compiled(
+    tmp_path: Path, ask: Asker, todos: str, programs: str
+):
+    options = Options(only=frozenset(todos.split()))
+    sandbox = sandbox_for(Submission("tree", tmp_path), tmp_path, ask.worker, options)
+    assert sandbox.programs == programs.split()
+
+
 @linux
 @forked
 def test_children_read_what_was_compiled_and_cannot_write_it(tmp_path: Path, ask: Asker):
