@@ -2,7 +2,7 @@
 
 from math import cos, hypot, sin
 
-from .body import Body, state_of
+from .body import Body, State, state_of
 from .contact import Contact
 from .contacts import CORE, Contacts
 from .rods import Frame, Rods
@@ -44,7 +44,12 @@ class Flight:
             self.stiff = {body for spring in stiff for body in (spring.end_a, spring.end_b)}
         # of bodies on springs: mirrored impacts, resolved in turn, must not see each other's moves
         self.before = {body: state_of(body) for body in self.springs_of}
+        touching = contacts.touching if self.springs_of else []
+        self.touching = {body for c in touching for body in (c.a, c.b)}
         self.moved: set[Body] = set()  # by the present impact
+        self.partners: dict[Body, State] = {}  # balls on springs that fly with these
+        self.changes: list[tuple[Body, list[float]]] = []  # of the states of partners
+        self.time = 0.0  # s, where all these are, after the end of the step
         self.is_simple = not (self.springs_of or self.world.forces)  # whether only gravity pulls
 
     def swings(self, body: Body) -> bool:
@@ -79,8 +84,43 @@ class Flight:
                 return False
         return True
 
+    def fly_back(self, hit: list[Body], seconds: float) -> None:
+        """Move balls back to where they were at the time of an impact."""
+        self.partners = {other: state_of(other) for other in self.find_partners(hit)}
+        for body in self.partners:
+            body.x, body.y, body.vx, body.vy = self.before[body]
+        self.moved = {*hit, *self.partners}
+        self.fly([*hit, *self.partners], -seconds)
+
     def fly_on(self, hit: list[Body], seconds: float) -> None:
-        """Let balls fly on for a time, or back. One that flies far stops before a wall."""
+        """Let balls that were moved back fly on. One that flies far stops before a wall."""
+        self.fly([*hit, *self.partners], seconds)
+        for body, state in self.partners.items():
+            if body not in self.cut_short:
+                pairs = zip(state_of(body), self.before[body], strict=True)
+                self.changes.append((body, [now - before for now, before in pairs]))
+            body.x, body.y, body.vx, body.vy = state
+        self.moved, self.partners, self.time = set(), {}, 0.0
+
+    def find_partners(self, hit: list[Body]) -> list[Body]:
+        """Return the balls that springs tie to those hit, and that can fly with them."""
+        found: dict[Body, None] = {}
+        for body in hit if self.springs_of else []:
+            for spring in self.springs_of.get(body, []) if body not in self.stiff else []:
+                for end in (spring.end_a, spring.end_b):
+                    if not (end.is_static or end in self.frame_of or end in hit):
+                        found[end] = None
+        return list(found)
+
+    def pass_on(self) -> None:
+        """Let springs pass impacts on to other balls, when all are over: order would matter."""
+        for body, (x, y, vx, vy) in self.changes:
+            body.vx, body.vy = body.vx + vx, body.vy + vy
+            if body not in self.touching:  # else it might get into another body
+                body.x, body.y = body.x + x, body.y + y
+
+    def fly(self, hit: list[Body], seconds: float) -> None:
+        """Let balls fly for a time, or back."""
         free = hit
         if self.frame_of:
             free = [body for body in hit if body not in self.frame_of]
@@ -98,10 +138,10 @@ class Flight:
             return
         parts = self.world.substep_count  # as the pull of springs changes on the way
         for _ in range(parts):
-            before = [self.acceleration(body) for body in free]
-            pairs = list(zip(free, before, strict=True))
-            times = [self.fly_ball(body, *a, seconds / parts) for body, a in pairs]
-            for (body, a), time in zip(pairs, times, strict=True):
+            before = [(body, self.acceleration(body)) for body in free]
+            times = [self.fly_ball(body, *a, seconds / parts) for body, a in before]
+            self.time += seconds / parts
+            for (body, a), time in zip(before, times, strict=True):
                 self.adjust(body, *a, time)
 
     def fly_ball(self, body: Body, ax: float, ay: float, seconds: float) -> float:
@@ -172,7 +212,10 @@ class Flight:
         x, y = self.world.acceleration(body)
         for spring in self.springs_of.get(body, []) if body not in self.stiff else []:
             other = spring.end_b if body is spring.end_a else spring.end_a
-            there = state_of(other) if other in self.moved else self.before[other]
+            there = state_of(other)
+            if other not in self.moved:
+                at_x, at_y, vx, vy = self.before[other]
+                there = at_x + vx * self.time, at_y + vy * self.time, vx, vy
             fx, fy = spring.pull_between(state_of(body), there)
             x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
         if body in self.pivots:

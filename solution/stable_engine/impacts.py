@@ -126,7 +126,7 @@ class Impacts:
             return 0.0
         if is_at_face(c):
             return self.time_below(c, since)
-        is_arc = c.a in self.flight.pivots or c.b in self.flight.pivots
+        is_arc = c.a in self.frame_of or c.b in self.frame_of
         ago, nx, ny = self.look_back(c, since)
         if ago == 0:
             ago, nx, ny = moment_of_touch(c.a, c.b, since * ARC if is_arc else since)
@@ -186,6 +186,7 @@ class Impacts:
             self.look_where(c)
             if c.gap < 0:
                 self.lift(c)
+        self.flight.pass_on()
         self.begin_anew()
 
     def begin_anew(self) -> None:
@@ -269,15 +270,13 @@ class Impacts:
                 back = (c.b.vx * c.nx + c.b.vy * c.ny) * ago  # the way of a belt does not count
                 c.b.x -= c.nx * back
                 c.b.y -= c.ny * back
-        self.flight.moved = set(hit)
-        self.flight.fly_on(hit, -ago)
+        self.flight.fly_back(hit, ago)
         for c in group:
             self.look_where(c)
         self.resolve(group, frames)
         for wall, (x, y) in walls.items():
             wall.x, wall.y = x, y
         self.flight.fly_on(hit, ago)
-        self.flight.moved = set()
 
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
@@ -395,7 +394,7 @@ class Impacts:
             return
         if not self.flight.cut_short.isdisjoint(hit):
             return
-        self.flight.fly_on(hit, -ago)
+        self.flight.fly_back(hit, ago)
         for c in slow:
             c.nx, c.ny, c.gap = collide(c.a, c.b)
         if all(c.closing_speed() <= self.slow for c in slow):

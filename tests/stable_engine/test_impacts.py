@@ -17,7 +17,20 @@ from experiments.measures import run, states, watch
 from experiments.rows.hits import energy_off, gas, kinetic, moments
 from experiments.rows.row import fall_speed, law, seen
 from experiments.scenes import BOUNCE, DT, Ball, Block, G, Scene, floor
-from stable_engine import Body, Bounce, Box, Circle, Contacts, Segment, Spring, Springs, World
+from stable_engine import (
+    Body,
+    Bounce,
+    Box,
+    Circle,
+    Contacts,
+    Friction,
+    Rod,
+    Rods,
+    Segment,
+    Spring,
+    Springs,
+    World,
+)
 
 IDEAL = {"restitution": 1.0, "friction": 0.0}
 SMOOTH = ("Contacts", "Bounce")
@@ -223,6 +236,46 @@ def test_a_ball_that_a_spring_pulls_onto_a_wall_keeps_its_energy(stiffness, leng
         hits += before < 0 < ball.vx
         assert energy_on_spring(spring, world.substeps) == pytest.approx(start, rel=3e-3)
     assert hits > 10
+
+
+def meet_on_joints(vx, vy):
+    """Return where rough balls on a rod and a spring get, seen from a point with this velocity."""
+    world = World((0, 0), effects=[Contacts(), Friction(), Bounce(), Rods(), Springs()])
+    for at, radius, mass, fast, spin in (
+        ((-200, 0), 15, 1.0, (200, 10), 3.0),
+        ((-100, 0), 10, 2.0, (0, 0), 0.0),
+        ((-60, 40), 12, 1.0, (-20, -40), -5.0),
+        ((100, 8), 20, 4.0, (-130, 0), 0.0),
+        ((40, -60), 9, 0.5, (0, 60), 0.0),
+    ):
+        ball = world.add(Body(Circle(radius), at, mass, restitution=0.6, friction=0.5))
+        ball.vel, ball.omega = (fast[0] + vx, fast[1] + vy), spin
+    _, *ends = world.bodies
+    world.add(Rod(*ends[:2]))
+    world.add(Spring(*ends[2:], 200.0, 2.0))
+    for _ in range(120):
+        world.step(DT)
+    return [x for b in world.bodies for x in (b.x - 120 * DT * vx, b.y - 120 * DT * vy, b.angle)]
+
+
+def test_impacts_on_rods_and_springs_are_the_same_in_a_moving_frame():
+    assert meet_on_joints(700, -300) == pytest.approx(meet_on_joints(0, 0), abs=1e-9)
+
+
+def test_a_ball_on_a_spring_that_hits_others_keeps_momentum():
+    """Springs pass on the impulses of flights back and on."""
+    world = World((0, 0), effects=[Contacts(), Bounce(), Springs()])
+    for at, mass, fast in (
+        ((0, 0), 1.0, (300, 0)),
+        ((0, 80), 2.0, (0, 0)),
+        ((150, 5), 1.0, (0, 0)),
+    ):
+        world.add(Body(Circle(10), at, mass, **IDEAL)).vel = fast
+    world.add(Spring(*world.bodies[:2], 200.0))
+    for _ in range(240):
+        world.step(DT)
+    assert sum(b.mass * b.vx for b in world.bodies) == pytest.approx(300, abs=1e-6 * 300)
+    assert sum(b.mass * b.vy for b in world.bodies) == pytest.approx(0, abs=1e-6 * 300)
 
 
 @pytest.mark.parametrize("degrees", [20, 40, 80])
