@@ -44,8 +44,9 @@ class Flight:
             self.stiff = {body for spring in stiff for body in (spring.end_a, spring.end_b)}
         # of bodies on springs: mirrored impacts, resolved in turn, must not see each other's moves
         self.before = {body: state_of(body) for body in self.springs_of}
-        touching = contacts.touching if self.springs_of else []
-        self.touching = {body for c in touching for body in (c.a, c.b)}
+        self.touching: set[Body] = set()
+        if self.springs_of:
+            self.touching.update([body for c in contacts.touching for body in (c.a, c.b)])
         self.moved: set[Body] = set()  # by the present impact
         self.partners: dict[Body, State] = {}  # balls on springs that fly with these
         self.changes: list[tuple[Body, list[float]]] = []  # of the states of partners
@@ -86,15 +87,25 @@ class Flight:
 
     def fly_back(self, hit: list[Body], seconds: float) -> None:
         """Move balls back to where they were at the time of an impact."""
+        if self.springs_of:
+            self.take_along(hit)
+        self.fly(hit, -seconds)
+
+    def fly_on(self, hit: list[Body], seconds: float) -> None:
+        """Let balls that were moved back fly on. One that flies far stops before a wall."""
+        self.fly(hit, seconds)
+        if self.springs_of:
+            self.leave_behind()
+
+    def take_along(self, hit: list[Body]) -> None:
+        """Let the balls on springs of those hit fly with them, as if nothing had hit these."""
         self.partners = {other: state_of(other) for other in self.find_partners(hit)}
         for body in self.partners:
             body.x, body.y, body.vx, body.vy = self.before[body]
         self.moved = {*hit, *self.partners}
-        self.fly([*hit, *self.partners], -seconds)
 
-    def fly_on(self, hit: list[Body], seconds: float) -> None:
-        """Let balls that were moved back fly on. One that flies far stops before a wall."""
-        self.fly([*hit, *self.partners], seconds)
+    def leave_behind(self) -> None:
+        """Put the balls that flew with others back, and note what has changed on their flight."""
         for body, state in self.partners.items():
             if body not in self.cut_short:
                 pairs = zip(state_of(body), self.before[body], strict=True)
@@ -105,7 +116,7 @@ class Flight:
     def find_partners(self, hit: list[Body]) -> list[Body]:
         """Return the balls that springs tie to those hit, and that can fly with them."""
         found: dict[Body, None] = {}
-        for body in hit if self.springs_of else []:
+        for body in hit:
             for spring in self.springs_of.get(body, []) if body not in self.stiff else []:
                 for end in (spring.end_a, spring.end_b):
                     if not (end.is_static or end in self.frame_of or end in hit):
@@ -136,8 +147,8 @@ class Flight:
             for body in free:
                 self.fly_ball(body, *self.acceleration(body), seconds)
             return
-        parts = self.world.substep_count  # as the pull of springs changes on the way
-        for _ in range(parts):
+        free, parts = [*free, *self.partners], self.world.substep_count
+        for _ in range(parts):  # as the pull of springs changes on the way
             before = [(body, self.acceleration(body)) for body in free]
             times = [self.fly_ball(body, *a, seconds / parts) for body, a in before]
             self.time += seconds / parts

@@ -78,8 +78,7 @@ class Impacts:
         contacts = self.contacts
         for body, (stop, end) in contacts.ends.items():
             walls = [c for c in self.beside.get(body, []) if c.b.is_static]
-            is_free = bool(walls) and self.faces.keys() >= set(walls)
-            if is_free and state_of(body) == stop:
+            if walls and state_of(body) == stop and self.flight.can_all_go_back([body]):
                 flown = contacts.flown[body]
                 contacts.flown[body] = flown + contacts.last_dt - contacts.stopped[body]
                 self.put(body, end)
@@ -184,8 +183,10 @@ class Impacts:
                 break
         for c in self.faces:
             self.look_where(c)
-            if c.gap < 0:
-                self.lift(c)
+        deep = [c for c in self.faces if c.gap < 0]
+        for c in sorted(deep, key=lambda c: c.gap) if deep else []:
+            self.look_where(c)
+            self.lift(c)
         self.flight.pass_on()
         self.begin_anew()
 
