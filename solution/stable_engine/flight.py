@@ -15,6 +15,7 @@ BEFORE = 0.01  # radii between a ball and a wall, so that the next step finds th
 class Flight:
     """The free flight of balls: under gravity, forces and soft springs, and with their rods.
 
+    Balls at the other ends of springs fly with them, and keep what the impact changes for them.
     With semi-implicit Euler a velocity lags half a substep behind the position.
     """
 
@@ -99,9 +100,13 @@ class Flight:
 
     def take_along(self, hit: list[Body]) -> None:
         """Let the balls on springs of those hit fly with them, as if nothing had hit these."""
-        self.partners = {other: state_of(other) for other in self.find_partners(hit)}
-        for body in self.partners:
-            body.x, body.y, body.vx, body.vy = self.before[body]
+        free = [body for body in hit if body not in self.stiff]
+        springs = [spring for body in free for spring in self.springs_of.get(body, [])]
+        apart = hit, self.partners, self.frame_of
+        for body in [end for spring in springs for end in (spring.end_a, spring.end_b)]:
+            if not (body.is_static or any([body in some for some in apart])):
+                self.partners[body] = state_of(body)
+                body.x, body.y, body.vx, body.vy = self.before[body]
         self.moved = {*hit, *self.partners}
 
     def leave_behind(self) -> None:
@@ -112,16 +117,6 @@ class Flight:
                 self.changes.append((body, [now - before for now, before in pairs]))
             body.x, body.y, body.vx, body.vy = state
         self.moved, self.partners, self.time = set(), {}, 0.0
-
-    def find_partners(self, hit: list[Body]) -> list[Body]:
-        """Return the balls that springs tie to those hit, and that can fly with them."""
-        found: dict[Body, None] = {}
-        for body in hit:
-            for spring in self.springs_of.get(body, []) if body not in self.stiff else []:
-                for end in (spring.end_a, spring.end_b):
-                    if not (end.is_static or end in self.frame_of or end in hit):
-                        found[end] = None
-        return list(found)
 
     def pass_on(self) -> None:
         """Let springs pass impacts on to other balls, when all are over: order would matter."""
