@@ -84,9 +84,9 @@ class Impacts:
                 self.put(body, end)
                 for c in walls:
                     self.look(c, c in self.begun)
-                known = [c for c in walls if c in self.due and self.due[c].ago > 0]
-                others = [c for c in walls if c not in known]
-                if not known or any([self.is_deeper(c) for c in others]):
+                known = {c for c in walls if c in self.due and self.due[c].ago > 0}
+                sunk = [c for c in walls if self.sunk(c) > self.touching_gap]
+                if not known or not known.issuperset(sunk):
                     contacts.flown[body] = flown
                     self.put(body, stop)
 
@@ -294,15 +294,15 @@ class Impacts:
 
     def lift(self, c: Contact) -> None:
         """Put a ball onto a face that stops it, but not higher than it was at first."""
-        up = min(self.depths[c], 0.0) - c.gap
+        up = self.sunk(c)
         if up > 0:
             c.a.x -= c.nx * up
             c.a.y -= c.ny * up
             c.gap = c.found = c.gap + up
 
-    def is_deeper(self, c: Contact) -> bool:
-        """Return whether a ball is deeper in a face than it was at first."""
-        return c.gap < min(self.depths[c], 0.0) - self.touching_gap
+    def sunk(self, c: Contact) -> float:
+        """Return by how much (px) a ball is deeper in a face than it was at first."""
+        return min(self.depths[c], 0.0) - c.gap
 
     def look_where(self, c: Contact) -> None:
         """Find normal and gap of a contact anew. A ball stays on its side of a face."""
