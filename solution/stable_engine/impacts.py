@@ -209,10 +209,13 @@ class Impacts:
     def resolve_alone(self, c: Contact, ago: float) -> None:
         """Resolve an impact, some seconds ago, that affects no other contact."""
         hit = [c.a] if c.b.is_static else [c.a, c.b]
-        if ago > 0 and self.flight.can_all_go_back(hit):
-            self.resolve_at_touch([c], hit, ago, [])
+        is_free = c in self.faces and c.a not in self.flight.stiff
+        is_stopped = is_free and self.contacts.was_stopped(c.a)
+        if ago > 0 and (is_stopped or self.flight.can_all_go_back(hit)):
+            late = self.contacts.last_dt - self.contacts.stopped[c.a] if is_stopped else 0.0
+            self.resolve_at_touch([c], hit, ago, [], late)
             self.look_where(c)
-            self.contacts.hit_ago.update(dict.fromkeys(hit, ago))
+            self.contacts.hit_ago.update(dict.fromkeys(hit, ago + late))
         else:
             self.resolve([c], [])
 
@@ -261,9 +264,17 @@ class Impacts:
         self.look_around(hit, ago)
 
     def resolve_at_touch(
-        self, group: list[Contact], hit: list[Body], ago: float, frames: list[Frame]
+        self,
+        group: list[Contact],
+        hit: list[Body],
+        ago: float,
+        frames: list[Frame],
+        late: float = 0.0,
     ) -> None:
-        """Move bodies back to the touch, some seconds ago. Resolve it, and let them fly on."""
+        """Move bodies back to the touch, some seconds ago. Resolve it, and let them fly on.
+
+        A bullet that was stopped is `late` (s): it flies on for that time as well.
+        """
         walls: dict[Body, tuple[float, float]] = {}
         for c in group:
             if c.b.is_static and c.b not in walls:
@@ -277,7 +288,7 @@ class Impacts:
         self.resolve(group, frames)
         for wall, (x, y) in walls.items():
             wall.x, wall.y = x, y
-        self.flight.fly_on(hit, ago)
+        self.flight.fly_on(hit, ago + late)
 
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""

@@ -21,6 +21,7 @@ from stable_engine import (
     Body,
     Bounce,
     Box,
+    Bullets,
     Circle,
     Contacts,
     Friction,
@@ -151,17 +152,27 @@ def test_a_column_that_falls_on_the_floor_keeps_its_energy(masses, apart):
     assert watch(engine, 10, lambda: total(engine)) == pytest.approx([start] * 1200, rel=1e-9)
 
 
-@pytest.mark.parametrize("fast", [100.0, 300.0, 550.0, 1730.0])
+@pytest.mark.parametrize(
+    ("fast", "bullet"),
+    [
+        (100.0, False),
+        (300.0, False),
+        (550.0, False),
+        (1730.0, False),
+        (900.0, True),
+        (5000.0, True),
+    ],
+)
 @pytest.mark.parametrize("degrees", [0, 37])
-def test_a_ball_between_two_walls_is_where_exact_bounces_take_it(fast, degrees):
+def test_a_ball_between_two_walls_is_where_exact_bounces_take_it(fast, bullet, degrees):
     """At any phase of the steps: a wall mirrors the way that goes on behind it."""
     turn = math.radians(degrees)
     ux, uy = math.cos(turn), math.sin(turn)
-    world = World((0, 0), effects=[Contacts(), Bounce()])
+    world = World((0, 0), effects=[Contacts(), Bounce(), Bullets()])
     for at in (-111, 111):
         ends = [(at * ux - side * 50 * uy, at * uy + side * 50 * ux) for side in (-1, 1)]
         world.add(Body(Segment(*ends, 1), **IDEAL))
-    ball = world.add(Body(Circle(10), (0, 0), 1.0, **IDEAL))
+    ball = world.add(Body(Circle(10), (0, 0), 1.0, bullet=bullet, **IDEAL))
     ball.vel = fast * ux, fast * uy
     for step in range(1, 600):
         world.step(DT)
