@@ -69,15 +69,15 @@ class Body:
     that declare Bounce() and Friction(); there None means 0.3 and 0.6. A bullet is stopped where it
     first touches a static body, however fast it is. Raises ValueError when a value makes no sense.
 
-    You can set pos, vel, angle (rad, clockwise on the screen), omega, mass, restitution, friction
-    and bullet later on, and they count from the next step. A static body stays static. Do not set
-    attributes that have no description here, such as x and vx: they are the engine's own.
+    You can set pos, vel, angle, omega, mass, restitution, friction and bullet later on, and they
+    count from the next step. A static body stays static. Do not set attributes that have no
+    description here, such as x and vx: they are the engine's own.
     """
 
     __slots__ = (
         *("outline", "segment", "r", "hx", "hy", "m", "inv_mass", "inv_inertia"),
         *("e", "mu", "restitution_given", "friction_given"),
-        *("x", "y", "vx", "vy", "angle", "w", "last_x", "last_y"),
+        *("x", "y", "vx", "vy", "turn", "w", "last_x", "last_y"),
         *("id", "world", "is_bullet", "is_kinematic", "idle", "sleeps", "island", "joint_count"),
         *("still", "calm", "kept", "place", "is_thrown"),
     )
@@ -98,7 +98,7 @@ class Body:
         require(mass == 0 or not kinematic, "Body.mass", mass, "0 for a kinematic body")
         # what steps need comes first: it lies together in memory when compiled
         self.x = self.y = self.vx = self.vy = 0.0  # px, px/s
-        self.w = self.angle = 0.0  # rad/s, and rad, clockwise on the screen
+        self.w = self.turn = 0.0  # rad/s, and rad, clockwise on the screen
         self.m = self.inv_mass = self.inv_inertia = 0.0  # see weigh
         self.id = 0  # from 1 up for a ball in a world, from -1 down for a static body
         self.idle = mass == 0  # static or asleep
@@ -261,6 +261,21 @@ class Body:
         self.moved()
 
     @property
+    def angle(self) -> float:
+        """Return how far it has turned, in rad, clockwise on the screen.
+
+        Setting it raises ValueError for a Box or Segment, which never turns.
+        """
+        return self.turn
+
+    @angle.setter
+    def angle(self, value: float) -> None:
+        angle = finite("Body.angle", value)
+        shape = type(self.outline).__name__
+        require(self.r > 0 or angle == 0, "Body.angle", value, f"0, as a {shape} never turns")
+        self.turn = angle
+
+    @property
     def omega(self) -> float:
         """Return the spin in rad/s, clockwise on the screen. Setting it wakes the body.
 
@@ -352,10 +367,10 @@ class Body:
 
     def check(self) -> None:
         """Raise ValueError naming the first number that is NaN or infinite."""
-        if (self.x + self.y + self.vx + self.vy + self.angle + self.w) * 0.0:  # not 0, but NaN
+        if (self.x + self.y + self.vx + self.vy + self.turn + self.w) * 0.0:  # not 0, but NaN
             pair("Body.pos", (self.x, self.y))
             pair("Body.vel", (self.vx, self.vy))
-            finite("Body.angle", self.angle)
+            finite("Body.angle", self.turn)
             finite("Body.omega", self.w)
 
 

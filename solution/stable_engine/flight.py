@@ -165,7 +165,7 @@ class Flight:
                 x, y, seconds = x * share, y * share, seconds * share
         body.x += x
         body.y += y
-        body.angle += body.w * seconds
+        body.turn += body.w * seconds
         body.vx += ax * seconds
         body.vy += ay * seconds
         return seconds
@@ -186,7 +186,7 @@ class Flight:
         vx, vy = body.vx + ax * seconds, body.vy + ay * seconds
         body.x, body.y = pivot.x + c * x - s * y, pivot.y + s * x + c * y
         body.vx, body.vy = c * vx - s * vy, s * vx + c * vy
-        body.angle += body.w * seconds
+        body.turn += body.w * seconds
         self.adjust(body, c * ax - s * ay, s * ax + c * ay, seconds)
 
     def fly_frame(self, frame: Frame, seconds: float) -> None:
@@ -207,7 +207,7 @@ class Flight:
             b.vx, b.vy = vx + c * dvx - s * dvy, vy + s * dvx + c * dvy
             b.vx += ax * seconds
             b.vy += ay * seconds
-            b.angle += b.w * seconds
+            b.turn += b.w * seconds
 
     def acceleration(self, body: Body) -> tuple[float, float]:
         """Return the acceleration of a body (px/s²) between impacts."""

@@ -42,7 +42,7 @@ class Kinematics(Effect):
         for body in self.bodies:
             body.x += body.vx * h
             body.y += body.vy * h
-            body.angle += body.w * h
+            body.turn += body.w * h
 
     def coast(self, dt: float) -> None:
         self.relax(dt)

@@ -87,10 +87,10 @@ class Sleep(Effect):
         elif hypot(vx, vy) < slow and abs(rim) < slow:
             body.still += dt
         x, y, angle = body.place
-        if hypot(body.x - x, body.y - y) < near and abs(body.angle - angle) * body.r < near:
+        if hypot(body.x - x, body.y - y) < near and abs(body.turn - angle) * body.r < near:
             body.kept += dt
         else:
-            body.kept, body.place = 0.0, (body.x, body.y, body.angle)
+            body.kept, body.place = 0.0, (body.x, body.y, body.turn)
 
     def put_to_sleep(self) -> None:
         """Put islands to sleep that lie still."""

@@ -321,4 +321,4 @@ class World(WorldState):
         for body in self.awake:
             body.x += body.vx * h
             body.y += body.vy * h
-            body.angle += body.w * h
+            body.turn += body.w * h

@@ -108,7 +108,7 @@ def test_a_velocity_is_not_taken_for_a_flag():
 @pytest.mark.parametrize("number", NOT_FINITE)
 @pytest.mark.parametrize(
     ("slot", "field"),
-    [("x", "pos"), ("y", "pos"), ("vx", "vel"), ("vy", "vel"), ("angle", "angle"), ("w", "omega")],
+    [("x", "pos"), ("y", "pos"), ("vx", "vel"), ("vy", "vel"), ("turn", "angle"), ("w", "omega")],
 )
 def test_nan_or_infinity_in_a_body_that_steps(slot, field, number):
     world = world_with_ball()
