@@ -214,8 +214,16 @@ class Contacts(Effect):
             begin_contact(c)
         self.begun.append(c)
         if self.on_hit:
-            self.hits.append((a, b, max(c.closing_speed(), 0.0)))
+            self.hits.append((a, b, self.meeting_speed(c)))
         return c
+
+    def meeting_speed(self, c: Contact) -> float:
+        """Return the speed (px/s) at which A and B came together when they began to touch."""
+        a, b = c.a, c.b
+        ago, nx, ny = moment_of_touch(a, b, self.flight_of(a, b))
+        if ago == 0:
+            return max(c.closing_speed(), 0.0)
+        return (a.vx - b.vx) * nx + (a.vy - b.vy) * ny
 
     def meet(self, pair: Pair, nx: float, ny: float, gap: float) -> Contact:
         """Add the contact of two balls that an impact has moved together."""

@@ -510,6 +510,20 @@ def test_a_hit_calls_back_once_with_its_speed():
     assert fast == pytest.approx(math.sqrt(2 * G * 100), rel=0.02)
 
 
+@pytest.mark.parametrize("offset", [-0.9, -0.5, 0.0, 0.3, 0.75, 0.95])
+def test_a_fast_oblique_hit_tells_the_speed_along_the_normal_at_the_touch(offset):
+    """Two balls of 5 px meet at 1500 px/s, `offset` of both radii aside: they pass in a step."""
+    hits = []
+    world = World((0, 0), effects=[Contacts(lambda a, b, fast: hits.append(fast)), Bounce()])
+    direct = math.sqrt(1 - offset**2)
+    start = (-10 * direct - 1500 * 0.21, -10 * offset)
+    for pos in (start, (0, 0)):
+        world.add(Body(Circle(5), pos, mass=1, restitution=1))
+    world.bodies[0].vel = 1500, 0
+    run(world, 0.4)
+    assert hits == [pytest.approx(1500 * direct, rel=1e-6)]
+
+
 def test_every_bounce_is_a_hit():
     hits = []
     world = World(effects=[Contacts(lambda a, b, fast: hits.append(fast)), Bounce()])
