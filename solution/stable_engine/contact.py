@@ -7,6 +7,7 @@ from pygame import Vector2
 from .body import Body
 from .shapes import Segment
 
+PUSHER = 4.0  # the ratio of the masses of a kinematic body and a ball
 GOLDEN_ANGLE = 2.399963  # rad
 OPPOSITE = -0.5  # cosine; if a normal turns further, a centre has crossed a segment
 
@@ -23,7 +24,7 @@ class Contact:
     __slots__ = (
         *("a", "b", "nx", "ny", "found", "gap", "reach", "jn", "jt", "mn", "mt", "mu", "e"),
         *("ax", "ay", "bx", "by", "tax", "tay", "aw", "tbx", "tby", "bw", "arm_a", "arm_b"),
-        "place",
+        *("last", "place", "ratio"),
     )
 
     def __init__(self, a: Body, b: Body) -> None:
@@ -35,8 +36,10 @@ class Contact:
         self.reach = 0.0  # px
         self.jn = 0.0  # kg px/s, accumulated normal impulse, never negative
         self.jt = 0.0  # kg px/s, accumulated friction impulse
+        self.last = 0.0  # kg px/s, jn after the substep before, in a pile of loads
         self.place = 0.0, 0.0, 0.0  # in the order of solving, see give_places
-        self.mn = 1 / (a.inv_mass + b.inv_mass)  # kg, effective mass along the normal
+        self.mn = self.ratio = 0.0  # kg, effective mass along the normal; ratio of the masses
+        self.weigh()
         self.mt = 0.0  # kg, effective mass along the tangent, filled in by Friction
         self.mu = 0.0  # friction of the pair, filled in by Friction
         self.e = 0.0  # restitution of the pair, filled in by Bounce
@@ -44,6 +47,12 @@ class Contact:
         self.tax = self.tay = self.tbx = self.tby = 0.0  # 1/kg, along the tangent
         self.aw = self.bw = 0.0  # 1/(kg px), of the spins
         self.arm_a = self.arm_b = 0.0  # px, from the centres to where they touch
+
+    def weigh(self) -> None:
+        """Take over the masses of A and B. A kinematic body counts as PUSHER balls."""
+        a, b = self.a, self.b
+        self.mn = 1 / (a.inv_mass + b.inv_mass)
+        self.ratio = max(a.m, b.m) / min(a.m, b.m) if b.m else PUSHER if b.is_kinematic else 1.0
 
     def __repr__(self) -> str:
         return f"Contact({self.a!r}, {self.b!r})"

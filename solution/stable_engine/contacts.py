@@ -7,6 +7,8 @@ from .body import Body, State, state_of
 from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, the_way_it_came
 from .effect import Effect, WorldState
+from .joint import Joints
+from .loads import HEAVY, Pile, Stage, find_piles
 from .order import Group, give_places, in_same_place, put_in_order, solve_ties
 from .soft import SAME_DIRECTION, Pace, softness
 from .springs import Springs
@@ -42,7 +44,9 @@ class Contacts(Effect):
     touches. `a` is a ball with mass, `b` any body. Both functions may add and remove
     bodies, and can be set later on. Bodies that are removed do not part.
 
-    Each stage solves contacts of static bodies last, so that these hold best.
+    Each stage solves contacts of static bodies last, so that these hold best. Where a body is more
+    than 2.5 times as heavy as a ball that it touches, or kinematic, all that balls connect to them
+    is then solved together: see Pile.
     """
 
     __slots__ = (
@@ -50,7 +54,7 @@ class Contacts(Effect):
         *("friction_warms", "last_dt", "flown", "hit_ago", "stopped", "broad_phase", "crowd"),
         *("beside_static", "ends", "springs"),
         *("balls", "statics", "groups", "beginnings", "is_mirrored", "unpaired", "ignored", "pace"),
-        *("h", "touching_gap", "slow", "max_push_speed", "begin_contact_hooks"),
+        *("h", "touching_gap", "slow", "max_push_speed", "begin_contact_hooks", "piles"),
     )
     rank = 3
 
@@ -83,6 +87,7 @@ class Contacts(Effect):
         self.is_mirrored = False  # whether contacts may have the same place in the order
         self.unpaired: dict[int, Contact] = {}  # of sleeping bodies, by their pair's number
         self.ignored: set[int] = set()  # numbers of pairs
+        self.piles: list[Pile] = []  # with heavy bodies
         self.pace = Pace(STIFFENING)
         self.h = 0.0  # s, the substep of the kept impulses
 
@@ -305,11 +310,23 @@ class Contacts(Effect):
         if self.crowd:
             self.gather_crowd()
         self.find_order()
+        is_heavy = False
         for c in self.touching:
             a, b, nx, ny = c.a, c.b, c.nx, c.ny
             c.ax, c.ay = nx * a.inv_mass, ny * a.inv_mass
             c.bx, c.by = nx * b.inv_mass, ny * b.inv_mass
             c.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - c.gap
+            is_heavy = is_heavy or c.ratio > HEAVY
+        self.piles = self.find_piles(is_heavy)
+
+    def find_piles(self, is_heavy: bool) -> list[Pile]:
+        """Return the piles with heavy bodies; is_heavy tells whether any two masses differ much."""
+        rods = self.world.effects.get("Rods")
+        frames = []
+        if isinstance(rods, Joints):
+            is_heavy = is_heavy or rods.any_heavy()
+            frames = rods.loose_frames() if is_heavy else []
+        return find_piles(self.touching, frames, self.world.unit) if is_heavy else []
 
     def find_order(self) -> None:
         """Find the contacts solved in turn, with their order, and those solved at once.
@@ -333,9 +350,12 @@ class Contacts(Effect):
             for c in self.touching:
                 c.jn *= h / self.h
                 c.jt *= h / self.h
+                c.last *= h / self.h
         self.h = h
 
     def warm_start(self, h: float) -> None:
+        for pile in self.piles:
+            pile.forget_impacts()
         if self.friction_warms:
             return
         for group in self.groups:
@@ -349,9 +369,17 @@ class Contacts(Effect):
                     b.vy += c.by * jn
 
     def solve(self, h: float) -> None:
+        for pile in self.piles:
+            pile.look(h)
         for group in self.groups:
             self.push(group, group.in_turn, h)
             solve_ties(self.push, group, h)
+        if self.piles:
+            stage = Stage(h, self.max_push_speed, self.touching_gap / 2)
+            stage.has_moved = False
+            stage.ball_rate, stage.static_rate = self.balls.bias_rate, self.statics.bias_rate
+            for pile in self.piles:
+                pile.settle(stage)
 
     def push(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Push overlapping bodies apart, and stop those that would overlap after the move."""
@@ -385,6 +413,10 @@ class Contacts(Effect):
         for group in self.groups:
             self.stop(group, group.in_turn, h)
             solve_ties(self.stop, group, h)
+        if self.piles:
+            stage = Stage(h, self.max_push_speed, self.touching_gap / 2)
+            for pile in self.piles:
+                pile.settle(stage)
 
     def stop(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Stop bodies that still come together, and take back the speed of a push."""
@@ -571,7 +603,7 @@ class Contacts(Effect):
     def body_changed(self, body: Body) -> None:
         """Fill in the body's contacts anew, and wake whatever touches it."""
         for c in self.of_body(body):
-            c.mn = 1 / (c.a.inv_mass + c.b.inv_mass)
+            c.weigh()
             for begin_contact in self.begin_contact_hooks:
                 begin_contact(c)
         self.wake_beside(body)

@@ -96,6 +96,10 @@ class Joint:
         b.vx += px * b.inv_mass
         b.vy += py * b.inv_mass
 
+    def take(self, j: float, has_moved: bool) -> None:
+        """Apply an impulse j (kg px/s), and count it: before the move, or after it."""
+        self.apply_impulse(j)
+
 
 AnyJoint = TypeVar("AnyJoint", bound=Joint)
 
@@ -136,6 +140,14 @@ class Joints(Effect, Generic[AnyJoint]):
 
     def links(self) -> list[tuple[Body, Body]]:
         return [(joint.end_a, joint.end_b) for joint in self.awake]
+
+    def any_heavy(self) -> bool:
+        """Return whether any rigid joints press like a heavy body."""
+        return False
+
+    def loose_frames(self) -> list[tuple[list[Joint], float]]:
+        """Return the rigid joints that are connected and can move, and the mass (kg) they press."""
+        return []
 
     def awake_changed(self) -> None:
         self.awake = [joint for joint in self.joints if not (joint.end_a.idle and joint.end_b.idle)]

@@ -11,6 +11,7 @@ from .body import Body
 from .contacts import Contacts
 from .effect import WorldState
 from .joint import Joint, Joints
+from .loads import HEAVY
 from .network import Network, connect
 from .soft import SAME_DIRECTION, Pace, softness
 from .validate import require
@@ -29,6 +30,7 @@ GUARDED = 0.9  # cosine; if a rod turns further in a substep, none may gain ener
 LOST = 0.8  # cosine; if a rod turns further in a substep, Newton's method fails
 PARTS = 4  # into which a substep is cut at first
 MOST_PARTS = 64
+MOST_WORK = 8192  # parts times rods, where that allows more parts
 FIRM = 1 + 1e-9  # times a pivot: with more rods than needed, the matrix has no inverse
 ROUNDING = 1e-9  # share of a length
 
@@ -38,14 +40,15 @@ Velocity = tuple[float, float]
 class Rod(Joint):
     """A rigid rod that keeps the distance a and b start with. It pulls and pushes."""
 
-    __slots__ = ("given", "j")
+    __slots__ = ("given", "j", "pushed")
     effect = "Rods"
 
     def __init__(self, a: Body, b: Body) -> None:
         super().__init__(a, b)
         self.fitting(self.rest)
         self.j = 0.0  # kg px/s, accumulated impulse before the move, positive when it pushes
-        self.given = 0.0  # kg px/s, with the impulse after the move
+        self.pushed = 0.0  # kg px/s, what contacts add to it before the move
+        self.given = 0.0  # kg px/s, with both and the impulse after the move
 
     @property
     def impulse(self) -> float:
@@ -54,6 +57,13 @@ class Rod(Joint):
         Divide it by the length of a substep for the force.
         """
         return self.given
+
+    def take(self, j: float, has_moved: bool) -> None:
+        super().take(j, has_moved)
+        if has_moved:
+            self.given += j
+        else:
+            self.pushed += j
 
     def fitting(self, length: float) -> float:
         found = super().fitting(length)
@@ -125,6 +135,16 @@ class Rods(Joints[Rod]):
             self.frames = [Frame(network, self.world) for network in connect(self.awake)]
             self.frame_of = {ball: frame for frame in self.frames for ball in frame.balls}
 
+    def any_heavy(self) -> bool:
+        self.find_frames()
+        return any([frame.load > HEAVY * frame.lightest for frame in self.frames])
+
+    def loose_frames(self) -> list[tuple[list[Joint], float]]:
+        """Leave out frames between static bodies: nearly straight ones pull without limit."""
+        self.find_frames()
+        loose = [frame for frame in self.frames if len(frame.ends) - len(frame.balls) < 2]
+        return [([*frame.rods], frame.load) for frame in loose]
+
     def warm_start(self, h: float) -> None:
         for rod in self.awake:
             rod.measure()
@@ -151,6 +171,10 @@ class Frame:
         self.balls = [body for body in ends if not body.is_static]
         self.ends = list(ends)
         self.hangs = len(self.balls) < len(ends)
+        masses = [ball.m for ball in self.balls]
+        self.heaviest, self.lightest = max(masses), min(masses)  # kg
+        is_braced = len(self.rods) > 2 * len(ends) - 3  # by more rods than keep its shape
+        self.load = sum(masses) if is_braced else self.heaviest  # kg, that presses where it touches
         self.most = -1.0  # kg px²/s², the maximum of its energy, or -1 for none
         self.lost = 0.0  # kg px²/s², lost while it turned fast; it may gain it again
         self.work = 0.0  # kg px²/s², the work of its firm rods in this substep
@@ -210,11 +234,12 @@ class Frame:
         self.fall(-h / 2)
         self.hold()
         energy = self.energy(*self.velocity()) - self.fallen()
+        most = max(MOST_PARTS, MOST_WORK // len(self.rods))
         count, done = PARTS, 0  # equal parts done so far
-        while done < count <= MOST_PARTS:
+        while done < count <= most:
             part = h / count
             self.fall(part / 2)
-            if not self.find_impulses(part, bias, SLOW if count < MOST_PARTS else 1.0):
+            if not self.find_impulses(part, bias, SLOW if 2 * count <= most else 1.0):
                 self.fall(-part / 2)
                 count, done = 2 * count, 2 * done
                 continue
@@ -229,16 +254,16 @@ class Frame:
             done += 1
         self.fall(-h / 2)
         for ball, (x, y), velocity in before:
-            if count <= MOST_PARTS:
+            if count <= most:
                 velocity = (ball.x - x) / h, (ball.y - y) / h
                 self.later.append((ball, velocity, (ball.vx, ball.vy)))
             ball.x, ball.y = x, y
             ball.vx, ball.vy = velocity
-        if count > MOST_PARTS:
+        if count > most:
             for rod, j in zip(self.rods, impulses, strict=True):
                 rod.j = j
                 rod.measure()
-        return count <= MOST_PARTS
+        return count <= most
 
     def fall(self, seconds: float) -> None:
         """Add the speed of a fall of so many seconds."""
@@ -327,9 +352,10 @@ class Frame:
             if self.most < 0 and (is_soft or turned < GUARDED):
                 self.most = self.energy_before(h)
             if is_soft:
+                give = 2 * (soft - 1) / self.heaviest
                 for rod in self.rods:
-                    rod.pivot = soft / rod.m
-                    rod.rhs -= (soft - 1) * rod.j / rod.m
+                    rod.pivot = 1 / rod.m + give
+                    rod.rhs -= give * rod.j
             self.apply()
             for rod in self.rods:
                 rod.j += rod.rhs
@@ -377,7 +403,8 @@ class Frame:
                 body.vx, body.vy = velocity
         self.later = []
         for rod in self.rods:
-            nx, ny, rod.given = rod.nx, rod.ny, rod.j
+            nx, ny, rod.given = rod.nx, rod.ny, rod.j + rod.pushed
+            rod.pushed = 0.0
             rod.measure()
             if nx * rod.nx + ny * rod.ny < SAME_DIRECTION:
                 rod.j = 0.0

@@ -6,10 +6,6 @@ REASONS = {
     "rained pile: 40 balls, late speed": ROLLS,
     "tower: 20 equal balls, top": SOFT,
     "tower: 40 equal balls, top": SOFT,
-    "tower: 6 balls of 1 kg and 100 kg": SOFT,
-    "tower: 12 balls of 1 kg and 100 kg": SOFT,
-    "heavy on light: 1:1000": SOFT,
-    "heavy on light: 1, 10": SOFT,
 }
 
 

@@ -1,0 +1,224 @@
+"""Loads: where heavy bodies press on light ones, contacts and rods are solved together."""
+
+from math import hypot
+
+from .body import Body
+from .contact import Contact
+from .joint import Joint
+from .network import Network
+
+HEAVY = 2.5  # times the lightest ball at a contact
+RESTING = 30.0  # 1/s, in units of the world; a ball that bounces faster is left to impacts
+CALM = 0.5  # 1/s, in units of the world, by the square of that ratio: passes may leave this speed
+STEEPEST = 1000.0  # a larger ratio counts as this, or rounding would decide what presses
+MOST_ROWS = 128  # contacts and rods of a pile; a larger one is left to passes
+FAR = 0.5  # radii; where a ball moves by more in a substep, its contacts are other ones by then
+TURNS = 16  # of choosing which contacts press
+PUSHED = 0.1  # share by which a contact gives way, per ratio: many firm ones have no solution
+FRAMED = 1.0  # the same where frames of rods press
+SOFTEST = 1e-2  # the most of both
+RELAXED = 1e-3  # of that share, what is left after the move
+FIRM = 1 + 1e-9  # times the pivot of a rod, for the same reason
+FREE = 1e30  # 1/kg, the pivot of a row that takes no impulse
+
+
+class Stage:
+    """What contacts aim at: to part at the rates of their bias, or once bodies moved, to stop."""
+
+    __slots__ = ("ball_rate", "h", "has_moved", "least", "most", "static_rate")
+
+    def __init__(self, h: float, most: float, least: float) -> None:
+        self.h = h  # s
+        self.most = most  # px/s, overlap is pushed out no faster
+        self.least = least  # px, a larger gap may be closed
+        self.has_moved = True
+        self.ball_rate = self.static_rate = 0.0  # 1/s, before the move
+
+
+class Load(Joint):
+    """A contact as a row of a network. Which body is A does not depend on the contact's."""
+
+    __slots__ = ("c", "give", "presses", "ratio")
+    effect = "Contacts"
+
+    def __init__(self, c: Contact, ratio: float) -> None:
+        self.c = c
+        self.ratio = ratio  # of the heavier body, or its frame, to the lighter ball
+        self.end_a, self.end_b, self.nx, self.ny = c.a, c.b, c.nx, c.ny
+        if c.b.inv_mass and (c.b.x, c.b.y) < (c.a.x, c.a.y):
+            self.end_a, self.end_b, self.nx, self.ny = c.b, c.a, -c.nx, -c.ny
+        self.pivot = self.rhs = 0.0
+        self.presses = False
+        self.give = 0.0  # the share that it gives way
+
+    def aim(self, stage: Stage) -> None:
+        """Set rhs to the speed (px/s) that the bodies lack, and the pivot."""
+        c, a, b = self.c, self.end_a, self.end_b
+        speed = (b.vx - a.vx) * self.nx + (b.vy - a.vy) * self.ny
+        gap = (b.x - a.x) * self.nx + (b.y - a.y) * self.ny - c.reach
+        rate = stage.ball_rate if b.inv_mass else stage.static_rate
+        give = self.give * RELAXED if stage.has_moved else self.give
+        self.pivot = (1 + give) / c.mn
+        if gap > stage.least and not (stage.has_moved and c.jn):
+            self.rhs = -speed - gap / stage.h
+        else:
+            self.rhs = -speed - max(rate * gap, -stage.most) - give * c.jn / c.mn
+
+    def take(self, j: float, has_moved: bool) -> None:
+        super().take(j, has_moved)
+        self.c.jn += j
+
+
+class Pile:
+    """Contacts, and rods of frames, that balls connect.
+
+    A pass over contacts takes from a body of mass M only the share m / (M + m) of its speed, if the
+    ball below has mass m. So what a pass leaves is solved exactly, for the contacts that press.
+    """
+
+    __slots__ = ("bodies", "calm", "is_wild", "kept", "loads", "network", "rods", "rows")
+
+    def __init__(self, rows: list[Joint], unit: float) -> None:
+        self.rows = rows
+        self.loads = [row for row in rows if isinstance(row, Load)]
+        self.rods = [row for row in rows if not isinstance(row, Load)]
+        self.bodies = dict.fromkeys([body for row in rows for body in (row.end_a, row.end_b)])
+        masses = [body.m for body in self.bodies if body.m]
+        ratio = max(max(masses) / min(masses), *[load.ratio for load in self.loads])
+        for load in self.loads:
+            load.give = min((FRAMED if self.rods else PUSHED) / ratio, SOFTEST)
+        self.calm = CALM * unit / min(ratio, STEEPEST) ** 2  # px/s
+        self.kept = [0.0] * len(self.rods)  # px/s
+        self.is_wild = False  # whether its balls move far in this substep
+        self.network: Network[Joint] | None = None  # of all rows, once it was needed
+
+    def look(self, h: float) -> None:
+        """Note the speeds with which rods keep their lengths, before contacts change them."""
+        self.kept = [rod.speed() for rod in self.rods]
+        self.is_wild = any(
+            [b.inv_mass > 0 and hypot(b.vx, b.vy) * h > FAR * b.r for b in self.bodies]
+        )
+
+    def forget_impacts(self) -> None:
+        """Begin a substep with impulses no larger than those of the substep before the last.
+
+        The warm start would repeat an impact, and passes would not take that back. With frames,
+        begin with none: where a ball sits between balls of a frame, impulses can be so large that
+        the least turn of the frame would throw it.
+        """
+        for load in self.loads:
+            c = load.c
+            jn = 0.0 if self.rods else min(c.jn, c.last)
+            c.last, c.jn = c.jn, jn
+
+    def settle(self, stage: Stage) -> None:
+        """Solve for all impulses, if a pass has left more than a calm speed."""
+        if self.is_wild:
+            return
+        if stage.has_moved:
+            self.kept = [0.0] * len(self.rods)
+        for load in self.loads:
+            load.aim(stage)
+            if load.rhs > self.calm or (load.rhs < -self.calm and load.c.jn > 0):
+                return self.press(stage)
+        for rod, speed in zip(self.rods, self.kept, strict=True):
+            if abs(rod.speed() - speed) > self.calm:
+                return self.press(stage)
+
+    def press(self, stage: Stage) -> None:
+        """Find the contacts that press, and apply their impulses and those of the rods.
+
+        Each turn solves for some, then frees those that would pull and adds those that would close
+        (block pivoting). If that does not end, nothing changes.
+        """
+        if self.network is None:
+            self.network = Network(self.rows)
+        has_moved = stage.has_moved
+        before = [(body, body.vx, body.vy) for body in self.bodies]
+        taken = dict.fromkeys(self.rows, 0.0)  # kg px/s
+        for load in self.loads:
+            load.aim(stage)
+            load.presses = load.c.jn > 0 or load.rhs > self.calm
+        for _ in range(TURNS):
+            for load in self.loads:
+                if not load.presses:
+                    taken[load] -= load.c.jn
+                    load.take(-load.c.jn, has_moved)
+            for load in self.loads:
+                load.aim(stage)
+                if not load.presses:
+                    load.pivot, load.rhs = FREE, 0.0
+            for rod, speed in zip(self.rods, self.kept, strict=True):
+                rod.pivot, rod.rhs = FIRM / rod.m, speed - rod.speed()
+            self.network.solve()
+            for load in self.loads:
+                load.rhs = load.rhs if load.presses else 0.0
+            for row in self.rows:
+                taken[row] += row.rhs
+                row.take(row.rhs, has_moved)
+            if not self.any_turned(stage):
+                return
+        for row, j in taken.items():
+            row.take(-j, has_moved)
+        for body, vx, vy in before:
+            body.vx, body.vy = vx, vy
+
+    def any_turned(self, stage: Stage) -> bool:
+        """Find out again which contacts press. Return whether any other do than before."""
+        turned = False
+        for load in self.loads:
+            load.aim(stage)
+            presses = load.c.jn >= 0 if load.presses else load.rhs > self.calm
+            turned = turned or presses != load.presses
+            load.presses = presses
+        return turned
+
+
+def find_piles(
+    contacts: list[Contact], frames: list[tuple[list[Joint], float]], unit: float
+) -> list[Pile]:
+    """Return the piles in which a body, or a frame, is much heavier than a ball at its contact.
+
+    Each frame has its rods, and the mass (kg) that presses where it touches. unit is that of the
+    world.
+    """
+    mass: dict[Body, float] = {}  # kg, of the frames of balls
+    for rods, load in frames:
+        mass.update({body: load for rod in rods for body in (rod.end_a, rod.end_b)})
+    rows: list[Joint] = []
+    heavy: list[int] = []  # places of rows
+    for c in contacts:
+        most, ratio = max(mass.get(c.a, 0.0), mass.get(c.b, 0.0)), c.ratio
+        if most:
+            ratio = max(ratio, most / min(c.a.m, c.b.m or c.a.m))
+        if ratio > HEAVY and (not c.e or abs(c.closing_speed()) < RESTING * unit):
+            heavy.append(len(rows))
+        rows.append(Load(c, ratio))
+    if not heavy:
+        return []
+    rows += [rod for rods, _ in frames for rod in rods]
+    beside: dict[Body, list[int]] = {}  # the places of each ball's rows
+    for place, row in enumerate(rows):
+        for body in (row.end_a, row.end_b):
+            if body.inv_mass:
+                beside.setdefault(body, []).append(place)
+    piles: list[Pile] = []
+    seen: set[int] = set()
+    for first in heavy:
+        if first not in seen:
+            places = places_from(rows[first], rows, beside)
+            seen |= places
+            if len(places) <= MOST_ROWS:
+                piles.append(Pile([rows[place] for place in sorted(places)], unit))
+    return piles
+
+
+def places_from(row: Joint, rows: list[Joint], beside: dict[Body, list[int]]) -> set[int]:
+    """Return the places of a row, and of all that balls connect it to."""
+    found: set[int] = set()
+    ahead = {row.end_a, row.end_b}
+    while ahead:
+        new = {place for body in ahead for place in beside.get(body, [])} - found
+        found |= new
+        ahead = {body for place in new for body in (rows[place].end_a, rows[place].end_b)}
+    return found

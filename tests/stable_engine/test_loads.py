@@ -1,0 +1,148 @@
+"""Test heavy bodies on light ones: without Bounce nothing springs back, and light balls carry."""
+
+import math
+from itertools import pairwise
+
+import pytest
+from pygame import Vector2
+from worlds_for_tests import make
+
+from experiments.scenes import DT, G
+from stable_engine import Body, Box, Circle, Rod, World
+
+RADIUS = 10.0  # px
+
+
+def world_with_floor(names=("Contacts",)):
+    world = World((0, G), effects=make(names))
+    world.add(Body(Box((400, 20)), (0, 20)))
+    return world
+
+
+def add_ball(world, x, y, mass, radius=RADIUS):
+    return world.add(Body(Circle(radius), (x, y), mass))
+
+
+def steps(world, seconds):
+    """Step the world, and yield after each step."""
+    for _ in range(round(seconds / DT)):
+        world.step(DT)
+        yield
+
+
+def highest(world, body, seconds):
+    """Return how far (px) a body rises above where it is now."""
+    start = body.pos.y
+    return max(start - body.pos.y for _ in steps(world, seconds))
+
+
+@pytest.mark.parametrize("count", [1, 3, 8])
+@pytest.mark.parametrize("mass", [3.0, 10.0, 100.0, 1000.0])
+def test_a_heavy_ball_that_falls_on_light_ones_stays_there(count, mass):
+    """With e = 0 nothing springs back or sinks: half a pixel each way. Ten times the mass of a
+    ball squeezes a stack no more than ten balls do.
+    """
+    world, height = world_with_floor(), 80.0
+    for i in range(count):
+        add_ball(world, 0, -RADIUS * (2 * i + 1), 1)
+    touch = -RADIUS * (2 * count + 1)
+    heavy = add_ball(world, 0, touch - height, mass)
+    for _ in steps(world, math.sqrt(2 * height / G) + 2 * DT):
+        pass
+    for _ in steps(world, 1.5):
+        assert touch - 0.5 < heavy.pos.y
+        now = heavy.pos.y
+    assert now == pytest.approx(touch, abs=0.75)
+    assert abs(heavy.vel.y) < 0.1
+
+
+@pytest.mark.parametrize("mass", [10.0, 100.0])
+def test_a_stick_of_a_light_and_a_heavy_ball_stands(mass):
+    """It starts touching and at rest: energy is not created."""
+    world = world_with_floor(("Contacts", "Rods"))
+    foot, head = add_ball(world, 0, -10, 1), add_ball(world, 0, -110, mass)
+    world.add(Rod(foot, head))
+    assert highest(world, head, 3) < 0.5
+    assert head.pos.y == pytest.approx(-110, abs=0.5)
+
+
+def test_rods_of_a_roof_carry_its_load():
+    """100 kg on two rafters of 60 degrees, on ice. The tie pulls with half the weight / tan 60,
+    and a rafter pushes with half the weight / sin 60.
+    """
+    world = world_with_floor(("Contacts", "Rods"))
+    feet = [add_ball(world, x, -10, 1) for x in (-50, 50)]
+    top = add_ball(world, 0, -10 - 100 * math.sin(math.pi / 3), 100)
+    tie, rafter, _ = [world.add(Rod(*ends)) for ends in (feet, (feet[0], top), (feet[1], top))]
+    for _ in steps(world, 3):
+        pass
+    per_force, half = world.substeps / DT, 100 * G / 2
+    assert -tie.impulse * per_force == pytest.approx(half / math.tan(math.pi / 3), rel=0.01)
+    assert rafter.impulse * per_force == pytest.approx(half / math.sin(math.pi / 3), rel=0.01)
+
+
+@pytest.mark.parametrize("mass", [50.0, 100.0, 300.0])
+def test_a_heavy_ball_in_the_gap_of_two_light_ones_lies_still(mass):
+    """Two balls 30 px apart between walls carry it. It starts touching and at rest."""
+    world = world_with_floor()
+    for side in (-1, 1):
+        world.add(Body(Box((10, 100)), (35 * side, -100)))
+        add_ball(world, 15 * side, -10, 1)
+    heavy = add_ball(world, 0, -10 - math.sqrt(30**2 - 15**2), mass, 20)
+    assert highest(world, heavy, 3) < 0.5
+    assert heavy.vel.length() < 0.1
+
+
+@pytest.mark.parametrize("braces", [0, 1, 2])
+def test_a_square_of_rods_lands_without_a_bounce(braces):
+    """With e = 0 its energy never rises; a second diagonal is more than it needs."""
+    world = world_with_floor(("Contacts", "Rods"))
+    balls = [
+        add_ball(world, x, y, 1, 8) for x, y in ((-20, -88), (20, -88), (20, -128), (-20, -128))
+    ]
+    ends = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 2), (1, 3)][: 4 + braces]
+    for a, b in ends:
+        world.add(Rod(balls[a], balls[b]))
+    fall = 4 * G * 80  # kg px²/s²
+
+    def energy():
+        return sum(ball.mass * (ball.vel.length_squared() / 2 - G * ball.pos.y) for ball in balls)
+
+    start = energy()
+    assert max(energy() - start for _ in steps(world, 3)) < 0.01 * fall
+
+
+@pytest.mark.parametrize("gap", [0.0, 3.0])
+@pytest.mark.parametrize(
+    "effects", [("Contacts", "Kinematics"), ("Contacts", "Bounce", "Kinematics")]
+)
+def test_balls_before_a_piston_go_no_faster_than_it(effects, gap):
+    """With e = 0 a piston of 80 px/s pushes a row along at 80 px/s."""
+    world = World((0, 0), effects=make(effects))
+    piston = world.add(Body(Box((10, 40)), (-10, 0), kinematic=True))
+    piston.vel = 80, 0
+    row = [
+        world.add(Body(Circle(10), (10 + gap + (20 + gap) * i, 0), 1, restitution=0))
+        for i in range(6)
+    ]
+    for _ in steps(world, 2):
+        pass
+    assert [ball.vel.x for ball in row] == pytest.approx([80] * 6, rel=0.01)
+
+
+@pytest.mark.parametrize("bead", [0.001, 0.1])
+def test_a_light_bead_on_the_way_to_a_heavy_bob_stretches_no_rod(bead):
+    """The rods keep their lengths, and the bob its energy (1 % of m g L) in 10 s."""
+    world = World((0, G), effects=make(["Rods"]))
+    balls = [add_ball(world, *place) for place in ((0, 0, 0), (70, 0, bead), (150, 0, 100))]
+    rods = [world.add(Rod(*ends)) for ends in pairwise(balls)]
+    lag = G * DT / world.substeps / 2  # px/s, by which velocities are half a substep behind
+
+    def energy(ball):
+        return ball.mass * ((ball.vel + Vector2(0, lag)).length_squared() / 2 - G * ball.pos.y)
+
+    start = sum(map(energy, balls))
+    for _ in steps(world, 10):
+        for rod in rods:
+            assert rod.a.pos.distance_to(rod.b.pos) == pytest.approx(rod.length, abs=0.1)
+        assert sum(map(energy, balls)) == pytest.approx(start, abs=0.01 * 100 * G * 150)
