@@ -124,10 +124,11 @@ def unused(world: WorldState) -> list[str]:
 def overloaded_rods(world: WorldState) -> list[str]:
     """Return a sentence if a light ball on rods carries more than the substeps can follow.
 
-    Its load is the heaviest ball that rods connect to it, directly or through other balls.
+    Its load is the heaviest ball that rods connect to it, directly or through other balls. Rods
+    pull it by its weight, and more if they turn.
     """
     rods: list[Joint] = getattr(world.effects.get("Rods"), "joints", [])
-    h, g = FRAME / 2 / world.substep_count, hypot(*world.g)
+    h, pull = FRAME / 2 / world.substep_count, hypot(*world.g) + whirl(rods)
     load: dict[Body, float] = {}
     for _ in rods:  # after so many rounds at most, each ball knows the heaviest
         before = dict(load)
@@ -139,9 +140,19 @@ def overloaded_rods(world: WorldState) -> list[str]:
             break
     for rod in rods:
         for body in (rod.a, rod.b):
-            if not body.is_static and h * h * g * load[body] > SHAKY * body.m * rod.rest:
+            if not body.is_static and h * h * pull * load[body] > SHAKY * body.m * rod.rest:
                 return [
                     f"{body!r} is on a rod with up to {load[body]:g} kg: it may shake faster than "
                     "the substeps can follow. Take more substeps, or masses closer to each other."
                 ]
     return []
+
+
+def whirl(rods: list[Joint]) -> float:
+    """Return the acceleration (px/s²) of the end of rods that turn, as if all were one chain."""
+    length = speed = 0.0
+    for rod in rods:
+        a, b = rod.a, rod.b
+        length += rod.rest
+        speed += hypot(b.vx - a.vx, b.vy - a.vy)
+    return speed * speed / length if length else 0.0

@@ -179,3 +179,16 @@ def test_a_load_too_heavy_for_the_rods_of_a_chain_is_told_of(ratio, told):
         world.add(Rod(last, link))
         last = link
     assert len([sentence for sentence in world.check() if "masses closer" in sentence]) == told
+
+
+@pytest.mark.parametrize(("ratio", "told"), [(1.0, 0), (1e5, 1)])
+def test_a_whirled_chain_that_rods_cannot_follow_is_told_of(ratio, told):
+    """Without gravity, a bob that flies round at 30 rad/s pulls by 30² times its distance."""
+    world = World((0, 0), effects=make(["Rods"]))
+    before = world.add(Body(Circle(2), (0, 0)))
+    for i in range(1, 11):
+        ball = world.add(Body(Circle(3), (20 * i, 0), ratio if i == 10 else 1.0))
+        ball.vel = 0, 30 * 20 * i
+        world.add(Rod(before, ball))
+        before = ball
+    assert len(world.check()) == told
