@@ -29,6 +29,7 @@ LOOSE = 0.003  # share of a length; above this error the frame is soft
 GUARDED = 0.9  # cosine; if a rod turns further in a substep, none may gain energy
 LOST = 0.8  # cosine; if a rod turns further in a substep, Newton's method fails
 PARTS = 4  # into which a substep is cut at first
+STEADY = 0.1  # share of an impulse; after parts, a whole substep must change it by less
 MOST_PARTS = 64
 MOST_WORK = 8192  # parts times rods, where that allows more parts
 FIRM = 1 + 1e-9  # times a pivot: with more rods than needed, the matrix has no inverse
@@ -78,9 +79,9 @@ class Rods(Joints[Rod]):
     uses the axis after the move: with the one before, a pendulum would lose energy.
 
     If a rod of a frame turns far in a substep, or light balls between heavy ones move fast, the
-    frame cuts the substep into parts. Existing errors of length are corrected softly. If a rod's
-    ends would pass each other, the speed along the present axis counts, as the axis after the move
-    would drive them on.
+    frame cuts the substep into parts; with masses that differ much, until impulses are steady.
+    Existing errors of length are corrected softly. If a rod's ends would pass each other, the speed
+    along the present axis counts, as the axis after the move would drive them on.
     """
 
     __slots__ = ("frame_of", "frames", "is_stale", "pace", "spring")
@@ -178,6 +179,7 @@ class Frame:
         self.most = -1.0  # kg px²/s², the maximum of its energy, or -1 for none
         self.lost = 0.0  # kg px²/s², lost while it turned fast; it may gain it again
         self.work = 0.0  # kg px²/s², the work of its firm rods in this substep
+        self.parts = 1  # into which the substep before was cut, if masses differ much
         self.is_off = False  # whether a rod was torn or hit before this substep
         self.gave_way = False  # whether its rods may take energy in this substep
         # the velocities (px/s) of a substep in parts, during the move and after it
@@ -189,9 +191,14 @@ class Frame:
         `bias` is the share of a length error corrected per second; `soft` is how much more a rod
         gives way if a substep cannot be cut finely enough.
         """
-        if self.find_impulses(h, bias):
-            return
+        before = [rod.j for rod in self.rods]
+        if self.parts <= PARTS and self.find_impulses(h, bias):
+            if self.parts == 1 or not self.has_jerked(before):
+                self.parts = 1
+                return
+            self.return_to(before)
         if self.is_carried() or not (self.is_whole() and self.go_in_parts(h, bias)):
+            self.parts = 1
             self.give_way(h, bias, soft)
 
     def find_impulses(self, h: float, bias: float, slow: float = SLOW) -> bool:
@@ -214,10 +221,20 @@ class Frame:
             if off < NEAR:
                 return True
             last = off
-        for rod, j in zip(self.rods, before, strict=True):
+        self.return_to(before)
+        return False
+
+    def return_to(self, impulses: list[float]) -> None:
+        """Take back what the rods' impulses have changed since they were these."""
+        for rod, j in zip(self.rods, impulses, strict=True):
             rod.apply_impulse(j - rod.j)
             rod.j = j
-        return False
+
+    def has_jerked(self, before: list[float]) -> bool:
+        """Return whether impulses are far from those of the substep before."""
+        most = max([max(abs(rod.j), abs(j)) for rod, j in zip(self.rods, before, strict=True)])
+        changes = [abs(rod.j - j) for rod, j in zip(self.rods, before, strict=True)]
+        return max(changes) > STEADY * most
 
     def go_in_parts(self, h: float, bias: float) -> bool:
         """Cut a substep into parts so short that each rod turns only a little in each.
@@ -263,6 +280,7 @@ class Frame:
             for rod, j in zip(self.rods, impulses, strict=True):
                 rod.j = j
                 rod.measure()
+        self.parts = count if self.heaviest > HEAVY * self.lightest else 1
         return count <= most
 
     def fall(self, seconds: float) -> None:

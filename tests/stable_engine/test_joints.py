@@ -36,6 +36,22 @@ def energy_error(scene, seconds):
     return max(abs(now - start) for now in seen) / (depth * G)
 
 
+@pytest.mark.parametrize("bob", [1.0, 10.0, 100.0])
+@pytest.mark.parametrize("angles", [(170, 10), (120, -60), (90, 90)])
+def test_a_double_pendulum_with_a_heavier_bob_keeps_its_energy(bob, angles):
+    """Nothing takes or gives energy: 1 % of the greatest fall in 20 s. Angles are from plumb."""
+    balls, x, y = [Ball((0, 0), 4, mass=0)], 0.0, 0.0
+    for angle, mass in zip(angles, (1.0, bob), strict=True):
+        x += 100 * math.sin(math.radians(angle))
+        y += 100 * math.cos(math.radians(angle))
+        balls.append(Ball((x, y), 3, mass))
+    engine = Stable(Scene(balls, ("Rods",), [(0, 1), (1, 2)]))
+    start, fall = energy(engine, DT), 2 * 100 * G * (1 + 2 * bob)
+    assert all(
+        abs(now - start) < 0.01 * fall for now in watch(engine, 20, lambda: energy(engine, DT))
+    )
+
+
 def test_a_light_ball_between_two_rods_takes_no_energy():
     scene = swinging(2, 100.0)
     scene.bodies[1].mass = 0.01
