@@ -31,7 +31,7 @@ LOST = 0.8  # cosine; if a rod turns further in a substep, Newton's method fails
 PARTS = 4  # into which a substep is cut at first
 STEADY = 0.1  # share of an impulse; after parts, a whole substep must change it by less
 MOST_PARTS = 64
-MOST_WORK = 8192  # parts times rods, where that allows more parts
+MOST_WORK = 8192  # parts times rods, if masses differ much and that allows more parts
 FIRM = 1 + 1e-9  # times a pivot: with more rods than needed, the matrix has no inverse
 ROUNDING = 1e-9  # share of a length
 
@@ -251,7 +251,9 @@ class Frame:
         self.fall(-h / 2)
         self.hold()
         energy = self.energy(*self.velocity()) - self.fallen()
-        most = max(MOST_PARTS, MOST_WORK // len(self.rods))
+        most = MOST_PARTS
+        if self.heaviest > HEAVY * self.lightest and not self.flies_past(h):
+            most = max(most, MOST_WORK // len(self.rods))
         count, done = PARTS, 0  # equal parts done so far
         while done < count <= most:
             part = h / count
@@ -282,6 +284,11 @@ class Frame:
                 rod.measure()
         self.parts = count if self.heaviest > HEAVY * self.lightest else 1
         return count <= most
+
+    def flies_past(self, h: float) -> bool:
+        """Return whether an end of a rod moves further than its length within h seconds."""
+        ends = [(rod.end_a, rod.end_b, rod.rest) for rod in self.rods]
+        return any([hypot(b.vx - a.vx, b.vy - a.vy) * h > length for a, b, length in ends])
 
     def fall(self, seconds: float) -> None:
         """Add the speed of a fall of so many seconds."""
