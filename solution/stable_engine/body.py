@@ -270,10 +270,7 @@ class Body:
 
     @angle.setter
     def angle(self, value: float) -> None:
-        angle = finite("Body.angle", value)
-        shape = type(self.outline).__name__
-        require(self.r > 0 or angle == 0, "Body.angle", value, f"0, as a {shape} never turns")
-        self.turn = angle
+        self.turn = self.fitting_turn("Body.angle", value)
 
     @property
     def omega(self) -> float:
@@ -285,11 +282,14 @@ class Body:
 
     @omega.setter
     def omega(self, value: float) -> None:
-        spin = finite("Body.omega", value)
-        shape = type(self.outline).__name__
-        require(self.r > 0 or spin == 0, "Body.omega", value, f"0, as a {shape} never turns")
-        self.w = spin
+        self.w = self.fitting_turn("Body.omega", value)
         self.moved()
+
+    def fitting_turn(self, name: str, value: float) -> float:
+        """Return an angle or spin as a float. Raises ValueError if the body cannot have it."""
+        turn, shape = finite(name, value), type(self.outline).__name__
+        require(self.r > 0 or turn == 0, name, value, f"0, as a {shape} never turns")
+        return turn
 
     def apply_impulse(self, impulse: Iterable[float], at: Iterable[float] | None = None) -> None:
         """Push with an impulse in kg px/s at a position in px: the centre, unless given.

@@ -174,6 +174,7 @@ class Frame:
         self.hangs = len(self.balls) < len(ends)
         masses = [ball.m for ball in self.balls]
         self.heaviest, self.lightest = max(masses), min(masses)  # kg
+        self.is_uneven = self.heaviest > HEAVY * self.lightest
         is_braced = len(self.rods) > 2 * len(ends) - 3  # by more rods than keep its shape
         self.load = sum(masses) if is_braced else self.heaviest  # kg, that presses where it touches
         self.most = -1.0  # kg px²/s², the maximum of its energy, or -1 for none
@@ -252,7 +253,7 @@ class Frame:
         self.hold()
         energy = self.energy(*self.velocity()) - self.fallen()
         most = MOST_PARTS
-        if self.heaviest > HEAVY * self.lightest and not self.flies_past(h):
+        if self.is_uneven and not self.flies_past(h):
             most = max(most, MOST_WORK // len(self.rods))
         count, done = PARTS, 0  # equal parts done so far
         while done < count <= most:
@@ -282,7 +283,7 @@ class Frame:
             for rod, j in zip(self.rods, impulses, strict=True):
                 rod.j = j
                 rod.measure()
-        self.parts = count if self.heaviest > HEAVY * self.lightest else 1
+        self.parts = count if self.is_uneven else 1
         return count <= most
 
     def flies_past(self, h: float) -> bool:
