@@ -272,9 +272,8 @@ class Contacts(Effect):
         """Return how long (s) two bodies have flown freely: a step, if none was hit or stopped."""
         if not (self.hit_ago or self.flown):
             return self.last_dt
-        least = inf
-        for body in (a, b):
-            least = min(least, self.hit_ago.get(body, self.flown.get(body, inf)))
+        hit_ago, flown = self.hit_ago, self.flown
+        least = min(hit_ago.get(a, flown.get(a, inf)), hit_ago.get(b, flown.get(b, inf)))
         return self.last_dt if least == inf else least
 
     def was_stopped(self, body: Body) -> bool:
@@ -565,13 +564,13 @@ class Contacts(Effect):
         if self.ignored:
             statics = [s for s in statics if pair_number(body, s) not in self.ignored]
         x, y = start
-        way = body.x - x, body.y - y
-        fraction = first_hit(statics, radius, x, y, *way)
+        dx, dy = body.x - x, body.y - y
+        fraction = first_hit(statics, radius, x, y, dx, dy)
         if fraction < NO_HIT:
-            fraction += overlap / hypot(*way)
+            fraction += overlap / hypot(dx, dy)
         if fraction < 1:
             end = state_of(body)
-            put_back(body, way, fraction, self.pull, h)
+            put_back(body, (dx, dy), fraction, self.pull, h)
             if not body.is_bullet:
                 self.ends[body] = state_of(body), self.ends.get(body, (end, end))[1]
             before = self.stopped.get(body, self.last_dt)

@@ -140,18 +140,19 @@ class Flight:
                 self.fly_frame(frame, seconds)
         if not self.springs_of:
             for body in free:
-                self.fly_ball(body, *self.acceleration(body), seconds)
+                self.fly_ball(body, self.acceleration(body), seconds)
             return
         free, parts = [*free, *self.partners], self.world.substep_count
         for _ in range(parts):  # as the pull of springs changes on the way
             before = [(body, self.acceleration(body)) for body in free]
-            times = [self.fly_ball(body, *a, seconds / parts) for body, a in before]
+            times = [self.fly_ball(body, pull, seconds / parts) for body, pull in before]
             self.time += seconds / parts
-            for (body, a), time in zip(before, times, strict=True):
-                self.adjust(body, *a, time)
+            for (body, pull), time in zip(before, times, strict=True):
+                self.adjust(body, pull, time)
 
-    def fly_ball(self, body: Body, ax: float, ay: float, seconds: float) -> float:
-        """Let a ball fly on under an acceleration (px/s²). Return for how long (s) it could."""
+    def fly_ball(self, body: Body, pull: tuple[float, float], seconds: float) -> float:
+        """Let a ball fly on under a pull (px/s²). Return for how long (s) it could."""
+        ax, ay = pull
         x = (body.vx + ax * (self.h + seconds) / 2) * seconds
         y = (body.vy + ay * (self.h + seconds) / 2) * seconds
         radius = body.r if body.is_bullet else CORE * body.r
@@ -170,9 +171,9 @@ class Flight:
         body.vy += ay * seconds
         return seconds
 
-    def adjust(self, body: Body, ax: float, ay: float, seconds: float) -> None:
-        """Adjust a velocity to the acceleration now, after a flight with that at its start."""
-        now_x, now_y = self.acceleration(body)
+    def adjust(self, body: Body, pull: tuple[float, float], seconds: float) -> None:
+        """Adjust a velocity to the pull (px/s²) now, after a flight with that at its start."""
+        (ax, ay), (now_x, now_y) = pull, self.acceleration(body)
         body.vx += (now_x - ax) * (seconds - self.h) / 2
         body.vy += (now_y - ay) * (seconds - self.h) / 2
 
@@ -187,7 +188,7 @@ class Flight:
         body.x, body.y = pivot.x + c * x - s * y, pivot.y + s * x + c * y
         body.vx, body.vy = c * vx - s * vy, s * vx + c * vy
         body.turn += body.w * seconds
-        self.adjust(body, c * ax - s * ay, s * ax + c * ay, seconds)
+        self.adjust(body, (c * ax - s * ay, s * ax + c * ay), seconds)
 
     def fly_frame(self, frame: Frame, seconds: float) -> None:
         """Let a frame fly and turn for a time, or back, as if it were rigid."""

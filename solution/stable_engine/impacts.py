@@ -1,6 +1,6 @@
 """Impacts: their order, those at one moment, and the positions afterwards."""
 
-from math import hypot, sqrt
+from math import sqrt
 
 from .body import Body, State, state_of
 from .contact import Contact, collide, is_at_face
@@ -100,9 +100,9 @@ class Impacts:
 
     def look(self, c: Contact, is_new: bool = False) -> None:
         """Note an impact if the pair closes in fast."""
+        self.due.pop(c, None)
         speed, ago = c.closing_speed(), 0.0
         if speed <= self.slow and not is_new:
-            self.due.pop(c, None)
             return
         if c.gap < 0 or is_new:
             now = c.nx, c.ny, c.gap
@@ -110,7 +110,6 @@ class Impacts:
             speed = c.closing_speed()
             if speed <= self.slow:
                 c.nx, c.ny, c.gap = now
-        self.due.pop(c, None)
         if speed > self.slow:
             self.due[c] = Impact(ago, speed)
 
@@ -195,8 +194,9 @@ class Impacts:
         statics = self.contacts.world.statics
         for body in self.contacts.hit_ago:
             x, y, core = body.last_x, body.last_y, CORE * body.r
-            way = body.x - x, body.y - y
-            if hypot(*way) > core and first_hit(statics, core, x, y, *way) == NO_HIT:
+            dx, dy = body.x - x, body.y - y
+            is_far = dx * dx + dy * dy > core * core
+            if is_far and first_hit(statics, core, x, y, dx, dy) == NO_HIT:
                 body.last_x, body.last_y = body.x, body.y
 
     def is_alone(self, c: Contact) -> bool:
@@ -215,7 +215,8 @@ class Impacts:
             late = self.contacts.last_dt - self.contacts.stopped[c.a] if is_stopped else 0.0
             self.resolve_at_touch([c], hit, ago, [], late)
             self.look_where(c)
-            self.contacts.hit_ago.update(dict.fromkeys(hit, ago + late))
+            for body in hit:
+                self.contacts.hit_ago[body] = ago + late
         else:
             self.resolve([c], [])
 
@@ -292,7 +293,8 @@ class Impacts:
 
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
-        self.contacts.hit_ago.update(dict.fromkeys(hit, ago))
+        for body in hit:
+            self.contacts.hit_ago[body] = ago
         around = list(dict.fromkeys([c for body in hit for c in self.beside[body]]))
         if self.faces and len(around) > 1:  # faces first, as they lift
             around.sort(key=lambda c: c not in self.faces)
@@ -326,17 +328,12 @@ class Impacts:
         c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
 
     def link(self) -> None:
-        """Find the contacts of each ball, and the balls that may be moved."""
+        """Find the contacts of each ball, and the balls that static bodies hold."""
         self.beside: dict[Body, list[Contact]] = {}
         for c in self.touching:
-            for body in (c.a, c.b):
-                if not body.is_static:
-                    self.beside.setdefault(body, []).append(c)
-        held = {c.a for c in self.touching if c.b.is_static}
-        stopped = self.contacts.was_stopped
-        self.free = {
-            body for body in self.beside if not (body in held or body.joint_count or stopped(body))
-        }
+            self.beside.setdefault(c.a, []).append(c)
+            if not c.b.is_static:
+                self.beside.setdefault(c.b, []).append(c)
         self.flight.held = {
             c.a for c in self.touching if c.b.is_static and (c not in self.faces or c.a.is_bullet)
         }
@@ -402,7 +399,7 @@ class Impacts:
         """
         slow = self.island_of(body, reached)
         hit = balls_of(slow)
-        if len(slow) < 2 or not self.free.issuperset(hit):
+        if len(slow) < 2 or not all([self.is_free(body) for body in hit]):
             return
         if not self.flight.cut_short.isdisjoint(hit):
             return
@@ -413,6 +410,12 @@ class Impacts:
             self.resolve(slow, [], bounces=False, turns=TURNS)
         self.flight.fly_on(hit, ago)
         self.look_around(hit, ago)
+
+    def is_free(self, body: Body) -> bool:
+        """Return whether a ball may be moved: no joint holds it, and nothing static."""
+        if body.joint_count or self.contacts.was_stopped(body):
+            return False
+        return not any([c.b.is_static for c in self.beside[body]])
 
     def island_of(self, body: Body, reached: dict[Body, float]) -> list[Contact]:
         """Return the contacts of a ball's island. Remove its balls from `reached`."""
@@ -467,7 +470,7 @@ class Impacts:
         In further turns, normal impulses stop motion that friction has caused.
         """
         hold(frames)
-        hits = [Hit(c, *self.law(c, bounces)) for c in group]
+        hits = [Hit(c, self.law(c, bounces)) for c in group]
         for hit in hits if frames else []:
             hit.feel(frames)
         passes = passes_for(len(hits), frames)
@@ -487,9 +490,9 @@ class Hit:
 
     __slots__ = ("c", "mass", "mu", "pressed", "rubbed", "wanted")
 
-    def __init__(self, c: Contact, wanted: float, share: float) -> None:
+    def __init__(self, c: Contact, law: tuple[float, float]) -> None:
         self.c = c
-        self.wanted = wanted  # px/s, the speed at which to separate
+        self.wanted, share = law  # px/s, the speed at which to separate
         self.mu = c.mu * share
         self.mass = c.mn  # kg, effective mass along the normal
         self.pressed = self.rubbed = 0.0  # kg px/s, impulses along normal and tangent
