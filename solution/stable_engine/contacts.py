@@ -9,7 +9,7 @@ from .contact import Contact, collide, the_way_it_came
 from .effect import Effect, WorldState
 from .joint import Joints
 from .loads import HEAVY, Pile, Stage, find_piles
-from .order import Group, give_places, in_same_place, put_in_order, solve_ties
+from .order import Group, give_places, in_same_place, put_in_order
 from .soft import SAME_DIRECTION, Pace, softness
 from .springs import Springs
 from .sweep import NO_HIT, first_hit, moment_of_touch, put_back
@@ -132,7 +132,8 @@ class Contacts(Effect):
             self.beside_static = {}
             for c in self.touching:
                 self.unpaired[pair_number(c.a, c.b)] = c
-        held = {body for c in self.touching for body in (c.a, c.b)} if g != (0.0, 0.0) else set()
+        bearing = self.touching if g != (0.0, 0.0) else []
+        held = {c.a for c in bearing} | {c.b for c in bearing}
         back = self.last_dt if self.lets_none_pass else 0.0
         found = phase.renew(g, held, dt, back, self.slow * dt)
         if self.ignored:
@@ -372,7 +373,8 @@ class Contacts(Effect):
             pile.look(h)
         for group in self.groups:
             self.push(group, group.in_turn, h)
-            solve_ties(self.push, group, h)
+            for tie in group.ties:
+                tie.solve(self.push, group, h)
         if self.piles:
             stage = Stage(h, self.max_push_speed, self.touching_gap / 2)
             stage.has_moved = False
@@ -411,7 +413,8 @@ class Contacts(Effect):
     def relax(self, h: float) -> None:
         for group in self.groups:
             self.stop(group, group.in_turn, h)
-            solve_ties(self.stop, group, h)
+            for tie in group.ties:
+                tie.solve(self.stop, group, h)
         if self.piles:
             stage = Stage(h, self.max_push_speed, self.touching_gap / 2)
             for pile in self.piles:

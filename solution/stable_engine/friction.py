@@ -5,7 +5,7 @@ from math import sqrt
 from .contact import Contact
 from .contacts import Contacts
 from .effect import Effect, WorldState
-from .order import Group, solve_ties
+from .order import Group
 
 CALM = 1e-7  # share of the limit; smaller changes are skipped
 
@@ -89,7 +89,8 @@ class Friction(Effect):
     def rub_all(self, h: float) -> None:
         for group in self.groups:
             self.rub(group, group.in_turn, h)
-            solve_ties(self.rub, group, h)
+            for tie in group.ties:
+                tie.solve(self.rub, group, h)
 
     def rub(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Slow the slip of each contact, as far as its normal impulse allows."""

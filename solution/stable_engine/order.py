@@ -51,6 +51,8 @@ class Tie:
 
         A contact that lets go does so wholly: what is left of an impulse would pull.
         """
+        if self.is_idle(group):
+            return
         changes = []
         before = [(ball, ball.vx, ball.vy, ball.w) for ball in self.balls]
         for c in self.contacts:
@@ -83,12 +85,6 @@ class Tie:
         return True
 
 
-def solve_ties(stage: Stage, group: Group, h: float) -> None:
-    for tie in group.ties:
-        if not tie.is_idle(group):
-            tie.solve(stage, group, h)
-
-
 def give_places(
     contacts: list[Contact], g: tuple[float, float], grain: float, number: float
 ) -> bool:
@@ -99,14 +95,15 @@ def give_places(
     Return whether any two have, as in a mirrored scene.
     """
     middle_x = middle_y = 0.0
+    count = float(len(contacts))  # a float: compiled, it divides faster
     for c in contacts:
         a, b = c.a, c.b
         x, y = a.x + a.r * c.nx, a.y + a.r * c.ny
         if b.inv_mass:  # the same whichever is A
             x, y = (a.x + b.x) / 2, (a.y + b.y) / 2
         c.place = x, y, number
-        middle_x += x / len(contacts)
-        middle_y += y / len(contacts)
+        middle_x += x / count
+        middle_y += y / count
     gx, gy = g
     pull, coarse = hypot(gx, gy), grain * 2.0**52  # a float so large has no digits below a grain
     for c in contacts:

@@ -312,7 +312,7 @@ class World(WorldState):
     def apply_gravity(self, h: float) -> None:
         """Accelerate every awake ball for h seconds."""
         gx, gy = self.g[0] * h, self.g[1] * h
-        for body in self.awake:
+        for body in self.awake if gx or gy else []:
             body.vx += gx
             body.vy += gy
 
