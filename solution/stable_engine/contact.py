@@ -116,17 +116,13 @@ class Contact:
 
 
 def collide(a: Body, b: Body) -> tuple[float, float, float]:
-    """Return the unit normal from circle a to body b, in two numbers, and the gap in px."""
-    if b.r:
-        return circle_circle(a, b)
-    return circle_box(a, b) if b.segment is None else circle_segment(a, b, b.segment)
+    """Return the unit normal from circle a to body b, in two numbers, and the gap in px.
 
-
-def circle_circle(a: Body, b: Body) -> tuple[float, float, float]:
-    """Return the normal and gap of two circles. Each concentric pair gets its own normal.
-
-    With the same normal for all pairs, a heap of balls in one place would spread along one line.
+    Each pair of concentric circles gets its own normal. With the same one for all, a heap of balls
+    in one place would spread along one line.
     """
+    if not b.r:
+        return circle_box(a, b) if b.segment is None else circle_segment(a, b, b.segment)
     dx, dy = b.x - a.x, b.y - a.y
     distance = sqrt(dx * dx + dy * dy)
     if distance > 0:

@@ -51,7 +51,7 @@ class Contacts(Effect):
 
     __slots__ = (
         *("on_hit", "on_part", "hits", "parted", "touching", "begun", "changed", "lets_none_pass"),
-        *("friction_warms", "last_dt", "flown", "hit_ago", "stopped", "broad_phase", "crowd"),
+        *("last_dt", "flown", "hit_ago", "stopped", "broad_phase", "crowd"),
         *("beside_static", "ends", "springs"),
         *("balls", "statics", "groups", "beginnings", "is_mirrored", "unpaired", "ignored", "pace"),
         *("h", "touching_gap", "slow", "max_push_speed", "begin_contact_hooks", "piles"),
@@ -70,7 +70,6 @@ class Contacts(Effect):
         self.begun: list[Contact] = []  # contacts that are new in this step
         self.changed = False  # whether contacts are new, so that their rows must be renewed
         self.lets_none_pass = False  # for Bounce: whether balls that touched and passed on count
-        self.friction_warms = False  # whether Friction warm starts both, in one pass
         self.last_dt = 0.0  # s, of the step before
         # s, how long a ball has flown freely: since its last impact, or until it was stopped
         self.flown: dict[Body, float] = {}
@@ -271,8 +270,6 @@ class Contacts(Effect):
 
     def flight_of(self, a: Body, b: Body) -> float:
         """Return how long (s) two bodies have flown freely: a step, if none was hit or stopped."""
-        if not (self.hit_ago or self.flown):
-            return self.last_dt
         hit_ago, flown = self.hit_ago, self.flown
         least = min(hit_ago.get(a, flown.get(a, inf)), hit_ago.get(b, flown.get(b, inf)))
         return self.last_dt if least == inf else least
@@ -354,19 +351,27 @@ class Contacts(Effect):
         self.h = h
 
     def warm_start(self, h: float) -> None:
+        """Apply both impulses of each contact: one pass costs less than one for each."""
         for pile in self.piles:
             pile.forget_impacts()
-        if self.friction_warms:
-            return
         for group in self.groups:
             moves_b = group.moves_b
             for c in group.contacts:
-                a, b, jn = c.a, c.b, c.jn
-                a.vx -= c.ax * jn
-                a.vy -= c.ay * jn
-                if moves_b:
-                    b.vx += c.bx * jn
-                    b.vy += c.by * jn
+                a, b, jn, jt = c.a, c.b, c.jn, c.jt
+                if jt:
+                    a.vx -= c.ax * jn + c.tax * jt
+                    a.vy -= c.ay * jn + c.tay * jt
+                    a.w -= c.aw * jt
+                    if moves_b:
+                        b.vx += c.bx * jn + c.tbx * jt
+                        b.vy += c.by * jn + c.tby * jt
+                        b.w -= c.bw * jt
+                else:
+                    a.vx -= c.ax * jn
+                    a.vy -= c.ay * jn
+                    if moves_b:
+                        b.vx += c.bx * jn
+                        b.vy += c.by * jn
 
     def solve(self, h: float) -> None:
         for pile in self.piles:
@@ -425,11 +430,10 @@ class Contacts(Effect):
         moves_b = group.moves_b
         for c in contacts:
             a, b = c.a, c.b
-            nx, ny = c.nx, c.ny
-            speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
+            speed = (b.vx - a.vx) * c.nx + (b.vy - a.vy) * c.ny
             before = c.jn
             if not before:
-                gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
+                gap = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny - c.reach
                 if gap > 0:
                     speed += gap / h
             jn = before - c.mn * speed

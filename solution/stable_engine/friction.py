@@ -16,14 +16,12 @@ class Friction(Effect):
     The tangent is the normal turned clockwise.
     """
 
-    __slots__ = ("contacts", "groups")
+    __slots__ = ("contacts",)
     rank = 5
 
     def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
-        self.contacts.friction_warms = True
-        self.groups: list[Group] = []  # of the contacts that have friction
 
     def is_used(self) -> bool:
         return any(body.mu > 0 for body in self.world.bodies)
@@ -40,16 +38,7 @@ class Friction(Effect):
             c.jt = 0.0
 
     def prepare(self, h: float) -> None:
-        if not self.contacts.changed:
-            return
-        self.groups = []
-        for whole in self.contacts.groups:
-            group = Group(whole.moves_b)
-            group.contacts = [c for c in whole.contacts if c.mu > 0]
-            group.in_turn = [c for c in whole.in_turn if c.mu > 0]
-            group.ties = whole.ties
-            if group.contacts:
-                self.groups.append(group)
+        for group in self.contacts.groups if self.contacts.changed else []:
             for c in group.contacts:
                 a, b, tx, ty = c.a, c.b, -c.ny, c.nx
                 # both arms end at one point, or friction would make spin from nothing
@@ -58,39 +47,15 @@ class Friction(Effect):
                 c.tax, c.tay, c.aw = tx * a.inv_mass, ty * a.inv_mass, c.arm_a * a.inv_inertia
                 c.tbx, c.tby, c.bw = tx * b.inv_mass, ty * b.inv_mass, c.arm_b * b.inv_inertia
 
-    def warm_start(self, h: float) -> None:
-        """Warm start both impulses of a contact: one pass costs less than one for each."""
-        for group in self.contacts.groups:
-            moves_b = group.moves_b
-            for c in group.contacts:
-                a, b, jn, jt = c.a, c.b, c.jn, c.jt
-                if jt:
-                    a.vx -= c.ax * jn + c.tax * jt
-                    a.vy -= c.ay * jn + c.tay * jt
-                    a.w -= c.aw * jt
-                    if moves_b:
-                        b.vx += c.bx * jn + c.tbx * jt
-                        b.vy += c.by * jn + c.tby * jt
-                        b.w -= c.bw * jt
-                elif jn:
-                    a.vx -= c.ax * jn
-                    a.vy -= c.ay * jn
-                    if moves_b:
-                        b.vx += c.bx * jn
-                        b.vy += c.by * jn
-
     def solve(self, h: float) -> None:
         """Apply friction to contacts that press now; in relax alone, a pile would never rest."""
-        self.rub_all(h)
-
-    def relax(self, h: float) -> None:
-        self.rub_all(h)
-
-    def rub_all(self, h: float) -> None:
-        for group in self.groups:
+        for group in self.contacts.groups:
             self.rub(group, group.in_turn, h)
             for tie in group.ties:
                 tie.solve(self.rub, group, h)
+
+    def relax(self, h: float) -> None:
+        self.solve(h)
 
     def rub(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Slow the slip of each contact, as far as its normal impulse allows."""
