@@ -115,9 +115,11 @@ class Halfway(Member):
             return f"says {', '.join(wrong)}: {words}"
         return f"does not say {', '.join(missing)}: {words}" if missing else ""
 
-    def grade(self, folder: Path, worker: Worker | None) -> Result:
+    def grade(self, folder: Path, worker: Worker | None, imports_once: bool = False) -> Result:
         """Grade it as students do: without the reference and without hidden checks."""
-        options = Options(reference=None, only=self.judged_by, trusted=True)
+        options = Options(
+            reference=None, only=self.judged_by, trusted=True, imports_once=imports_once
+        )
         with grading(folder, options, worker, drop_hidden(load_rubric())) as run:
             return run.run()
 
