@@ -6,6 +6,7 @@ from .body import Body, State, state_of
 from .contact import Contact, collide, is_at_face
 from .contacts import CORE, FAR, Contacts
 from .flight import Flight
+from .order import balls_of
 from .rods import Frame, Rods
 from .soft import SAME_DIRECTION
 from .springs import Springs
@@ -244,7 +245,7 @@ class Impacts:
                 self.resolve_first(reached)
                 rounds -= 1
             while reached:
-                self.settle(*reached.popitem(), reached)
+                self.settle(reached)
             if not self.due:
                 break
 
@@ -391,12 +392,13 @@ class Impacts:
         hardest = max([due[c].speed for c in early]) - SAME * self.fastest
         return [c for c in early if due[c].speed >= hardest], earliest
 
-    def settle(self, body: Body, ago: float, reached: dict[Body, float]) -> None:
+    def settle(self, reached: dict[Body, float]) -> None:
         """Stop at once all pairs that close in slowly, in the island of a ball that was hit.
 
         The solver stops islands with joints or static bodies. Where anything was fast at the hit,
         stopping it would take energy.
         """
+        body, ago = reached.popitem()
         slow = self.island_of(body, reached)
         hit = balls_of(slow)
         if len(slow) < 2 or not all([self.is_free(body) for body in hit]):
@@ -553,8 +555,3 @@ def passes_for(count: int, frames: list[Frame]) -> int:
     if count == 1 and not frames:
         return 1
     return max(min(PASSES, WORK // (count * (1 + sum([len(frame.rods) for frame in frames])))), 1)
-
-
-def balls_of(group: list[Contact]) -> list[Body]:
-    """Return the balls of contacts, each once."""
-    return list(dict.fromkeys([b for c in group for b in (c.a, c.b) if not b.is_static]))

@@ -43,7 +43,7 @@ class Tie:
     def __init__(self, contacts: list[Contact], grain: float) -> None:
         self.contacts = contacts
         self.least = grain / 4  # px and px/s; less counts as 0
-        self.balls = list(dict.fromkeys(balls_of(contacts)))
+        self.balls = balls_of(contacts)
         self.share = share_of_each(contacts)
 
     def solve(self, stage: Stage, group: Group, h: float) -> None:
@@ -140,9 +140,10 @@ def in_same_place(contacts: list[Contact]) -> list[list[Contact]]:
 
 def share_of_each(contacts: list[Contact]) -> float:
     """Return the share of its work that a contact may do at once with others at the same ball."""
-    return 1 / max(Counter(balls_of(contacts)).values())
+    balls = Counter([b for c in contacts for b in (c.a, c.b) if not b.is_static])
+    return 1 / max(balls.values())
 
 
 def balls_of(contacts: list[Contact]) -> list[Body]:
-    """Return the balls of contacts, each as often as it has contacts."""
-    return [body for c in contacts for body in (c.a, c.b) if not body.is_static]
+    """Return the balls of contacts, each once."""
+    return list(dict.fromkeys([b for c in contacts for b in (c.a, c.b) if not b.is_static]))
