@@ -130,8 +130,8 @@ def packed(count):
 class RepeatedStep:
     """An engine that starts every step from the scene's positions: each step costs the same.
 
-    `kind` "still": the engine may know that nothing moved since the last step. "asleep": it
-    runs freely until all sleep.
+    `kind` "still": no step ends elsewhere than the one before, so it finds no contacts anew.
+    "asleep": it runs freely until all sleep.
     """
 
     def __init__(self, engine, kind="pile"):
@@ -152,6 +152,9 @@ class RepeatedStep:
                 put_back(body, data)
                 if hasattr(body, "last_x") and self.kind != "still":
                     body.last_x += MOVED  # it looks for contacts anew
+        if self.kind == "still" and "Contacts" in self.engine.world.effects:
+            for contact in self.engine.world.effects["Contacts"].touching:
+                contact.jn = 0.0
 
 
 def put_back(body, data):

@@ -20,8 +20,9 @@ LEAST = 1e-100  # kg and kg px²: far below, and far above its inverse, floats r
 class Listeners:
     """The part of a world that a body calls when one of its values is set."""
 
-    __slots__ = ()
+    __slots__ = ("has_changed",)
 
+    has_changed: bool  # whether contacts must be found anew before the next step
     static_moved_hooks: list[Callable[..., Any]]
     body_moved_hooks: list[Callable[..., Any]]
     body_changed_hooks: list[Callable[..., Any]]
@@ -303,6 +304,8 @@ class Body:
         self.vy += jy * self.inv_mass
         self.w += ((x - self.x) * jy - (y - self.y) * jx) * self.inv_inertia
         self.wake()
+        if self.world:
+            self.world.has_changed = True
 
     def apply_force(self, force: Iterable[float], at: Iterable[float] | None = None) -> None:
         """Push with a force in kg px/s² during the whole next step, and no longer.

@@ -17,8 +17,8 @@ LEAST_SPEED = 0.001  # 1/s, in units of the world: the same without gravity
 class Bounce(Effect):
     """Newton's law: bodies that collide fast enough separate at e times that speed.
 
-    e is the smaller restitution of the two. Impacts are resolved before any force of the step acts,
-    see Impacts. Slower contacts stay with the solver, or a resting ball would hop.
+    e is the smaller restitution of the two. Impacts are resolved at the end of a step, see Impacts,
+    so what is drawn has bounced. Slower contacts stay with the solver, or a resting ball would hop.
     """
 
     __slots__ = ("contacts", "rods", "slow", "springs")
@@ -53,6 +53,8 @@ class Bounce(Effect):
         for c in touching:
             if c.gap < 0 and self.is_separating(c):
                 c.gap = 0.0
+            elif c.closing_speed() > slow and impacts.is_open(c):
+                c.gap = FAR_APART * c.a.r
 
     def slow_speed(self, dt: float) -> float:
         """Return the speed (px/s) up to which contacts do not bounce.

@@ -70,7 +70,7 @@ class Contacts(Effect):
         self.begun: list[Contact] = []  # contacts that are new in this step
         self.changed = False  # whether contacts are new, so that their rows must be renewed
         self.lets_none_pass = False  # for Bounce: whether balls that touched and passed on count
-        self.last_dt = 0.0  # s, of the step before
+        self.last_dt = 0.0  # s, of the step that ends; 0 once its impacts are resolved
         # s, how long a ball has flown freely: since its last impact, or until it was stopped
         self.flown: dict[Body, float] = {}
         self.hit_ago: dict[Body, float] = {}  # s, since the last impact of a ball in this step
@@ -104,10 +104,11 @@ class Contacts(Effect):
         if len(phase.bounds) != len(world.bodies):
             phase.take(world.bodies)
         renews = phase.is_stale or len(phase.leavers) > 0
-        self.changed = renews or self.any_moved()
+        moved = renews or self.any_moved()
         if renews:
             self.renew_pairs(dt)
-        if self.changed:
+        if moved:
+            self.changed = True
             for one in phase.near:
                 body = one.body
                 body.last_x, body.last_y = body.x, body.y
@@ -231,11 +232,11 @@ class Contacts(Effect):
         return (a.vx - b.vx) * nx + (a.vy - b.vy) * ny
 
     def meet(self, pair: Pair, nx: float, ny: float, gap: float) -> Contact:
-        """Add the contact of two balls that an impact has moved together."""
+        """Add the contact of two bodies that an impact has moved together."""
         c = pair.contact = self.make_contact(pair.a, pair.b, nx, ny)
         c.gap = c.found = gap
         self.touching.append(c)
-        self.balls.contacts.append(c)
+        (self.balls if c.b.inv_mass else self.statics).contacts.append(c)
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
         return c
 
@@ -270,6 +271,8 @@ class Contacts(Effect):
 
     def flight_of(self, a: Body, b: Body) -> float:
         """Return how long (s) two bodies have flown freely: a step, if none was hit or stopped."""
+        if not (self.last_dt and (self.hit_ago or self.flown)):
+            return self.last_dt
         hit_ago, flown = self.hit_ago, self.flown
         least = min(hit_ago.get(a, flown.get(a, inf)), hit_ago.get(b, flown.get(b, inf)))
         return self.last_dt if least == inf else least
@@ -456,7 +459,7 @@ class Contacts(Effect):
         """
         if self.crowd:
             self.part_crowd(h * self.world.substep_count)
-        self.begun = []
+        self.begun, self.changed = [], False
         self.last_dt = h * self.world.substep_count
         self.flown = {body: ago + self.last_dt for body, ago in self.hit_ago.items()}
         self.hit_ago = {}
@@ -549,6 +552,7 @@ class Contacts(Effect):
 
     def tell(self, h: float) -> None:
         """Call on_hit and on_part, for bodies that are still in the world."""
+        self.last_dt, self.ends = 0.0, {}  # impacts are over; a program may change anything now
         if self.hits and self.on_hit:
             hits, self.hits = self.hits, []
             for a, b, speed in hits:

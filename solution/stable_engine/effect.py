@@ -112,10 +112,13 @@ class Effect:
     # once per step
 
     def detect(self, h: float) -> None:
-        """Collision detection: find out which bodies touch."""
+        """Collision detection at the end of a step: find out which bodies touch.
+
+        Also called before a step, when a program has changed anything in between.
+        """
 
     def impact(self, h: float) -> None:
-        """Resolve impacts: change velocities at once, before any force of the step acts."""
+        """Resolve impacts: change velocities at once, after all forces of the step have acted."""
 
     def prepare(self, h: float) -> None:
         """Work out values that all substeps of this step use."""

@@ -9,6 +9,7 @@ from .rods import Frame, Rods
 from .springs import Spring, Springs
 from .sweep import first_hit
 
+DEEPEST = 4.0  # radii that a ball may fly into a wall off which it will bounce
 BEFORE = 0.01  # radii between a ball and a wall, so that the next step finds the contact
 
 
@@ -27,7 +28,7 @@ class Flight:
         self.h = h  # s, of a substep
         self.dt = contacts.last_dt  # s, of the step in which balls touched
         self.held: set[Body] = set()  # balls at static bodies that cannot go back
-        self.cut_short: set[Body] = set()  # balls that a wall stopped on their way
+        self.cut_short: dict[Body, State] = {}  # balls that a wall stopped: where they would be
         self.walls: dict[Body, list[Body]] = {}  # at which a ball is: it may fly into them
         self.bearing: dict[Body, list[Contact]] = {}  # at faces that bear a ball
         self.frame_of: dict[Body, Frame] = {}
@@ -156,13 +157,16 @@ class Flight:
         x = (body.vx + ax * (self.h + seconds) / 2) * seconds
         y = (body.vy + ay * (self.h + seconds) / 2) * seconds
         radius = body.r if body.is_bullet else CORE * body.r
+        if self.cut_short:
+            self.cut_short.pop(body, None)
         if body.is_bullet or x * x + y * y > radius * radius:
-            known = self.walls.get(body, [])
+            known = self.walls.get(body, []) if hypot(x, y) <= DEEPEST * body.r else []
             others = [s for s in self.world.statics if s not in known]
             share = first_hit(others, radius, body.x, body.y, x, y)
             if share < 1:
                 share = max(share - BEFORE * body.r / hypot(x, y), 0.0)
-                self.cut_short.add(body)
+                vx, vy = body.vx + ax * seconds, body.vy + ay * seconds
+                self.cut_short[body] = body.x + x, body.y + y, vx, vy
                 x, y, seconds = x * share, y * share, seconds * share
         body.x += x
         body.y += y

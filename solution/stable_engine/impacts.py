@@ -1,18 +1,20 @@
 """Impacts: their order, those at one moment, and the positions afterwards."""
 
-from math import sqrt
+from heapq import heappop, heappush
+from math import hypot, sqrt
 
 from .body import Body, State, state_of
+from .broad_phase import Pair
 from .contact import Contact, collide, is_at_face
 from .contacts import CORE, FAR, Contacts
-from .flight import Flight
+from .flight import BEFORE, DEEPEST, Flight
 from .order import balls_of
 from .rods import Frame, Rods
 from .soft import SAME_DIRECTION
 from .springs import Springs
 from .sweep import NO_HIT, first_hit, moment_of_touch
 
-ROUNDS = 20  # passes of impacts from ball to ball in one step, per contact
+MOST_IMPACTS = 20  # of a contact in one step
 SETTLINGS = 3  # each may cause further impacts
 TURNS = 5  # of normal impulses and friction, where bodies stay together
 PASSES = 200  # of the solver for impacts at one moment
@@ -22,29 +24,35 @@ SAME = 1e-9  # share by which equal times and speeds may differ
 FIXED = 1e-6  # share of an impulse that moves a ball which rods hold still
 CONVERGED = 1e-14  # share of an impulse; the last pass changes it by less
 
+Entry = tuple[float, int, Contact]  # in a queue: s from now, so below 0, and an impact's number
+
 
 class Impact:
-    """An impact that is due: how long ago (s) the two touched, and their closing speed (px/s)."""
+    """An impact that is due: how long ago (s) the two touched, and their closing speed (px/s).
 
-    __slots__ = ("ago", "speed")
+    number tells it from others of the same contact.
+    """
 
-    def __init__(self, ago: float, speed: float) -> None:
+    __slots__ = ("ago", "number", "speed")
+
+    def __init__(self, ago: float, speed: float, number: int) -> None:
         self.ago = ago
         self.speed = speed
+        self.number = number
 
 
 class Impacts:
     """The impacts of one step, until no pair closes in fast any more.
 
-    The earliest impact comes first. At one moment the hardest comes first, equally hard ones
-    together: so an impact travels through a row of balls, and a mirrored scene stays mirrored. At
-    the end, pairs that still close in slowly are stopped, a whole island at once.
+    The earliest impact in the world comes first. At one moment the hardest comes first, equally
+    hard ones together: so an impact travels through a row of balls, and a mirrored scene stays
+    mirrored. At the end, pairs that still close in slowly are stopped, a whole island at once.
 
     A contact is found after the touch, so balls are moved back to it, along the way they flew: see
     Flight. There they bounce, by the normal at the touch, and fly on. So nothing is left in a wall
     or in another ball, from which a push would lift it for nothing, and angular momentum is kept.
-    If they meet others on the way, these impacts come next. Where the way back is not known, on
-    stiff springs, hanging chains and static corners, balls stay; energy gives their speeds. Rods
+    If they meet others on the way, these impacts join the queue. Where the way back is not known,
+    on stiff springs, hanging chains and static corners, balls stay; energy gives their speeds. Rods
     pass an impact on at once, so a ball weighs as much as all that hangs on it along the normal.
     """
 
@@ -55,11 +63,18 @@ class Impacts:
         self.begun = set(contacts.begun)
         self.contacts = contacts
         self.touching_gap = contacts.touching_gap
+        self.dt = h * contacts.world.substep_count  # s
+        self.reach = contacts.slow * self.dt  # px, a gap that slow ones close at once
         self.slow = slow  # px/s, slower impacts are ignored
         self.due: dict[Contact, Impact] = {}
-        self.fastest = 0.0  # px/s, at the start
+        self.queue: list[Entry] = []  # of those due, the earliest first
+        self.counts: dict[Contact, int] = {}  # of impacts so far
+        self.fastest = 0.0  # px/s, of all impacts
+        self.stops: dict[Body, State] = {}  # where walls stopped balls that `passes` let fly on
+        self.near: dict[Body, list[Pair]] = {}  # the near pairs of balls that were hit
         self.flight = Flight(contacts, rods, springs, h)
         self.frame_of = self.flight.frame_of
+        self.number = 0  # of impacts found so far
         self.met: list[Contact] = []  # contacts that began through an impact
 
     def find(self) -> None:
@@ -67,8 +82,9 @@ class Impacts:
         self.find_faces()
         if self.contacts.ends:
             self.let_pass()
+        flown = self.contacts.flown
         for c in self.touching:
-            self.look(c, c in self.begun)
+            self.look(c, c in self.begun or c.a in flown or c.b in flown)
 
     def let_pass(self) -> None:
         """Let balls that a face stopped fly on to the end of the step, if they will bounce off it.
@@ -78,32 +94,49 @@ class Impacts:
         self.link()
         contacts = self.contacts
         for body, (stop, end) in contacts.ends.items():
-            walls = [c for c in self.beside.get(body, []) if c.b.is_static]
-            if walls and state_of(body) == stop and self.flight.can_all_go_back([body]):
+            if state_of(body) == stop:
                 flown = contacts.flown[body]
                 contacts.flown[body] = flown + contacts.last_dt - contacts.stopped[body]
-                self.put(body, end)
-                for c in walls:
-                    self.look(c, c in self.begun)
-                known = {c for c in walls if c in self.due and self.due[c].ago > 0}
-                sunk = [c for c in walls if self.sunk(c) > self.touching_gap]
-                if not known or not known.issuperset(sunk):
+                if not self.passes(body, end):
                     contacts.flown[body] = flown
-                    self.put(body, stop)
+
+    def passes(self, body: Body, end: State) -> bool:
+        """Put a ball that a wall stopped where it would be, if it will bounce off from there."""
+        stop = state_of(body)
+        is_near = hypot(end[0] - stop[0], end[1] - stop[1]) <= DEEPEST * body.r
+        if not (is_near and self.flight.can_all_go_back([body])):
+            return False
+        walls = [c for c in self.beside.get(body, []) if c.b.is_static]
+        self.put(body, end)
+        for c in walls:
+            self.look(c, c in self.begun)
+        known = {c for c in walls if c in self.due and self.due[c].ago > 0}
+        sunk = [c for c in walls if self.sunk(c) > self.touching_gap]
+        if known and known.issuperset(sunk):
+            self.stops[body] = stop
+            return True
+        self.put(body, stop)
+        return False
+
+    def put_back(self, bodies: list[Body]) -> None:
+        """Put balls that walls stopped back there, as they will not bounce off them."""
+        for body in bodies:
+            if body in self.stops:
+                self.put(body, self.stops.pop(body))
 
     def put(self, body: Body, state: State) -> None:
         """Put a ball that nothing has hit yet elsewhere."""
         body.x, body.y, body.vx, body.vy = state
         if body in self.flight.before:
             self.flight.before[body] = state
-        for c in self.beside[body]:
+        for c in self.beside.get(body, []):
             self.look_where(c)
 
     def look(self, c: Contact, is_new: bool = False) -> None:
-        """Note an impact if the pair closes in fast."""
+        """Note an impact if the pair closes in fast, or did before it passed each other."""
         self.due.pop(c, None)
         speed, ago = c.closing_speed(), 0.0
-        if speed <= self.slow and not is_new:
+        if not is_new and (speed <= self.slow or self.is_open(c)):
             return
         if c.gap < 0 or is_new:
             now = c.nx, c.ny, c.gap
@@ -111,8 +144,18 @@ class Impacts:
             speed = c.closing_speed()
             if speed <= self.slow:
                 c.nx, c.ny, c.gap = now
-        if speed > self.slow:
-            self.due[c] = Impact(ago, speed)
+        is_late = ago > 0 or not self.is_open(c)
+        if speed > self.slow and is_late and self.counts.get(c, 0) < MOST_IMPACTS:
+            self.number += 1
+            self.due[c] = Impact(ago, speed, self.number)
+            heappush(self.queue, (-ago, self.number, c))
+            self.fastest = max(self.fastest, speed)
+
+    def is_open(self, c: Contact) -> bool:
+        """Return whether a pair is still to meet: they are apart, far or fast."""
+        if c.gap <= self.touching_gap:
+            return False
+        return c.gap > self.reach or c.closing_speed() * self.dt > FAR * (c.a.r + c.b.r)
 
     def turn_back(self, c: Contact) -> float:
         """Turn a contact's normal back to that of the touch. Return the time (s) since then.
@@ -164,23 +207,17 @@ class Impacts:
         return since, x / distance, y / distance
 
     def resolve_all(self) -> None:
-        """Resolve all impacts, and those that they cause, island by island."""
-        self.fastest = max([impact.speed for impact in self.due.values()])
+        """Resolve all impacts, and those that they cause, until no pair closes in fast."""
+        self.link()
         for _ in range(SETTLINGS):
-            self.link()
-            due, done = self.due, set[Contact]()
-            for c, impact in due.items():
-                if self.is_alone(c):
-                    self.resolve_alone(c, impact.ago)
-                elif c not in done:
-                    island = self.contacts_from(c)
-                    done.update(island)
-                    self.due = {other: due[other] for other in island if other in due}
-                    self.resolve_island(ROUNDS * len(island))
-            self.due = {}
-            self.meet_others()
+            reached: dict[Body, float] = {}
+            while self.due:
+                self.resolve_first(reached)
+            while reached:
+                self.settle(reached)
             if not self.due:
                 break
+        self.put_back(list(self.stops))
         for c in self.faces:
             self.look_where(c)
         deep = [c for c in self.faces if c.gap < 0]
@@ -188,16 +225,20 @@ class Impacts:
             self.look_where(c)
             self.lift(c)
         self.flight.pass_on()
-        self.begin_anew()
+        self.keep_inside()
 
-    def begin_anew(self) -> None:
-        """Let Contacts.finish look for walls from where impacts have taken balls without any."""
+    def keep_inside(self) -> None:
+        """Stop balls before walls that impacts have taken them through."""
         statics = self.contacts.world.statics
         for body in self.contacts.hit_ago:
             x, y, core = body.last_x, body.last_y, CORE * body.r
             dx, dy = body.x - x, body.y - y
-            is_far = dx * dx + dy * dy > core * core
-            if is_far and first_hit(statics, core, x, y, dx, dy) == NO_HIT:
+            length = sqrt(dx * dx + dy * dy)
+            if length > core:
+                share = first_hit(statics, core, x, y, dx, dy)
+                if share < NO_HIT:
+                    share = max(share - BEFORE * body.r / length, 0.0)
+                    body.x, body.y = x + dx * share, y + dy * share
                 body.last_x, body.last_y = body.x, body.y
 
     def is_alone(self, c: Contact) -> bool:
@@ -213,57 +254,36 @@ class Impacts:
         is_free = c in self.faces and c.a not in self.flight.stiff
         is_stopped = is_free and self.contacts.was_stopped(c.a)
         if ago > 0 and (is_stopped or self.flight.can_all_go_back(hit)):
-            late = self.contacts.last_dt - self.contacts.stopped[c.a] if is_stopped else 0.0
+            late = self.contacts.last_dt - self.contacts.stopped.pop(c.a) if is_stopped else 0.0
             self.resolve_at_touch([c], hit, ago, [], late)
             self.look_where(c)
             for body in hit:
                 self.contacts.hit_ago[body] = ago + late
         else:
+            self.put_back(hit)
             self.resolve([c], [])
-
-    def contacts_from(self, c: Contact) -> list[Contact]:
-        """Return the contacts that an impact may affect through balls and rods."""
-        found, bodies = {c: None}, balls_of([c])
-        reached = set(bodies)
-        for body in bodies:
-            frame = self.frame_of.get(body)
-            around = list(frame.balls) if frame else []
-            for other in self.beside.get(body, []):
-                found[other] = None
-                around += [other.a, other.b]
-            for ball in around:
-                if ball not in reached and not ball.is_static:
-                    reached.add(ball)
-                    bodies.append(ball)
-        return list(found)
-
-    def resolve_island(self, rounds: int) -> None:
-        """Resolve the impacts of an island, in no more than so many rounds."""
-        for _ in range(SETTLINGS):
-            reached: dict[Body, float] = {}
-            while self.due and rounds > 0:
-                self.resolve_first(reached)
-                rounds -= 1
-            while reached:
-                self.settle(reached)
-            if not self.due:
-                break
 
     def resolve_first(self, reached: dict[Body, float]) -> None:
         """Resolve the first impacts. Note which balls they moved, and how long ago."""
         group, ago = self.take_first()
         hit = balls_of(group)
-        if ago > 0 and not self.flight.can_all_go_back(hit):
-            ago = 0.0
-        frames = self.frames_of(group)
-        for frame in frames:
-            hit += [ball for ball in frame.balls if ball in self.beside and ball not in hit]
-        if ago > 0:
-            self.resolve_at_touch(group, hit, ago, frames)
+        if len(group) == 1 and self.is_alone(group[0]):
+            self.resolve_alone(group[0], ago)
         else:
-            self.resolve(group, frames)
-        reached.update(dict.fromkeys(hit, ago))
-        self.look_around(hit, ago)
+            if not self.flight.can_all_go_back(hit):
+                ago = 0.0
+            if ago == 0:
+                self.put_back(hit)
+            frames = self.frames_of(group)
+            for frame in frames:
+                hit += [ball for ball in frame.balls if ball in self.beside and ball not in hit]
+            if ago > 0:
+                self.resolve_at_touch(group, hit, ago, frames)
+            else:
+                self.resolve(group, frames)
+            reached.update(dict.fromkeys(hit, ago))
+            self.look_around(hit, ago)
+        self.meet_others(hit)
 
     def resolve_at_touch(
         self,
@@ -285,6 +305,8 @@ class Impacts:
                 c.b.x -= c.nx * back
                 c.b.y -= c.ny * back
         self.flight.fly_back(hit, ago)
+        for body in hit if self.stops else []:
+            self.stops.pop(body, None)
         for c in group:
             self.look_where(c)
         self.resolve(group, frames)
@@ -302,7 +324,7 @@ class Impacts:
         for c in around:
             if ago > 0:
                 self.look_where(c)
-            self.look(c)
+            self.look(c, is_new=ago > 0)
             if c.gap < 0 and c in self.faces and not (c in self.due or c.a.joint_count):
                 self.lift(c)
 
@@ -339,31 +361,55 @@ class Impacts:
             c.a for c in self.touching if c.b.is_static and (c not in self.faces or c.a.is_bullet)
         }
 
-    def meet_others(self) -> None:
-        """Find impacts of balls that were hit with others which they did not touch before.
+    def find_near(self, bodies: list[Body]) -> None:
+        """Find the near pairs of these bodies that do not touch."""
+        for body in bodies:
+            self.near[body] = []
+            body.is_thrown = True
+        for pair in self.contacts.broad_phase.pairs:
+            if pair.contact is None:
+                if pair.a.is_thrown:
+                    self.near[pair.a].append(pair)
+                if pair.b.is_thrown:
+                    self.near[pair.b].append(pair)
+        for body in bodies:
+            body.is_thrown = False
 
-        All are sought at once, so that a mirrored scene stays mirrored. If a ball flew through a
-        static body, Contacts.finish takes it back.
-        """
-        thrown = []
-        for body in self.contacts.hit_ago:
+    def meet_others(self, hit: list[Body]) -> None:
+        """Find impacts of balls that were hit with bodies which they did not touch before."""
+        met: list[Contact] = []
+        for body in hit:
             x, y, far = body.x - body.last_x, body.y - body.last_y, FAR * body.r
             if x * x + y * y > far * far:
-                body.is_thrown = True
-                thrown.append(body)
-        if not thrown:
+                if body not in self.near:
+                    balls = [*hit, *balls_of(list(self.due))]
+                    self.find_near([ball for ball in balls if ball not in self.near])
+                for pair in self.near[body]:
+                    self.meet(pair, met)
+        if not met:
             return
-        met = []
-        for pair in self.contacts.broad_phase.pairs:
-            if (pair.a.is_thrown or pair.b.is_thrown) and pair.contact is None and pair.b.r:
-                nx, ny, gap = collide(pair.a, pair.b)
-                if gap < 0 and pair.b.inv_mass:
-                    met.append(self.contacts.meet(pair, nx, ny, gap))
-        for body in thrown:
-            body.is_thrown = False
         self.met += met
+        self.begun.update(met)
+        for c in met:
+            self.note_face(c, 0.0)
+        self.link()
+        for body in hit:
+            end = self.flight.cut_short.get(body)
+            if end and any([c.a is body and c.b.is_static for c in met]):
+                self.passes(body, end)
         for c in met:
             self.look(c, is_new=True)
+
+    def meet(self, pair: Pair, met: list[Contact]) -> None:
+        """Add the contact of a near pair to those that have met, if impacts have made it touch."""
+        a, b = pair.a, pair.b
+        if pair.contact is None and not (a in self.stops or b in self.stops):
+            nx, ny, gap = collide(a, b)
+            dx, dy = (a.vx - b.vx) * self.dt, (a.vy - b.vy) * self.dt
+            if gap > 0 and gap * gap > dx * dx + dy * dy:
+                return
+            if gap < 0 or self.contacts.have_passed(a, b, gap):
+                met.append(self.contacts.meet(pair, nx, ny, gap))
 
     def find_faces(self) -> None:
         """Find the contacts at flat faces, and the faces that bear balls."""
@@ -371,26 +417,48 @@ class Impacts:
         self.faces: dict[Contact, tuple[float, float, float]] = {}
         self.depths: dict[Contact, float] = {}  # px, the gap before
         for c in self.touching:
-            if c.b.is_static and is_at_face(c) and c.a not in self.flight.pivots:
-                self.depths[c] = c.gap
-                if not c.a.is_bullet:
-                    self.flight.walls.setdefault(c.a, []).append(c.b)
-                reach = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
-                self.faces[c] = c.nx, c.ny, reach
-                if c.jn > 0 and abs(c.closing_speed()) <= self.slow:
-                    self.flight.bearing.setdefault(c.a, []).append(c)
+            self.note_face(c, c.gap)
+
+    def note_face(self, c: Contact, depth: float) -> None:
+        """Note the face that a ball is at, if any, and the gap before (px) as its depth."""
+        if c.b.is_static and is_at_face(c) and c.a not in self.flight.pivots:
+            self.depths[c] = depth
+            if not c.a.is_bullet:
+                self.flight.walls.setdefault(c.a, []).append(c.b)
+            reach = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
+            self.faces[c] = c.nx, c.ny, reach
+            if c.jn > 0 and abs(c.closing_speed()) <= self.slow:
+                self.flight.bearing.setdefault(c.a, []).append(c)
 
     def take_first(self) -> tuple[list[Contact], float]:
         """Return the hardest of the earliest impacts, and how long (s) ago they touched."""
-        due = self.due
-        if len(due) == 1:
-            ((c, impact),) = due.items()
-            return [c], impact.ago
-        earliest = max([impact.ago for impact in due.values()])
-        near = self.touching_gap
-        early = [c for c, hit in due.items() if (earliest - hit.ago) * hit.speed <= near]
-        hardest = max([due[c].speed for c in early]) - SAME * self.fastest
-        return [c for c in early if due[c].speed >= hardest], earliest
+        due, queue = self.due, self.queue
+        early: list[Entry] = []
+        while not early:
+            self.take(early)
+        earliest = early[0][0]
+        while queue and (queue[0][0] - earliest) * self.fastest <= self.touching_gap:
+            self.take(early)
+        group = [early[0][2]]
+        if len(early) > 1:
+            # touching_gap in px/s as well: rounding would decide between slow ones
+            hardest = max([due[c].speed for _, _, c in early])
+            hardest -= max(SAME * self.fastest, self.touching_gap)
+            group = [c for _, _, c in early if due[c].speed >= hardest]
+            for entry in early:
+                if due[entry[2]].speed < hardest:
+                    heappush(queue, entry)
+        for c in group:
+            del due[c]
+            self.counts[c] = self.counts.get(c, 0) + 1
+        return group, -earliest
+
+    def take(self, early: list[Entry]) -> None:
+        """Move the first entry of the queue to these, unless it is over or was found anew."""
+        entry = heappop(self.queue)
+        impact = self.due.get(entry[2])
+        if impact and impact.number == entry[1]:
+            early.append(entry)
 
     def settle(self, reached: dict[Body, float]) -> None:
         """Stop at once all pairs that close in slowly, in the island of a ball that was hit.
@@ -403,7 +471,7 @@ class Impacts:
         hit = balls_of(slow)
         if len(slow) < 2 or not all([self.is_free(body) for body in hit]):
             return
-        if not self.flight.cut_short.isdisjoint(hit):
+        if any([ball in self.flight.cut_short for ball in hit]):
             return
         self.flight.fly_back(hit, ago)
         for c in slow:

@@ -154,6 +154,7 @@ class Sleep(Effect):
     def update_awake(self) -> None:
         """Update the world's list of awake bodies, and tell the effects."""
         self.world.awake = [body for body in self.world.bodies if not body.idle]
+        self.world.has_changed = True
         for awake_changed in self.awake_changed_hooks:
             awake_changed()
 

@@ -51,6 +51,7 @@ class World(WorldState):
         self.added = 0  # bodies added so far
         self.unchecked: list[Body] = []  # bodies and ends of joints that are new or changed
         self.warned: set[str] = set()  # the effects that a step has warned of
+        self.has_changed = True
         self.forces = {}
         self.effects = {}
         if not isinstance(effects, Iterable):
@@ -153,6 +154,7 @@ class World(WorldState):
         for body in (joint.a, joint.b):
             body.joint_count += 1
         effect.add(joint)
+        self.has_changed = True
 
     def set_bullet(self, body: Body, value: bool) -> None:
         """Make a body a bullet, or not."""
@@ -164,6 +166,7 @@ class World(WorldState):
 
     def look_again(self, body: Body) -> None:
         """Check this new or changed body in the next step."""
+        self.has_changed = True
         if not self.unchecked:
             self.detect_hooks = [self.warn, *self.hooks("detect")]
         self.unchecked.append(body)
@@ -194,6 +197,7 @@ class World(WorldState):
         self.awake = [other for other in self.awake if other is not body]
         self.statics = [other for other in self.statics if other is not body]
         body.world, body.id = None, 0
+        self.has_changed = True
 
     def remove_joint(self, joint: Joint) -> None:
         effect = self.effects.get(joint.effect)
@@ -203,6 +207,7 @@ class World(WorldState):
             body.wake()
             body.joint_count -= 1
         self.need(joint.effect, joint).remove(joint)
+        self.has_changed = True
 
     def bodies_at(self, point: Iterable[float]) -> list[Body]:
         """Return the bodies that a point (px) is in or on the edge of, in the order of adding."""
@@ -222,7 +227,7 @@ class World(WorldState):
         """Add to the force and the torque that act on a body in the next step."""
         if not self.forces:
             self.force_hooks = [*self.hooks("force", busy=True), self.apply_forces]
-            self.finish_hooks = [*self.hooks("finish"), self.clear_forces]
+            self.tell_hooks = [self.clear_forces, *self.hooks("tell")]
         before_x, before_y, before = self.forces.get(body, (0.0, 0.0, 0.0))
         self.forces[body] = before_x + fx, before_y + fy, before + torque
 
@@ -236,7 +241,7 @@ class World(WorldState):
     def clear_forces(self, h: float) -> None:
         """End all forces at the end of their step."""
         self.forces = {}
-        self.finish_hooks = self.hooks("finish")
+        self.tell_hooks = self.hooks("tell")
         self.force_hooks = self.hooks("force", busy=True)
 
     def check(self) -> list[str]:
@@ -261,7 +266,7 @@ class World(WorldState):
         for name, sentence in missing(self, bodies).items():
             if name not in self.warned:
                 self.warned.add(name)
-                warnings.warn(sentence, stacklevel=3)
+                warnings.warn(sentence, stacklevel=4)
 
     def step(self, dt: float) -> None:
         """Advance by dt seconds. Raises ValueError on a bad dt or a body with NaN or infinity."""
@@ -277,37 +282,47 @@ class World(WorldState):
                 coast(dt)
             return
 
-        # 1 detect
-        for detect in self.detect_hooks:
-            detect(h)
-        for impact in self.impact_hooks:
-            impact(h)
+        # 1 detect, which is done unless the program has changed anything
+        if self.has_changed:
+            self.detect(h)
+
+        # 2 prepare
         for prepare in self.prepare_hooks:
             prepare(h)
 
         for _ in range(self.substep_count):
-            # 2 forces
+            # 3 forces
             for force in self.force_hooks:
                 force(h)
             self.apply_gravity(h)
 
-            # 3 solve
+            # 4 solve
             for warm_start in self.warm_start_hooks:
                 warm_start(h)
             for solve in self.solve_hooks:
                 solve(h)
 
-            # 4 move
+            # 5 move
             self.move(h)
 
-            # 5 relax
+            # 6 relax
             for relax in self.relax_hooks:
                 relax(h)
 
         for finish in self.finish_hooks:
             finish(h)
+        if self.awake:
+            self.detect(h)
         for tell in self.tell_hooks:
             tell(h)
+
+    def detect(self, h: float) -> None:
+        """Find out which bodies touch, and resolve their impacts."""
+        self.has_changed = False
+        for detect in self.detect_hooks:
+            detect(h)
+        for impact in self.impact_hooks:
+            impact(h)
 
     def apply_gravity(self, h: float) -> None:
         """Accelerate every awake ball for h seconds."""

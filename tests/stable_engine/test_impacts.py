@@ -56,18 +56,48 @@ def oblique(degrees, fast, start, friction=0.0, mass=1.0, restitution=1.0):
 
 
 @pytest.mark.parametrize("shape", [Box((100, 10)), Segment((-100, 0), (100, 0), 10)])
-def test_a_flat_face_keeps_its_normal_when_a_ball_changes_its_velocity(shape):
-    """Back along its new velocity, which it did not fly with, it meets the left end of the wall."""
+def test_a_flat_face_keeps_its_normal_for_a_ball_put_into_it(shape):
+    """Back along its velocity, which it did not fly with, it meets the left end of the wall."""
     world = World((0, 0), effects=[Contacts(), Bounce()])
     middle = None if isinstance(shape, Segment) else (0, 0)
     world.add(Body(shape, middle, **IDEAL))
     ball = world.add(Body(Circle(10), (-95, -25), 1.0, **IDEAL))
-    ball.vel = 0, 1200
     world.step(1 / 120)
-    assert ball.y == pytest.approx(-15), "the ball overlaps the wall, and its impact is due"
-    ball.vel = 3000, 300
+    ball.pos, ball.vel = (-95, -15), (3000, 300)
     world.step(1 / 120)
     assert tuple(ball.vel) == pytest.approx((3000, -300), rel=1e-9)
+
+
+@pytest.mark.parametrize("count", [2, 4, 8])
+@pytest.mark.parametrize("fast", sample([200.0, 300.0, 450.0, 700.0, 1000.0, 1500.0], 3))
+def test_a_row_bounces_off_a_wall_as_if_its_balls_passed_through_each_other(fast, count):
+    """Elastic balls of equal mass swap their velocities, so they keep their order all the time.
+
+    A ball that an impact moves by less than an eighth of its radius meets others a step later.
+    """
+    for phase in range(6):
+        starts = [-110 - 0.6 * phase - 21 * k for k in range(count)]
+        row = [Ball((x, 0), 10, vel=(fast, 0), **IDEAL) for x in starts]
+        engine = Stable(Scene([Block((40, 0), (40, 200), **IDEAL), *row], BOUNCE, gravity=(0, 0)))
+        for step in range(1, int(400 / fast / DT)):
+            engine.step(DT)
+            ways = [x + 20 * k + fast * step * DT for k, x in enumerate(starts)]  # of their rims
+            ends = sorted([min(way, -20 - way) for way in ways], reverse=True)
+            places = [ball.x + 20 * k for k, ball in enumerate(balls(engine.world))]
+            assert places == pytest.approx(ends, abs=10 / 8), f"from {starts[0]}, step {step}"
+        assert places == pytest.approx(ends, abs=1e-8)
+
+
+def test_no_step_ends_with_a_ball_deep_in_a_wall_or_in_another_ball():
+    """What is drawn is after the bounce."""
+    row = [Ball((-190 + 40 * k, 0), vel=(300 * (-1) ** k, 0), **IDEAL) for k in range(10)]
+    walls = [Block((x, 0), (40, 200), **IDEAL) for x in (-240, 240)]
+    engine = Stable(Scene([*walls, *row], BOUNCE, gravity=(0, 0)))
+    for _ in range(600):
+        engine.step(DT)
+        edges = [-200.0, *[x for b in balls(engine.world) for x in (b.x - b.r, b.x + b.r)], 200.0]
+        gaps = [right - left for left, right in zip(edges[::2], edges[1::2], strict=True)]
+        assert min(gaps) > -10 / 8
 
 
 @pytest.mark.parametrize("degrees", [0, 20, 45, 70])
