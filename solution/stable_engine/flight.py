@@ -9,7 +9,7 @@ from .rods import Frame, Rods
 from .springs import Spring, Springs
 from .sweep import first_hit
 
-DEEPEST = 4.0  # radii that a ball may fly into a wall off which it will bounce
+DEEPEST = 2.0  # radii that a ball may fly into a wall off which it will bounce
 BEFORE = 0.01  # radii between a ball and a wall, so that the next step finds the contact
 
 

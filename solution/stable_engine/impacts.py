@@ -236,6 +236,7 @@ class Impacts:
             length = sqrt(dx * dx + dy * dy)
             if length > core:
                 share = first_hit(statics, core, x, y, dx, dy)
+                share = min(share, first_hit(statics, 0.0, x, y, dx, dy))  # if the core was in one
                 if share < NO_HIT:
                     share = max(share - BEFORE * body.r / length, 0.0)
                     body.x, body.y = x + dx * share, y + dy * share
