@@ -14,7 +14,7 @@ from .soft import SAME_DIRECTION
 from .springs import Springs
 from .sweep import NO_HIT, first_hit, moment_of_touch
 
-MOST_IMPACTS = 20  # of a contact in one step
+MOST_IMPACTS = 100  # of a contact in one step
 SETTLINGS = 3  # each may cause further impacts
 TURNS = 5  # of normal impulses and friction, where bodies stay together
 PASSES = 200  # of the solver for impacts at one moment
