@@ -161,7 +161,7 @@ def put_back(body, data):
     """Give a body of either engine its position and velocity in the scene."""
     if hasattr(body, "still"):
         (body.x, body.y), (body.vx, body.vy) = data.pos, data.vel
-        body.w = body.still = 0.0
+        body.w = body.still = body.lag_x = body.lag_y = 0.0
     else:
         body.pos.update(data.pos)
         body.vel.update(data.vel)

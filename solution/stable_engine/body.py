@@ -50,7 +50,7 @@ class Island:
         for body in bodies:
             body.island = self
             body.sleeps = body.idle = True
-            body.vx = body.vy = body.w = 0.0
+            body.vx = body.vy = body.w = body.lag_x = body.lag_y = 0.0
 
     def wake(self) -> None:
         """Wake all its bodies."""
@@ -81,6 +81,7 @@ class Body:
         *("x", "y", "vx", "vy", "turn", "w", "last_x", "last_y"),
         *("id", "world", "is_bullet", "is_kinematic", "idle", "sleeps", "island", "joint_count"),
         *("still", "calm", "kept", "place", "is_thrown"),
+        *("lag_x", "lag_y", "is_pressed", "is_fresh"),
     )
 
     def __init__(
@@ -100,6 +101,9 @@ class Body:
         # what steps need comes first: it lies together in memory when compiled
         self.x = self.y = self.vx = self.vy = 0.0  # px, px/s
         self.w = self.turn = 0.0  # rad/s, and rad, clockwise on the screen
+        self.lag_x = self.lag_y = 0.0  # px/s, what velocities lag behind positions in substeps
+        self.is_pressed = False  # whether it is in contact, or on stiff springs, so nothing lags
+        self.is_fresh = True  # whether it is new in the world, or moved by the program
         self.m = self.inv_mass = self.inv_inertia = 0.0  # see weigh
         self.id = 0  # from 1 up for a ball in a world, from -1 down for a static body
         self.idle = mass == 0  # static or asleep
@@ -253,7 +257,10 @@ class Body:
 
     @property
     def vel(self) -> Vector2:
-        """Return the velocity in px/s. Set both parts at once; this wakes the body."""
+        """Return the velocity in px/s at `pos`. Set both parts at once; this wakes the body.
+
+        Where contacts hold a ball, it is that of the last move, half a substep before.
+        """
         return read("Body.vel", self.vx, self.vy)
 
     @vel.setter
@@ -303,9 +310,7 @@ class Body:
         self.vx += jx * self.inv_mass
         self.vy += jy * self.inv_mass
         self.w += ((x - self.x) * jy - (y - self.y) * jx) * self.inv_inertia
-        self.wake()
-        if self.world:
-            self.world.has_changed = True
+        self.moved()
 
     def apply_force(self, force: Iterable[float], at: Iterable[float] | None = None) -> None:
         """Push with a force in kg px/s² during the whole next step, and no longer.
@@ -353,6 +358,7 @@ class Body:
     def moved(self) -> None:
         """Wake this body; if it is static, also wake bodies that rested on it or touch it now."""
         self.wake()
+        self.is_pressed, self.is_fresh = False, True
         if self.world is None:
             return
         self.world.look_again(self)

@@ -30,6 +30,7 @@ CROWDED = 0.1  # radii, by which balls that bear a load overlap in a crowd
 PARTED = 0.3  # share of an overlap that a step takes from balls in a crowd
 TOUCHING = 1e-6  # a gap that counts as touching: rounding
 MOST_BODIES = 2**29  # and no id is larger
+BEARING = 0.05  # of a weight; a smaller push does not hold a ball
 REDETECT_DISTANCE = 1e-4  # contacts stay valid until a body moves further
 
 OnHit = Callable[[Body, Body, float], object]
@@ -219,6 +220,8 @@ class Contacts(Effect):
         for begin_contact in self.begin_contact_hooks:
             begin_contact(c)
         self.begun.append(c)
+        if (a.is_fresh or (b.inv_mass and b.is_fresh)) and c.closing_speed() > -self.slow:
+            a.is_pressed = b.is_pressed = True
         if self.on_hit:
             self.hits.append((a, b, self.meeting_speed(c)))
         return c
@@ -229,7 +232,9 @@ class Contacts(Effect):
         ago, nx, ny = moment_of_touch(a, b, self.flight_of(a, b))
         if ago == 0:
             return max(c.closing_speed(), 0.0)
-        return (a.vx - b.vx) * nx + (a.vy - b.vy) * ny
+        (gx, gy), falls = self.world.g, b.is_static and not a.joint_count
+        since = self.h / 2 - ago if falls else 0.0  # s, as velocities lag half a substep behind
+        return (a.vx - b.vx + gx * since) * nx + (a.vy - b.vy + gy * since) * ny
 
     def meet(self, pair: Pair, nx: float, ny: float, gap: float) -> Contact:
         """Add the contact of two bodies that an impact has moved together."""
@@ -460,6 +465,7 @@ class Contacts(Effect):
         if self.crowd:
             self.part_crowd(h * self.world.substep_count)
         self.begun, self.changed = [], False
+        self.find_pressed(h)
         self.last_dt = h * self.world.substep_count
         self.flown = {body: ago + self.last_dt for body, ago in self.hit_ago.items()}
         self.hit_ago = {}
@@ -483,6 +489,13 @@ class Contacts(Effect):
                 break
             for body in dict.fromkeys(put_back):
                 self.stop_core(body, h)
+
+    def find_pressed(self, h: float) -> None:
+        """Mark bodies that contacts hold: more than rounding, or the weight of a falling pair."""
+        least = self.touching_gap / h + BEARING * hypot(*self.world.g) * h  # px/s
+        for c in self.touching:
+            if c.jn > least * c.mn:
+                c.a.is_pressed = c.b.is_pressed = True
 
     def gather_crowd(self) -> None:
         """Make balls in a crowd just touch. Balls that they are moved against join the crowd."""
@@ -656,9 +669,13 @@ class Contacts(Effect):
     def drop(self, a: Body, b: Body) -> None:
         """Drop all contacts of A and B, without a call of on_part."""
         ends = {a, b}
+        for c in self.touching:
+            c.a.is_pressed = c.b.is_pressed = False
         self.touching = [c for c in self.touching if not ends <= {c.a, c.b}]
         self.unpaired = {n: c for n, c in self.unpaired.items() if not ends <= {c.a, c.b}}
         self.broad_phase.bounds = []
+        if self.last_dt:
+            self.find_pressed(self.h)
 
     def is_idle(self) -> bool:
         return not self.groups

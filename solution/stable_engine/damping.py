@@ -59,6 +59,12 @@ class Damping(Effect):
         taken, taken_spin = taken_last(self.linear, h), taken_last(self.angular, h)
         self.slow(exp(-self.linear * h) / taken, exp(-self.angular * h) / taken_spin)
 
+    def lag(self, seconds: float) -> None:
+        lost, taken = expm1(-self.linear * seconds), taken_last(self.linear, seconds)
+        for body in self.world.awake:
+            body.lag_x = taken * body.lag_x + lost * body.vx
+            body.lag_y = taken * body.lag_y + lost * body.vy
+
     def solve(self, h: float) -> None:
         self.slow(taken_last(self.linear, h), taken_last(self.angular, h))
 

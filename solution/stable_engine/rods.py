@@ -2,7 +2,7 @@
 
 Where rods turn far in a substep, Frame.go_in_parts follows them in small parts: soft rods would
 lose a fifth of the energy of a fast dumbbell. Where rods are torn, turn too fast for that, or hang
-on a kinematic body, Frame.give_way makes them soft: the parts alone would give them energy.
+on bodies that move apart, Frame.give_way makes them soft: the parts alone would give them energy.
 """
 
 from math import hypot, sqrt
@@ -136,6 +136,16 @@ class Rods(Joints[Rod]):
             self.frames = [Frame(network, self.world) for network in connect(self.awake)]
             self.frame_of = {ball: frame for frame in self.frames for ball in frame.balls}
 
+    def lag(self, seconds: float) -> None:
+        """Let rods act on what others add; a frame is pressed if any of its balls is."""
+        self.find_frames()
+        for frame in self.frames:
+            if any([ball.is_pressed for ball in frame.balls]):
+                for ball in frame.balls:
+                    ball.is_pressed = True
+            else:
+                frame.hold_lags()
+
     def any_heavy(self) -> bool:
         self.find_frames()
         return any([frame.load > HEAVY * frame.lightest for frame in self.frames])
@@ -198,7 +208,7 @@ class Frame:
                 self.parts = 1
                 return
             self.return_to(before)
-        if self.is_carried() or not (self.is_whole() and self.go_in_parts(h, bias)):
+        if not (self.is_whole() and self.go_along(h, bias)):
             self.parts = 1
             self.give_way(h, bias, soft)
 
@@ -236,6 +246,32 @@ class Frame:
         most = max([max(abs(rod.j), abs(j)) for rod, j in zip(self.rods, before, strict=True)])
         changes = [abs(rod.j - j) for rod, j in zip(self.rods, before, strict=True)]
         return max(changes) > STEADY * most
+
+    def go_along(self, h: float, bias: float) -> bool:
+        """Go in parts, as seen from the bodies it hangs on. Return whether it could.
+
+        It cannot if these have different velocities: their work is not known.
+        """
+        ways = {(body.vx, body.vy) for body in self.ends if body.is_static}
+        if not ways:
+            return self.go_in_parts(h, bias)
+        if len(ways) > 1:
+            return False
+        [(vx, vy)] = ways
+        self.change_speeds(-vx, -vy)
+        done = self.go_in_parts(h, bias)
+        self.change_speeds(vx, vy)
+        self.later = [
+            (ball, (way[0] + vx, way[1] + vy), (after[0] + vx, after[1] + vy))
+            for ball, way, after in self.later
+        ]
+        return done
+
+    def change_speeds(self, vx: float, vy: float) -> None:
+        """Change the velocities of its balls, and of the bodies it hangs on."""
+        for body in self.ends:
+            body.vx += vx
+            body.vy += vy
 
     def go_in_parts(self, h: float, bias: float) -> bool:
         """Cut a substep into parts so short that each rod turns only a little in each.
@@ -360,10 +396,6 @@ class Frame:
         """Return whether all rods have nearly the right length."""
         return all([abs(rod.distance - rod.rest) < TORN * rod.rest for rod in self.rods])
 
-    def is_carried(self) -> bool:
-        """Return whether the frame is tied to a kinematic body."""
-        return any([body.is_kinematic for body in self.ends])
-
     def give_way(self, h: float, bias: float, soft: float) -> None:
         """Choose velocities for a frame that is torn, or turns far in a substep while touching.
 
@@ -421,6 +453,16 @@ class Frame:
             rod.measure()
             rod.pivot, rod.rhs = FIRM / rod.m, -rod.speed()
         self.apply()
+
+    def hold_lags(self) -> None:
+        """Remove what would stretch rods from the changes of velocities."""
+        before = [(body, body.vx, body.vy) for body in self.ends]
+        for body in self.ends:
+            body.vx, body.vy = body.lag_x, body.lag_y
+        self.hold()
+        for body, vx, vy in before:
+            body.lag_x, body.lag_y = body.vx, body.vy
+            body.vx, body.vy = vx, vy
 
     def take_back_stretching(self) -> None:
         """Remove all speed along the rods, in their present directions (RATTLE)."""

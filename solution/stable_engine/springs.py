@@ -1,6 +1,6 @@
 """Springs: Hooke's law, with damping."""
 
-from math import hypot
+from math import expm1, hypot
 
 from .body import Body, State, state_of
 from .joint import Joint, Joints
@@ -9,6 +9,7 @@ from .validate import not_negative
 
 NUMEROV = 1 / 12  # of how the stretch curves in a substep: see Springs
 STIFF = 0.25  # a spring is stiff if (omega h)² and its damping in a substep are more than this
+SMALL = 1e-3  # below it, a series is more exact than the quotient
 LEAST_DRAG = 1e-12  # share of the mass: a spring without drag would have no row in the network
 
 
@@ -18,7 +19,7 @@ class Spring(Joint):
     stiffness is force per px of stretch (kg/s²), damping is force per px/s (kg/s).
     """
 
-    __slots__ = ("c", "crowd", "drag", "j", "k", "pull", "vx", "vy")
+    __slots__ = ("c", "crowd", "drag", "j", "k", "pull", "rate", "vx", "vy")
     effect = "Springs"
 
     def __init__(
@@ -32,6 +33,7 @@ class Spring(Joint):
         super().__init__(a, b)
         self.j = 0.0  # kg px/s, accumulated impulse, positive when it pushes
         self.crowd = 0.0  # 1/s², its maximum omega², from all springs at its ends
+        self.rate = 0.0  # 1/s, at which damping slows it at most, by all springs at its ends
         self.pull = 0.0  # kg px/s, from its stretch in a substep
         self.drag = 0.0  # kg, impulse per px/s between its ends
         self.vx = self.vy = 0.0  # px/s, of B as seen from A in the move before
@@ -70,16 +72,19 @@ class Spring(Joint):
 
     def is_stiff(self, h: float) -> bool:
         """Return whether it, with all springs at its ends, swings too fast for substeps of h s."""
-        return (self.crowd * h + self.c / self.m) * h > STIFF
+        return (self.crowd * h + self.rate) * h > STIFF
 
-    def pull_between(self, here: State, there: State) -> tuple[float, float]:
-        """Return the force (kg px/s²) on an end with the state `here`, the other being `there`."""
+    def pull_between(self, here: State, there: State, ago: float = 0.0) -> tuple[float, float]:
+        """Return the force (kg px/s²) on an end with the state `here`, the other being `there`.
+
+        It may pull as it did so many seconds ago.
+        """
         dx, dy, vx, vy = [b - a for a, b in zip(here, there, strict=True)]
         distance = hypot(dx, dy)
         if distance == 0:
             return 0.0, 0.0
         nx, ny = dx / distance, dy / distance
-        force = self.k * (distance - self.rest) + self.c * (vx * nx + vy * ny)
+        force = self.k * (distance - self.rest) + (self.c - self.k * ago) * (vx * nx + vy * ny)
         return force * nx, force * ny
 
 
@@ -91,7 +96,8 @@ class Springs(Joints[Spring]):
     Impulses add up over substeps, so that a chain hangs by Hooke's law.
 
     By its stretch alone, a spring swings too fast by (omega h)² / 24. So a twelfth of the
-    change of its speed counts as extra stretch: Numerov's method, with an error of h⁴.
+    change of its speed counts as extra stretch: Numerov's method, with an error of h⁴. Damping acts
+    partly by the speed before the substep and partly by that after it, see part_after.
     """
 
     __slots__ = ("is_stale", "networks", "springs_of")
@@ -128,14 +134,18 @@ class Springs(Joints[Spring]):
             self.find_crowds()
 
     def find_crowds(self) -> None:
-        """Find how fast each spring may swing, with all springs at its ends."""
+        """Find how fast each spring may swing and slow down, with all springs at its ends."""
         self.springs_of = {}
         for spring in self.awake:
             for body in (spring.end_a, spring.end_b):
                 self.springs_of.setdefault(body, []).append(spring)
-        sums = {end: sum([s.k for s in at]) * end.inv_mass for end, at in self.springs_of.items()}
+        sums = {
+            end: (sum([s.k for s in at]) * end.inv_mass, sum([s.c for s in at]) * end.inv_mass)
+            for end, at in self.springs_of.items()
+        }
         for spring in self.awake:
-            spring.crowd = sums[spring.end_a] + sums[spring.end_b]
+            (k_a, c_a), (k_b, c_b) = sums[spring.end_a], sums[spring.end_b]
+            spring.crowd, spring.rate = k_a + k_b, c_a + c_b
 
     def pull(self, body: Body, h: float) -> tuple[float, float]:
         """Return the acceleration (px/s²) of a body by its springs that are not stiff."""
@@ -153,10 +163,12 @@ class Springs(Joints[Spring]):
             k = spring.k
             turn2 = h * h * spring.crowd  # rad², its swing in a substep, squared
             ahead = 1 - 1 / (1 + turn2 * turn2 * turn2)  # the share of the stretch after the move
-            heavier = NUMEROV * h * h * k  # kg
+            heavier = (1 - ahead) * NUMEROV * h * h * k  # kg
+            last = h * spring.c * part_after(h * spring.rate)  # kg, damping by the speed after
+            first = h * spring.c - last
             before = spring.vx * spring.nx + spring.vy * spring.ny
-            spring.pull = heavier * before - h * k * (spring.distance - spring.rest)
-            spring.drag = max(h * (spring.c + ahead * h * k) + heavier, LEAST_DRAG * spring.m)
+            spring.pull = (heavier - first) * before - h * k * (spring.distance - spring.rest)
+            spring.drag = max(last + ahead * h * h * k + heavier, LEAST_DRAG * spring.m)
             spring.apply_impulse(spring.j)
 
     def solve(self, h: float) -> None:
@@ -170,6 +182,24 @@ class Springs(Joints[Spring]):
             spring.apply_impulse(spring.rhs)
             spring.j += spring.rhs
 
+    def lag(self, seconds: float) -> None:
+        """Add the pull of soft springs: that of a third of a substep before, as it changes.
+
+        Where springs are stiff, nothing lags.
+        """
+        self.find_networks()
+        h = 2 * abs(seconds)
+        for spring in self.awake:
+            a, b = spring.end_a, spring.end_b
+            if spring.is_stiff(h):
+                a.is_pressed = b.is_pressed = True
+                continue
+            fx, fy = spring.pull_between(state_of(a), state_of(b), h / 3)
+            a.lag_x += fx * a.inv_mass * seconds
+            a.lag_y += fy * a.inv_mass * seconds
+            b.lag_x -= fx * b.inv_mass * seconds
+            b.lag_y -= fy * b.inv_mass * seconds
+
     def relax(self, h: float) -> None:
         """Keep the speeds of this move for the next one."""
         for spring in self.awake:
@@ -180,3 +210,14 @@ class Springs(Joints[Spring]):
         for spring in self.awake:
             for body in (spring.end_a, spring.end_b) if spring.c else ():
                 rates[body] = rates.get(body, 0.0) + spring.c * body.inv_mass
+
+
+def part_after(lost: float) -> float:
+    """Return the part of damping that must act by the speed after a substep, 0.5 to 1.
+
+    `lost` is the damping rate times the substep. With this part, what damping alone leaves of a
+    speed is exactly exp(-lost).
+    """
+    if lost < SMALL:
+        return 0.5 + lost / 12
+    return 1 / -expm1(-lost) - 1 / lost

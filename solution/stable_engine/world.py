@@ -28,10 +28,10 @@ class World(WorldState):
     """
 
     __slots__ = (
-        *("lengths", "added", "unchecked", "warned"),
+        *("lengths", "added", "unchecked", "warned", "lag_h", "pushed"),
         *("detect_hooks", "impact_hooks", "prepare_hooks"),
         *("force_hooks", "warm_start_hooks", "solve_hooks", "relax_hooks", "finish_hooks"),
-        *("tell_hooks", "coast_hooks", "static_moved_hooks", "body_moved_hooks"),
+        *("tell_hooks", "coast_hooks", "lag_hooks", "static_moved_hooks", "body_moved_hooks"),
         *("body_changed_hooks", "lighter_hooks", "forget_hooks"),
     )
 
@@ -49,10 +49,12 @@ class World(WorldState):
         self.awake = []
         self.statics = []
         self.added = 0  # bodies added so far
+        self.lag_h = 0.0  # s, the substep for which lags are known; 0 if anything has changed
         self.unchecked: list[Body] = []  # bodies and ends of joints that are new or changed
         self.warned: set[str] = set()  # the effects that a step has warned of
         self.has_changed = True
         self.forces = {}
+        self.pushed: set[Body] = set()  # by forces in the step before
         self.effects = {}
         if not isinstance(effects, Iterable):
             refuse("World.effects", effects, "a list of effects")
@@ -84,6 +86,8 @@ class World(WorldState):
         self.warm_start_hooks = self.hooks("warm_start", busy=True)
         self.solve_hooks = self.hooks("solve", busy=True)
         self.relax_hooks = self.hooks("relax", busy=True)
+        self.lag_hooks = self.hooks("lag", busy=True)
+        self.lag_h = 0.0
 
     def __repr__(self) -> str:
         names = ", ".join(f"{name}()" for name in self.effects)
@@ -97,7 +101,7 @@ class World(WorldState):
 
     @gravity.setter
     def gravity(self, value: Iterable[float]) -> None:
-        before, self.g = self.g, pair("World.gravity", value)
+        before, self.g, self.lag_h = self.g, pair("World.gravity", value), 0.0
         if self.g != before:
             for body in self.bodies:
                 body.wake()
@@ -153,6 +157,7 @@ class World(WorldState):
             body.wake()
         for body in (joint.a, joint.b):
             body.joint_count += 1
+        self.lag_h = 0.0
         effect.add(joint)
         self.has_changed = True
 
@@ -170,6 +175,7 @@ class World(WorldState):
         if not self.unchecked:
             self.detect_hooks = [self.warn, *self.hooks("detect")]
         self.unchecked.append(body)
+        self.lag_h = 0.0
 
     def remove(self, thing: Body | Joint) -> None:
         """Remove a body, rod or spring; with a body, also the rods and springs tied to it.
@@ -187,6 +193,7 @@ class World(WorldState):
     def remove_body(self, body: Body) -> None:
         require(body.world is self, "World.remove's body", body, "one that is in this world")
         body.wake()
+        self.lag_h = 0.0
         self.forces.pop(body, None)
         for lighter in self.lighter_hooks:
             lighter(body, 0.0)
@@ -206,6 +213,7 @@ class World(WorldState):
         for body in (joint.a, joint.b):
             body.wake()
             body.joint_count -= 1
+        self.lag_h = 0.0
         self.need(joint.effect, joint).remove(joint)
         self.has_changed = True
 
@@ -227,7 +235,6 @@ class World(WorldState):
         """Add to the force and the torque that act on a body in the next step."""
         if not self.forces:
             self.force_hooks = [*self.hooks("force", busy=True), self.apply_forces]
-            self.tell_hooks = [self.clear_forces, *self.hooks("tell")]
         before_x, before_y, before = self.forces.get(body, (0.0, 0.0, 0.0))
         self.forces[body] = before_x + fx, before_y + fy, before + torque
 
@@ -238,10 +245,9 @@ class World(WorldState):
             body.vy += fy * body.inv_mass * h
             body.w += torque * body.inv_inertia * h
 
-    def clear_forces(self, h: float) -> None:
+    def clear_forces(self) -> None:
         """End all forces at the end of their step."""
         self.forces = {}
-        self.tell_hooks = self.hooks("tell")
         self.force_hooks = self.hooks("force", busy=True)
 
     def check(self) -> list[str]:
@@ -283,8 +289,14 @@ class World(WorldState):
             return
 
         # 1 detect, which is done unless the program has changed anything
+        lags = bool(self.lag_hooks or self.forces) or self.g != (0.0, 0.0)
+        is_known = h == self.lag_h and self.forces.keys() == self.pushed
+        if is_known:
+            self.lag_behind()
         if self.has_changed:
-            self.detect(h)
+            self.detect(h, lags and not is_known)
+        elif lags and not is_known:
+            self.begin_to_lag(h)
 
         # 2 prepare
         for prepare in self.prepare_hooks:
@@ -313,16 +325,64 @@ class World(WorldState):
             finish(h)
         if self.awake:
             self.detect(h)
+        self.lag_h = h if lags else 0.0
+        if lags:
+            self.catch_up(h)
         for tell in self.tell_hooks:
             tell(h)
 
-    def detect(self, h: float) -> None:
-        """Find out which bodies touch, and resolve their impacts."""
+    def detect(self, h: float, begins: bool = False) -> None:
+        """Find out which bodies touch, and resolve their impacts.
+
+        `begins` tells whether velocities begin to lag in between.
+        """
         self.has_changed = False
         for detect in self.detect_hooks:
             detect(h)
+        if begins:
+            self.begin_to_lag(h)
         for impact in self.impact_hooks:
             impact(h)
+
+    def begin_to_lag(self, h: float) -> None:
+        """Take velocities back by half a substep after something has changed."""
+        self.change_velocities(-h / 2)
+        for body in self.awake:
+            body.is_pressed = body.is_fresh = False
+
+    def lag_behind(self) -> None:
+        """Take velocities back by half a substep, as in a leapfrog: they are those of the moves.
+
+        Between steps velocities and positions belong to the same time.
+        """
+        for body in self.awake:
+            body.vx -= body.lag_x
+            body.vy -= body.lag_y
+            body.is_pressed = False
+
+    def catch_up(self, h: float) -> None:
+        """Take velocities on to the time of the positions, except those of pressed bodies."""
+        self.change_velocities(h / 2)
+        self.pushed = set(self.forces)
+        if self.forces:
+            self.clear_forces()
+
+    def change_velocities(self, seconds: float) -> None:
+        """Change velocities as so many seconds would (below 0: back) where bodies are now."""
+        gx, gy = self.g[0] * seconds, self.g[1] * seconds
+        for body in self.awake:
+            body.lag_x, body.lag_y = gx, gy
+        for body, (fx, fy, _) in self.forces.items():
+            body.lag_x += fx * body.inv_mass * seconds
+            body.lag_y += fy * body.inv_mass * seconds
+        for lag in self.lag_hooks:
+            lag(seconds)
+        for body in self.awake:
+            if body.is_pressed:
+                body.lag_x = body.lag_y = 0.0
+            else:
+                body.vx += body.lag_x
+                body.vy += body.lag_y
 
     def apply_gravity(self, h: float) -> None:
         """Accelerate every awake ball for h seconds."""

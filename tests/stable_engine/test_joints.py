@@ -117,3 +117,62 @@ def test_a_star_of_springs_never_gains_energy(stiffness, damping, substeps):
     engine = Stable(scene, substeps)
     (ball,) = balls(engine.world)
     assert max(watch(engine, 5, lambda: math.hypot(ball.x, ball.y))) < 1.5 * math.hypot(5, 3)
+
+
+def path_of_a_pull(stiffness, damping):
+    """Return where a ball is from the rest of its spring (px) for two seconds after 50 px."""
+    peg, ball = Ball((0, 0), 4, mass=0), Ball((0, 150), 4)
+    spring = Spring(0, 1, stiffness, damping, 100.0)
+    engine = Stable(Scene([peg, ball], ("Springs",), springs=[spring], gravity=(0, 0)))
+    (ball,) = balls(engine.world)
+    return watch(engine, 2, lambda: ball.y - 100)
+
+
+@pytest.mark.parametrize(("omega", "ratio"), [(5, 0.01), (10, 0.3), (30, 0.05), (60, 0.05)])
+def test_a_damped_spring_follows_the_exact_solution(omega, ratio):
+    """The error that is left is that of the velocity half a substep before the start."""
+    begun = (ratio + omega * DT / 4) * (omega * DT / 4) ** 2
+    rate, turn = omega * ratio, omega * math.sqrt(1 - ratio * ratio)
+    for step, x in enumerate(path_of_a_pull(omega**2, 2 * rate), 1):
+        t = step * DT
+        wave = math.cos(turn * t) + rate / turn * math.sin(turn * t)
+        assert x == pytest.approx(50 * math.exp(-rate * t) * wave, abs=50 * begun)
+
+
+@pytest.mark.parametrize("stiffness", [1e2, 1e4, 1e6, 1e8])
+def test_a_critically_damped_spring_passes_its_rest_by_no_hair(stiffness):
+    assert min(path_of_a_pull(stiffness, 2 * math.sqrt(stiffness))) > -50 * 1e-4
+
+
+# ---------------------------------------------------------------- velocities at the positions
+
+
+@pytest.mark.parametrize("substeps", [1, 4])
+def test_velocities_belong_to_the_time_of_the_positions(substeps):
+    """On a spring, on a rod, and in flight, kinetic and other energy add up in each step."""
+    bodies = [Ball((0, 0), 4, mass=0), Ball((100, 0)), Ball((400, 0), vel=(50, -300))]
+    bodies += [Ball((800, 0), 4, mass=0), Ball((900, 0))]
+    spring = Spring(0, 1, 60.0, 0.0, 80.0)
+    engine = Stable(Scene(bodies, ("Rods", "Springs"), [(3, 4)], [spring]), substeps)
+    start, scale = energy(engine), 100 * G
+    for now in watch(engine, 3, lambda: energy(engine)):
+        assert now == pytest.approx(start, abs=4e-4 * scale)
+
+
+@pytest.mark.parametrize("effects", [("Contacts",), ("Contacts", "Bounce"), TOUCH])
+def test_a_ball_that_a_spring_presses_on_the_floor_reads_as_at_rest(effects):
+    bodies = [Block((0, 20), (100, 20)), Ball((0, -10)), Ball((0, -110), 4, mass=0)]
+    scene = Scene(bodies, (*effects, "Springs"), springs=[Spring(1, 2, 200.0, 5.0, 130.0)])
+    engine = Stable(scene)
+    run(engine, 1)
+    (ball,) = balls(engine.world)
+    assert max(watch(engine, 1, lambda: ball.vel.length())) < 0.1
+
+
+def test_what_hangs_still_reads_as_still():
+    bodies = [Ball((0, 0), 4, mass=0), Ball((0, 100 + G / 100)), Ball((0, 300))]
+    scene = Scene(bodies, ("Rods", "Springs"), springs=[Spring(0, 1, 100.0, 0.0, 100.0)])
+    scene.bodies.append(Ball((0, 200), 4, mass=0))
+    scene.rods.append((3, 2))
+    engine = Stable(scene)
+    assert max(watch(engine, 2, lambda: max(b.vel.length() for b in balls(engine.world)))) < 1e-6

@@ -1,13 +1,14 @@
 """Test kinematic bodies: they move as set, and carry and push other bodies."""
 
 import math
+from itertools import pairwise
 
 import pytest
 from worlds_for_tests import make
 
 from experiments.measures import run, watch
 from experiments.scenes import DT, G
-from stable_engine import Body, Box, Circle, Contacts, Kinematics, Rod, Segment, World
+from stable_engine import Body, Box, Circle, Contacts, Kinematics, Rod, Rods, Segment, World
 
 R = 10.0
 
@@ -124,3 +125,30 @@ def test_check_says_so_where_none_is_there_and_asks_no_friction_of_one():
     world.add(Body(Box((9, 9)), (0, 0), kinematic=True)).vel = (5, 0)
     world.add(Body(Circle(1), (0, -50), mass=1))
     assert world.check() == []
+
+
+@pytest.mark.parametrize("rows", [10, pytest.param(40, marks=pytest.mark.soak)])
+def test_a_chain_that_a_moving_handle_has_cracked_keeps_its_energy(rows):
+    """The handle goes round for a second, with links of 1 to 0.01 kg, and then stands still."""
+    world = World(effects=[Kinematics(), Rods()])
+    handle = world.add(Body(Circle(2), (0, 0), kinematic=True))
+    chain = [handle] + [
+        world.add(Body(Circle(2), (400 * (i + 1) / rows, 0), 0.01 ** (i / (rows - 1))))
+        for i in range(rows)
+    ]
+    rods = [world.add(Rod(a, b)) for a, b in pairwise(chain)]
+
+    def energy():
+        return sum(b.mass * (b.vel.length_squared() / 2 - G * b.pos.y) for b in chain[1:])
+
+    for i in range(60):
+        turn = 4 * math.pi * i / 60
+        handle.vel = (-300 * math.sin(turn), 300 * math.cos(turn))
+        world.step(1 / 60)
+    handle.vel = (0, 0)
+    world.step(1 / 60)  # the stop takes some of it
+    start, scale = energy(), sum(b.mass for b in chain) * G * 200
+    for _ in range(120):
+        world.step(1 / 60)
+        assert energy() == pytest.approx(start, abs=0.01 * scale)
+        assert all(abs(rod.a.pos.distance_to(rod.b.pos) - rod.length) < 0.1 for rod in rods)

@@ -48,6 +48,10 @@ class Stable(Builder):
     def step(self, dt):
         self.world.step(dt)
 
+    def lag(self, dt):
+        """Return 0: between steps velocities belong to the time of the positions."""
+        return 0.0
+
     def read(self, i):
         body = self.bodies[i]
         return State(body.x, body.y, body.vx, body.vy, body.angle, body.w)
