@@ -47,8 +47,9 @@ class Bounce(Effect):
         impacts.find()
         if impacts.due:
             impacts.resolve_all()
-            for c in impacts.met:  # only the next step may push these apart or stop them
-                c.gap = FAR_APART * c.a.r
+            for c in impacts.met:  # only the next step may push balls apart or stop them
+                if not c.b.is_static:
+                    c.gap = FAR_APART * c.a.r
         self.contacts.changed = True
         for c in touching:
             if c.gap < 0 and self.is_separating(c):

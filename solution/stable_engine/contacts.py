@@ -465,7 +465,6 @@ class Contacts(Effect):
         if self.crowd:
             self.part_crowd(h * self.world.substep_count)
         self.begun, self.changed = [], False
-        self.find_pressed(h)
         self.last_dt = h * self.world.substep_count
         self.flown = {body: ago + self.last_dt for body, ago in self.hit_ago.items()}
         self.hit_ago = {}
@@ -490,11 +489,14 @@ class Contacts(Effect):
             for body in dict.fromkeys(put_back):
                 self.stop_core(body, h)
 
-    def find_pressed(self, h: float) -> None:
-        """Mark bodies that contacts hold: more than rounding, or the weight of a falling pair."""
+    def press(self, h: float) -> None:
+        """Mark bodies that contacts hold: by more than rounding, or the weight of a falling pair.
+
+        Those that have bounced off are free.
+        """
         least = self.touching_gap / h + BEARING * hypot(*self.world.g) * h  # px/s
         for c in self.touching:
-            if c.jn > least * c.mn:
+            if c.jn > least * c.mn and c.closing_speed() > -self.slow:
                 c.a.is_pressed = c.b.is_pressed = True
 
     def gather_crowd(self) -> None:
@@ -674,8 +676,6 @@ class Contacts(Effect):
         self.touching = [c for c in self.touching if not ends <= {c.a, c.b}]
         self.unpaired = {n: c for n, c in self.unpaired.items() if not ends <= {c.a, c.b}}
         self.broad_phase.bounds = []
-        if self.last_dt:
-            self.find_pressed(self.h)
 
     def is_idle(self) -> bool:
         return not self.groups

@@ -143,6 +143,9 @@ class Effect:
     def solve(self, h: float) -> None:
         """Correct velocities by impulses, and position errors by extra velocity (the bias)."""
 
+    def press(self, h: float) -> None:
+        """Mark bodies that this effect holds, so that their velocities do not lag."""
+
     def lag(self, seconds: float) -> None:
         """Add to what velocities change by in so many seconds (below 0: back) where bodies are."""
 

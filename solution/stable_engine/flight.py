@@ -7,7 +7,7 @@ from .contact import Contact
 from .contacts import CORE, Contacts
 from .rods import Frame, Rods
 from .springs import Spring, Springs
-from .sweep import first_hit
+from .sweep import first_stop
 
 DEEPEST = 2.0  # radii that a ball may fly into a wall off which it will bounce
 BEFORE = 0.01  # radii between a ball and a wall, so that the next step finds the contact
@@ -159,10 +159,10 @@ class Flight:
         radius = body.r if body.is_bullet else CORE * body.r
         if self.cut_short:
             self.cut_short.pop(body, None)
-        if body.is_bullet or x * x + y * y > radius * radius:
+        if seconds > 0 and (body.is_bullet or x * x + y * y > radius * radius):
             known = self.walls.get(body, []) if hypot(x, y) <= DEEPEST * body.r else []
             others = [s for s in self.world.statics if s not in known]
-            share = first_hit(others, radius, body.x, body.y, x, y)
+            share = first_stop(others, radius, body.x, body.y, x, y)
             if share < 1:
                 share = max(share - BEFORE * body.r / hypot(x, y), 0.0)
                 vx, vy = body.vx + ax * seconds, body.vy + ay * seconds

@@ -5,14 +5,14 @@ from math import hypot, sqrt
 
 from .body import Body, State, state_of
 from .broad_phase import Pair
-from .contact import Contact, collide, is_at_face
+from .contact import Contact, collide, is_at_face, the_way_it_came
 from .contacts import CORE, FAR, Contacts
 from .flight import BEFORE, DEEPEST, Flight
 from .order import balls_of
 from .rods import Frame, Rods
 from .soft import SAME_DIRECTION
 from .springs import Springs
-from .sweep import NO_HIT, first_hit, moment_of_touch
+from .sweep import NO_HIT, first_stop, moment_of_touch
 
 MOST_IMPACTS = 100  # of a contact in one step
 SETTLINGS = 3  # each may cause further impacts
@@ -235,11 +235,13 @@ class Impacts:
             dx, dy = body.x - x, body.y - y
             length = sqrt(dx * dx + dy * dy)
             if length > core:
-                share = first_hit(statics, core, x, y, dx, dy)
-                share = min(share, first_hit(statics, 0.0, x, y, dx, dy))  # if the core was in one
+                share = first_stop(statics, core, x, y, dx, dy)
                 if share < NO_HIT:
                     share = max(share - BEFORE * body.r / length, 0.0)
                     body.x, body.y = x + dx * share, y + dy * share
+                    for c in self.beside.get(body, []):
+                        c.nx, c.ny, c.gap = collide(c.a, c.b)
+                        c.found = c.gap
                 body.last_x, body.last_y = body.x, body.y
 
     def is_alone(self, c: Contact) -> bool:
@@ -405,7 +407,7 @@ class Impacts:
         """Add the contact of a near pair to those that have met, if impacts have made it touch."""
         a, b = pair.a, pair.b
         if pair.contact is None and not (a in self.stops or b in self.stops):
-            nx, ny, gap = collide(a, b)
+            nx, ny, gap = seen_from_start(a, b) if b.is_static else collide(a, b)
             dx, dy = (a.vx - b.vx) * self.dt, (a.vy - b.vy) * self.dt
             if gap > 0 and gap * gap > dx * dx + dy * dy:
                 return
@@ -578,6 +580,15 @@ class Hit:
                 share = before - c.closing_speed()
         if share > FIXED:
             self.mass = c.mn / share
+
+
+def seen_from_start(a: Body, b: Body) -> tuple[float, float, float]:
+    """Return normal and gap of a ball and a static body, from the side where the ball was."""
+    before, x, y = Contact(a, b), a.x, a.y
+    a.x, a.y = a.last_x, a.last_y
+    before.nx, before.ny, _ = collide(a, b)
+    a.x, a.y = x, y
+    return the_way_it_came(before, *collide(a, b))
 
 
 def speed_at_touch(c: Contact, closing: float, g: float, lag: float) -> float:

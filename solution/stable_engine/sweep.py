@@ -71,6 +71,14 @@ def first_hit(
     return fraction
 
 
+def first_stop(
+    statics: list[Body], radius: float, x: float, y: float, dx: float, dy: float
+) -> float:
+    """Return the time of impact as first_hit does; of the centre if the ball starts in a body."""
+    whole = first_hit(statics, radius, x, y, dx, dy)
+    return min(whole, first_hit(statics, 0.0, x, y, dx, dy))
+
+
 def hit_body(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -> float:
     """Return the time of impact with a body; the ball starts at (x, y) from the centre of s."""
     if s.r:

@@ -31,8 +31,8 @@ class World(WorldState):
         *("lengths", "added", "unchecked", "warned", "lag_h", "pushed"),
         *("detect_hooks", "impact_hooks", "prepare_hooks"),
         *("force_hooks", "warm_start_hooks", "solve_hooks", "relax_hooks", "finish_hooks"),
-        *("tell_hooks", "coast_hooks", "lag_hooks", "static_moved_hooks", "body_moved_hooks"),
-        *("body_changed_hooks", "lighter_hooks", "forget_hooks"),
+        *("tell_hooks", "coast_hooks", "press_hooks", "lag_hooks", "static_moved_hooks"),
+        *("body_moved_hooks", "body_changed_hooks", "lighter_hooks", "forget_hooks"),
     )
 
     def __init__(
@@ -86,6 +86,7 @@ class World(WorldState):
         self.warm_start_hooks = self.hooks("warm_start", busy=True)
         self.solve_hooks = self.hooks("solve", busy=True)
         self.relax_hooks = self.hooks("relax", busy=True)
+        self.press_hooks = self.hooks("press", busy=True)
         self.lag_hooks = self.hooks("lag", busy=True)
         self.lag_h = 0.0
 
@@ -293,10 +294,15 @@ class World(WorldState):
         is_known = h == self.lag_h and self.forces.keys() == self.pushed
         if is_known:
             self.lag_behind()
-        if self.has_changed:
-            self.detect(h, lags and not is_known)
-        elif lags and not is_known:
-            self.begin_to_lag(h)
+        has_changed = self.has_changed
+        if has_changed:
+            self.detect(h)
+        if lags and not is_known:
+            self.change_velocities(-h / 2)
+            for body in self.awake:
+                body.is_pressed = body.is_fresh = False
+        for impact in self.impact_hooks if has_changed else []:
+            impact(h)
 
         # 2 prepare
         for prepare in self.prepare_hooks:
@@ -325,30 +331,19 @@ class World(WorldState):
             finish(h)
         if self.awake:
             self.detect(h)
+            for impact in self.impact_hooks:
+                impact(h)
         self.lag_h = h if lags else 0.0
         if lags:
             self.catch_up(h)
         for tell in self.tell_hooks:
             tell(h)
 
-    def detect(self, h: float, begins: bool = False) -> None:
-        """Find out which bodies touch, and resolve their impacts.
-
-        `begins` tells whether velocities begin to lag in between.
-        """
+    def detect(self, h: float) -> None:
+        """Find out which bodies touch."""
         self.has_changed = False
         for detect in self.detect_hooks:
             detect(h)
-        if begins:
-            self.begin_to_lag(h)
-        for impact in self.impact_hooks:
-            impact(h)
-
-    def begin_to_lag(self, h: float) -> None:
-        """Take velocities back by half a substep after something has changed."""
-        self.change_velocities(-h / 2)
-        for body in self.awake:
-            body.is_pressed = body.is_fresh = False
 
     def lag_behind(self) -> None:
         """Take velocities back by half a substep, as in a leapfrog: they are those of the moves.
@@ -375,6 +370,8 @@ class World(WorldState):
         for body, (fx, fy, _) in self.forces.items():
             body.lag_x += fx * body.inv_mass * seconds
             body.lag_y += fy * body.inv_mass * seconds
+        for press in self.press_hooks:
+            press(2 * abs(seconds))
         for lag in self.lag_hooks:
             lag(seconds)
         for body in self.awake:

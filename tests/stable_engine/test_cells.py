@@ -13,7 +13,7 @@ from samples import sample
 
 import stable_engine
 from experiments.steps import at_random, hiccups, lasting
-from stable_engine import Body, Box, Circle, Contacts, Damping, Rod, Rods, Spring, World
+from stable_engine import Body, Box, Circle, Contacts, Damping, Rod, Rods, Segment, Spring, World
 
 OTHERS = ("Bounce", "Friction", "Rods", "Springs", "Bullets", "Sleep", "Damping")
 GRAVITIES = ((0, 980), (0, 0), (3000, 0), (-500, 700), (0, 9800))
@@ -101,6 +101,15 @@ class Seams(Cells):
             else:
                 half, at = (half_x, half_y / count), (x, y + share * half_y)
             self.world.add(Body(Box(half), at, **surface))
+
+
+class Lines(Cells):
+    """Cells whose walls are lines without any width."""
+
+    def wall(self, x, y, half_x, half_y):
+        along = (half_x, 0) if half_x > half_y else (0, half_y)
+        ends = (x - along[0], y - along[1]), (x + along[0], y + along[1])
+        self.world.add(Body(Segment(*ends), **self.surface()))
 
 
 def do_all_stay(seed, steps, make=Cells):
