@@ -492,7 +492,6 @@ class ChildSetup(Struct, frozen=True):
     bans: list[str] = []  # allowed modules that this check forbids
     shown: list[str] = []  # folders of the submission that the child only reads, without a copy
     programs: list[str] = []  # to compile, with the files that they name; empty for all files
-    imports: str = ""  # a program; the child imports it, then forks children that begin there
 
 
 class Ready(Struct, frozen=True):

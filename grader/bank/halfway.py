@@ -115,11 +115,9 @@ class Halfway(Member):
             return f"says {', '.join(wrong)}: {words}"
         return f"does not say {', '.join(missing)}: {words}" if missing else ""
 
-    def grade(self, folder: Path, worker: Worker | None, imports_once: bool = False) -> Result:
+    def grade(self, folder: Path, worker: Worker | None) -> Result:
         """Grade it as students do: without the reference and without hidden checks."""
-        options = Options(
-            reference=None, only=self.judged_by, trusted=True, imports_once=imports_once
-        )
+        options = Options(reference=None, only=self.judged_by, trusted=True)
         with grading(folder, options, worker, drop_hidden(load_rubric())) as run:
             return run.run()
 

@@ -226,7 +226,7 @@ def grade_quickly(
     path: Path, only: frozenset[str], **options: Any
 ) -> tuple[Result, dict[str, list[Observation]]]:
     """Return the result and all answers by TODO, with a small budget for each check."""
-    asked = Options(shipped_reference(), only=only, trusted=True, imports_once=True, **options)
+    asked = Options(shipped_reference(), only=only, trusted=True, **options)
     with grading(path, asked, shared_worker(), load_quick_rubric()) as run:
         return run.run(), run.observations
 

@@ -111,9 +111,8 @@ def verify(
 ) -> Report:
     """Grade the members of a course whose names contain `only`; print a table.
 
-    Sound results of an earlier run are reused, no program runs twice, and a program that is not
-    hostile is imported once; with `fresh`, nothing is reused or shared. Points are those of the
-    rubric: a course may give a check none, and it must still tell right from wrong.
+    Sound results of an earlier run are reused unless `fresh`, and no program runs twice. Points are
+    those of the rubric: a course may give a check none, and it must still tell right from wrong.
     """
     course = course.as_rated
     report = Report(complaints=list(check_kit()))
@@ -265,8 +264,7 @@ def grade_member(
 ) -> Verdict:
     """Grade it on all TODOs that may judge it, or on those in `only`.
 
-    Programs that have `passed` are not run again; see `grade_submission`. With None, each check
-    also imports the program itself.
+    Programs that have `passed` are not run again; see `grade_submission`.
     """
     with tempfile.TemporaryDirectory(prefix="bank-") as folder:
         submission = Path(folder).resolve() / member.name
@@ -282,9 +280,8 @@ def grade_member(
                 # Without fork, a worker keeps processes ready, which look like leftovers: do not
                 # share it.
                 shared = worker if isinstance(worker, WarmWorker) else None
-                imports_once = passed is not None and member.kind != "hostile"
                 if isinstance(member, Halfway):
-                    result = member.grade(submission, shared, imports_once)
+                    result = member.grade(submission, shared)
                 else:
                     options = Options(
                         shipped_reference(),
@@ -292,7 +289,6 @@ def grade_member(
                         trusted=True,
                         course=member.course,
                         passed=passed,
-                        imports_once=imports_once,
                     )
                     result = grade_submission(member, submission, options, shared)
         except Exception as error:  # a crash of the judge is the worst verdict

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
-from functools import partial
 from importlib import import_module
 from pathlib import Path
 from threading import Thread
@@ -20,7 +19,7 @@ from grader.judge.result import MAX_FILE, CheckResult, Result, TodoResult, state
 from grader.judge.rubric import Rubric, Todo, load_rubric
 from grader.judge.submission import attempt, take_in
 from grader.judge.task import DEFAULT_OPTIONS, Options, Task, sandbox_for
-from grader.judge.wall.children import Child, WarmWorker, Worker, start_worker
+from grader.judge.wall.children import Child, Worker, start_worker
 from grader.judge.wall.isolation import load_everything
 from grader.judge.wall.workplace import work_folder
 from grader.protocol import cut
@@ -70,8 +69,6 @@ def grading(
         finally:
             if worker is None:
                 used.hang_up()  # its processes end while the files are removed
-            elif isinstance(used, WarmWorker):
-                used.end_importer()
 
 
 @contextmanager
@@ -99,6 +96,7 @@ class Grading(Task):
         # hypothesis takes 0.1 s to load: meanwhile, children compile and import the submission.
         with suppress(RuntimeError):  # the page for a browser has no threads
             Thread(target=import_module, args=("grader.judge.loop",), daemon=True).start()
+        self.sandbox.compile()
         budget = Budget()
         unusable = self.try_imports(budget)
         from grader.judge.loop import CheckLoop
@@ -117,7 +115,7 @@ class Grading(Task):
         unusable: dict[str, Broke | NotYet] = {}
         todos = filter(self.options.wants, self.rubric.todos)
         for module in dict.fromkeys(each for todo in todos for each in todo.modules):
-            lab = Lab(module, partial(self.sandbox.open_child, IMPORT_CPU, module), [])
+            lab = Lab(module, lambda: self.sandbox.open_child(IMPORT_CPU), [])
             lab.ran(f"import {module}")
             with lab.opened():
                 try:

@@ -13,7 +13,7 @@ from grader.judge.jobs import Job, Key, jobs_of
 from grader.judge.lab import Observation
 from grader.judge.passed import PassedPrograms, program_key
 from grader.judge.result import CheckResult
-from grader.judge.running import ModuleOpener, Outcome, Runner
+from grader.judge.running import Opener, Outcome, Runner
 from grader.judge.submission import CannotGrade
 from grader.judge.task import Task
 from grader.judge.verdict import make_result, refuse, word_failure
@@ -41,7 +41,7 @@ class CheckLoop:
         self.runner = Runner(grading, grading.sandbox.open_child, self.budget)
         sandboxes = [grading.sandbox, *grading.sandbox.beside(options.jobs - 1)]
         self.at_once = len(sandboxes)  # checks at a time
-        self.free: SimpleQueue[ModuleOpener] = SimpleQueue()  # openers that no check uses now
+        self.free: SimpleQueue[Opener] = SimpleQueue()  # openers that no check uses now
         for each in sandboxes:
             self.free.put(each.open_child)
         self.late = False  # whether a check ran out of time

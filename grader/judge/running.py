@@ -27,7 +27,6 @@ SURVEY_CPU = 2  # s of processor time, for a survey
 BRIEF = 1.0  # s of processor time: only quicker checks are surveyed
 
 Opener = Callable[[int], Child]  # takes the budget in processor seconds
-ModuleOpener = Callable[[int, str], Child]  # and what the child imports first
 
 
 @dataclass(frozen=True)
@@ -61,7 +60,7 @@ class Runner:
     """Runs checks of one submission in the children of one worker, and charges its budget."""
 
     grading: Task
-    open_child: ModuleOpener
+    open_child: Opener
     budget: Budget
     replaceable: frozenset[str] = frozenset()  # TODOs that have right versions in the whole
 
@@ -197,7 +196,7 @@ class Runner:
         """Run a check; return its lab."""
         secret = secret_of(self.grading.options.seed, job.todo, job.check)
         pieces = self.find_pieces(job.todo, job.module) if how.isolated else []
-        lab = Lab(job.module, lambda: self._open_child(lab, job, how), pieces, secret=secret)
+        lab = Lab(job.module, lambda: self._open_child(job, how), pieces, secret=secret)
         lab.surveys, lab.connection.watched = how.surveys, how.watched
         little = self.budget.why_little(job.todo.id)
         with lab.opened():
@@ -225,11 +224,10 @@ class Runner:
                 lab.failure.got += little
         return lab
 
-    def _open_child(self, lab: Lab, job: Job, how: Conditions) -> Child:
+    def _open_child(self, job: Job, how: Conditions) -> Child:
         if how.on_reference:
             return self.grading.open_right(job.check.cpu_seconds)
-        module = "" if lab.connection.deal else job.module  # seeds must change before the import
-        open_child = how.opener or (lambda cpu_seconds: self.open_child(cpu_seconds, module))
+        open_child = how.opener or self.open_child
         if how.cpu_for_words:
             return for_words(open_child)(how.cpu_for_words)
         child = open_child(self.budget.cpu_for(job.todo.id, job.check.cpu_seconds))

@@ -15,7 +15,7 @@ from grader.judge.reference import Reference
 from grader.judge.result import CheckResult
 from grader.judge.rubric import Check, Rubric, Todo, load_rubric
 from grader.judge.submission import Submission, plain_files, take_in
-from grader.judge.wall.children import Child, WarmWorker, Worker
+from grader.judge.wall.children import Child, Worker
 from grader.judge.wall.isolation import Isolation
 from grader.judge.wall.sandbox import Sandbox
 
@@ -43,9 +43,7 @@ class Options:
     start a new process for each child, as on platforms without fork. It changes no mark.
     `progress`: called with each check as it ends. An exception in it ends the grade. `jobs`: how
     many checks run at a time. It changes no mark. `passed`: programs that have passed and need not
-    run again; only for `trusted` work. `imports_once`: import each program once, and fork the
-    children of its checks from there. It changes no mark. Only for `trusted` work that is not
-    hostile: its checks share a folder, and its import runs without the filter on system calls.
+    run again; only for `trusted` work.
     """
 
     reference: Path | None = None
@@ -58,7 +56,6 @@ class Options:
     mends: bool = False
     course: Course = FULL
     passed: PassedPrograms | None = None
-    imports_once: bool = False
     jobs: int = 1
 
     def wants(self, todo: Todo) -> bool:
@@ -123,7 +120,6 @@ def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) 
     """Return the sandbox of a tree, which cannot reach the grader and the reference."""
     hidden = [str(KIT / "grader"), str(options.reference or KIT / "solution")]
     wanted = filter(options.wants, load_rubric().todos)
-    imports_once = options.trusted and options.imports_once
     return Sandbox(
         tree.folder,
         work,
@@ -134,7 +130,6 @@ def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) 
         trusted=options.trusted,
         shown=as_in_reference(tree.folder, options.reference),
         programs=sorted({module for todo in wanted for module in todo.modules}),
-        importing=worker if imports_once and isinstance(worker, WarmWorker) else None,
     )
 
 

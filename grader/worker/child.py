@@ -10,7 +10,6 @@ import sys
 import tempfile
 from collections.abc import Collection
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -74,49 +73,20 @@ def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) ->
     The child gives up its rights before it imports the submission, whose top level would
     otherwise run with them.
     """
-    place = settle(setup, without)
-    place.refuse_system_calls()
-    channel.send(Ready(os.getpid(), place.layers))
-    if setup.compiles:
-        compile_all(place.setup)
-        return  # this child never runs a line of the submission
-    answer_all(channel, place.begin())
-
-
-@dataclass
-class Place:
-    """A confined process with its own copy of the submission."""
-
-    layers: list[str]  # layers of isolation in force
-    setup: ChildSetup  # with the paths in the child's own root
-    without: Collection[str]  # layers that are left out
-    folder: Path  # the copy
-    files: list[str]  # their names
-
-    def refuse_system_calls(self) -> None:
-        """Add the last layer: the layers before it need some of the calls that it refuses."""
-        if self.setup.confine and "system-calls" not in self.without:
-            self.layers += refuse_system_calls()
-
-    def begin(self) -> Session:
-        """Enter the folder in which a program is started, and prepare to import it."""
-        os.chdir(self.folder)
-        return Session(self.folder, self.files, self.setup.bans)
-
-
-def settle(setup: ChildSetup, without: Collection[str] = ()) -> Place:
-    """Give up this process's rights, and copy the submission."""
     name = Path(setup.submission).name
     layers, setup = confine(setup, without)
     tidy_environment(setup.scratch)
     folder = Path(setup.scratch, name)
     files = copy_submission(setup, str(folder))
     sys.dont_write_bytecode = True
-    return Place(layers, setup, without, folder, files)
-
-
-def answer_all(channel: Channel, session: Session) -> None:
-    """Answer requests until the judge closes the channel."""
+    if setup.confine and "system-calls" not in without:
+        layers += refuse_system_calls()  # last: the layers above need some of these calls
+    channel.send(Ready(os.getpid(), layers))
+    if setup.compiles:
+        compile_all(setup)
+        return  # this child never runs a line of the submission
+    os.chdir(folder)  # the folder in which a program is started
+    session = Session(folder, files, setup.bans)
     with suppress(ChannelClosed):
         while True:
             for asked in decoder.decode(channel.receive()):

@@ -191,14 +191,6 @@ def confine(setup: ChildSetup, without: Collection[str] = ()) -> tuple[list[str]
     return layers, setup
 
 
-def confine_fork(limits: Limits) -> None:
-    """Confine a fork of a confined process in what a fork does not inherit."""
-    os.setsid()
-    set_resource_limits(limits)
-    if sys.platform.startswith("linux"):
-        libc().prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
-
-
 def join_own_keyring() -> None:
     """Join a session keyring of this process alone, so that no key remains for the next check."""
     number = KEYCTL.get(platform.machine())

@@ -14,27 +14,17 @@ import signal
 import socket
 import sys
 import time
-from collections.abc import Callable
 from contextlib import suppress
-from functools import partial
-from typing import NoReturn
 
 import msgspec
 import psutil
 import pygame
 import pymunk
 
-from grader.protocol import Channel, ChannelClosed, ChildSetup, End, Ended, Open, Ready
-from grader.worker.child import answer_all, serve, settle, tidy_environment
-from grader.worker.confinement import (
-    confine_fork,
-    isolate_server,
-    prepare,
-    wipe_variables,
-    write,
-)
+from grader.protocol import Channel, ChannelClosed, ChildSetup, End, Ended, Open
+from grader.worker.child import serve, tidy_environment
+from grader.worker.confinement import isolate_server, prepare, wipe_variables, write
 from grader.worker.imports import hide_modules, unhidden_modules
-from grader.worker.surroundings import Surroundings
 
 YOUNG = 10_000  # new objects before a child collects garbage; most children end earlier
 MOST_DESCRIPTORS = 4096  # more than this process ever opens; some machines allow a billion
@@ -84,18 +74,13 @@ def serve_judge(control_fd: int, without: list[str]) -> None:
     control = Channel(socket.socket(fileno=control_fd), eager=False)
     with suppress(ChannelClosed):
         control.send((pid, layers))
-        obey(control, partial(fork, without=without))
+        while True:
+            match decoder.decode(control.receive()):
+                case Open(setup):
+                    fork(control, setup, without)
+                case End(pid, gone):
+                    control.send(end(pid, gone))
     end_strays()
-
-
-def obey(control: Channel, fork: Callable[[Channel, ChildSetup], None]) -> NoReturn:
-    """Fork and end children as the judge demands; raises ChannelClosed when it hangs up."""
-    while True:
-        match decoder.decode(control.receive()):
-            case Open(setup):
-                fork(control, setup)
-            case End(pid, gone):
-                control.send(end(pid, gone))
 
 
 def warm_up() -> None:
@@ -121,7 +106,7 @@ def fork(control: Channel, setup: ChildSetup, without: list[str]) -> None:
 
     The child never returns from here: it must not run the server's loop.
     """
-    descriptor = receive_descriptor(control)
+    _, (descriptor,), _, _ = socket.recv_fds(control.sock, 1, 1)
     prepare(setup, without)
     for library in setup.loads:
         importlib.import_module(library)
@@ -135,53 +120,9 @@ def fork(control: Channel, setup: ChildSetup, without: list[str]) -> None:
         gc.set_threshold(YOUNG)
         control.close()
         close_other_descriptors(descriptor)
-        sock = socket.socket(fileno=descriptor)
-        if setup.imports:
-            serve_imported(Channel(sock, eager=False), setup, without)
-        else:
-            serve(Channel(sock), setup, without)
+        serve(Channel(socket.socket(fileno=descriptor)), setup, without)
     finally:
         os._exit(0)
-
-
-def receive_descriptor(control: Channel) -> int:
-    _, (descriptor,), _, _ = socket.recv_fds(control.sock, 1, 1)
-    return int(descriptor)
-
-
-def serve_imported(control: Channel, setup: ChildSetup, without: list[str]) -> None:
-    """Import a program, then fork a child for each check from there, until the judge hangs up.
-
-    Only for work that is not hostile: the children share a folder, and the filter on system calls
-    begins after the import. This ends if the import leaves more than modules behind, or once a
-    check has changed a file; from then on, each child imports the program itself.
-    """
-    place = settle(setup, without)
-    control.send(Ready(os.getpid(), place.layers))
-    session, before = place.begin(), Surroundings(place.folder.parent)
-    session.subject.load(setup.imports, [])
-    if not before.survive_import():
-        return
-    gc.freeze()  # what is imported stays shared with the children
-
-    def fork_imported(control: Channel, setup: ChildSetup) -> None:
-        if not before.have_same_files():
-            raise ChannelClosed("a check has changed a file")
-        descriptor = receive_descriptor(control)
-        if os.fork():
-            os.close(descriptor)
-            return
-        try:
-            control.close()
-            channel = Channel(socket.socket(fileno=descriptor))
-            confine_fork(setup.limits)
-            place.refuse_system_calls()
-            channel.send(Ready(os.getpid(), place.layers))
-            answer_all(channel, session)
-        finally:
-            os._exit(0)
-
-    obey(control, fork_imported)
 
 
 def reset_numbers() -> None:

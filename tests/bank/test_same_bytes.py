@@ -52,12 +52,7 @@ def busy_machine() -> Iterator[None]:
 
 def grade_as_json(member: Member, tree: Path, jobs: int, passed_programs: PassedPrograms | None) -> bytes:
     options = Options(
-        shipped_reference(),
-        only=member.judged_by,
-        trusted=True,
-        jobs=jobs,
-        passed=passed_programs,
-        imports_once=passed_programs is not None,
+        shipped_reference(), only=member.judged_by, trusted=True, jobs=jobs, passed=passed_programs
     )
     return as_json(grade(tree, options, shared_worker()))
 

@@ -123,7 +123,7 @@ def test_time_in_which_the_judge_queues_is_not_rest_of_the_child(
     monkeypatch.setattr(children, "seconds_in_queue", lambda pid: queued[pid])
     monkeypatch.setattr(children, "busy_seconds", lambda pid: 1.0)
     child = object.__new__(children.Child)
-    child.parent = SimpleNamespace(pid_of=lambda child: 1)
+    child.worker = SimpleNamespace(pid_of=lambda child: 1)
     child.began, child.waited, child.rested, child.looked = 2.0, 10.0, 0.0, 0.0
     queued[os.getpid()] = 9.5
     child._look()

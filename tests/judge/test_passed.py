@@ -1,4 +1,4 @@
-"""Test that neither the memory of passed programs nor a shared import changes a result."""
+"""Test that the memory of passed programs changes no result."""
 
 import shutil
 from dataclasses import replace
@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from grader.bank.halfway import list_states
 from grader.bank.members import Attack, Entry, Member, list_members
 from grader.bank.verify import grade_member, shared_worker
 from grader.judge.grade import grade
@@ -156,11 +155,11 @@ def test_only_hostile_code_in_regions_begins_with_their_checks():
 
 
 @pytest.mark.soak
-def test_the_bank_gets_the_same_results_without_a_memory_and_shared_imports(tmp_path: Path):
-    """Grade every member and half-way state, without a time limit."""
+def test_the_bank_gets_the_same_results_without_a_memory(tmp_path: Path):
+    """Grade every member, without a time limit."""
     passed = PassedPrograms(tmp_path / "passed")
     differ = []
-    for member in (*list_members(), *list_states()):
+    for member in list_members():
         with_memory, without = (grade_member(member, passed=each) for each in (passed, None))
         if with_memory.result != without.result:
             differ.append(f"{member.kind}/{member.name} as {member.form}")

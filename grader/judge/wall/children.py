@@ -57,7 +57,6 @@ REST_SECONDS = 8.0  # s, the longest sleep of a child in all
 # most 1 MB in all.
 MAX_HEARD = 8 * 1024 * 1024  # bytes
 LOOK_SECONDS = 1.0  # s of waiting for answers, between two checks whether the child sleeps
-IMPORTER_SECONDS = 30  # s of processor time, to import a program and to fork children
 
 ready_decoder = msgspec.msgpack.Decoder(Ready)
 answer_decoder = msgspec.msgpack.Decoder(Answered)
@@ -79,8 +78,8 @@ class ChildEnded(Exception):
 class Child:
     """One child and the private channel to it."""
 
-    def __init__(self, channel: Channel, parent: "Parent", cpu_seconds: int) -> None:
-        self.channel, self.parent = channel, parent
+    def __init__(self, channel: Channel, worker: "Worker", cpu_seconds: int) -> None:
+        self.channel, self.worker = channel, worker
         self.wall_seconds = cpu_seconds * WALL_FACTOR + WALL_EXTRA
         self.cpu_seconds = cpu_seconds
         self.rest_seconds = REST_SECONDS
@@ -197,7 +196,7 @@ class Child:
 
     def _look(self) -> None:
         """Update `rested`: the time for its answers minus work and queueing."""
-        busy = busy_seconds(self.parent.pid_of(self))
+        busy = busy_seconds(self.worker.pid_of(self))
         if busy is None:  # it has ended
             return
         # While the judge queues for a processor, an answer waits for the judge.
@@ -205,7 +204,7 @@ class Child:
         self.rested, self.looked = max(self.rested, self.waited - busy - ours), self.waited
 
     def _give_up(self, why: str, gone: bool, late: bool = False) -> None:
-        code = self.parent.end(self, gone)
+        code = self.worker.end(self, gone)
         self.over = why or explain(self.cpu_seconds, code)
         self.late = late or (not why and code in OUT_OF_TIME)
 
@@ -263,16 +262,7 @@ def list_waits(pid: int) -> Iterator[float]:
             yield int(schedule.split()[1]) / 1e9
 
 
-class Parent(Protocol):
-    """The judge's side of the process that forks or starts children."""
-
-    def pid_of(self, child: Child) -> int: ...
-
-    def end(self, child: Child, gone: bool) -> int | None:
-        """End a child; return its status, a signal as negative; None if its parent ended."""
-
-
-class Worker(Parent, Protocol):
+class Worker(Protocol):
     """A source of children."""
 
     layers: list[str]  # layers of isolation around all children, beside those that each child names
@@ -282,6 +272,11 @@ class Worker(Parent, Protocol):
         ...
 
     def open(self, setup: ChildSetup) -> Child: ...
+
+    def pid_of(self, child: Child) -> int: ...
+
+    def end(self, child: Child, gone: bool) -> int | None:
+        """End a child; return its status, a signal as negative; None if the worker ended."""
 
     def hang_up(self) -> None:
         """Let all processes end, while the judge does other work; `close` waits for them."""
@@ -302,66 +297,7 @@ def explain(cpu_seconds: int, code: int | None) -> str:
     return f"it ended the program (exit status {code}) instead of answering"
 
 
-class Forker:
-    """A process that forks a child for each message on its control channel."""
-
-    control: Channel
-
-    def fork(self, setup: ChildSetup) -> Child:
-        ours, theirs = socket.socketpair()
-        with ExitStack() as undone:
-            undone.enter_context(ours)
-            with theirs:
-                self.control.send(Open(setup))
-                try:
-                    socket.send_fds(self.control.sock, [b"!"], [theirs.fileno()])
-                except OSError as error:
-                    raise ChannelClosed(str(error)) from error
-            child = Child(Channel(ours), self, setup.limits.cpu_seconds)
-            undone.pop_all()  # the child keeps its end
-        return child
-
-    def pid_of(self, child: Child) -> int:
-        raise NotImplementedError
-
-    def end(self, child: Child, gone: bool) -> int | None:
-        child.channel.close()
-        try:
-            self.control.send(End(child.ready.pid, gone))
-            ended = msgspec.msgpack.decode(self._hear(), type=Ended)
-        except (ChannelClosed, ChannelTimeout):
-            self._kill()
-            return None
-        child.cpu = ended.cpu
-        return ended.status
-
-    def _hear(self) -> bytes:
-        """Await a message of the process."""
-        return self.control.receive(START_SECONDS)
-
-    def _kill(self) -> None:
-        """End the process with all its children, in any state."""
-        raise NotImplementedError
-
-
-class Importer(Forker):
-    """A child that imports a program, then forks children that begin there."""
-
-    def __init__(self, worker: "WarmWorker", setup: ChildSetup) -> None:
-        """Open it with `worker`; if the import fails, its channel closes."""
-        limits = msgspec.structs.replace(setup.limits, cpu_seconds=IMPORTER_SECONDS)
-        self.child = worker.fork(msgspec.structs.replace(setup, limits=limits))
-        self.worker, self.control = worker, self.child.channel
-        self.program = setup.submission, setup.imports
-
-    def pid_of(self, child: Child) -> int:
-        return self.worker.pid_of(child)
-
-    def _kill(self) -> None:
-        self.child.end()
-
-
-class WarmWorker(Forker):
+class WarmWorker:
     """A process that loads everything once, then forks a child per check.
 
     It loads while the judge does other work; opening the first child waits for it. Workers started
@@ -375,8 +311,6 @@ class WarmWorker(Forker):
         """Start a worker, with `count` - 1 helpers."""
         self.without = sorted(without)
         self.beside: list[WarmWorker] = []
-        self.importer: Importer | None = None
-        self.unshared: set[tuple[str, str]] = set()  # programs that each child imports itself
         self._use(started or start_warm(self.without, count))
 
     def _use(self, started: Started) -> None:
@@ -401,40 +335,27 @@ class WarmWorker(Forker):
             self.loading = False
 
     def open(self, setup: ChildSetup) -> Child:
-        self.end_importer()
         try:
-            return self.fork(setup)
+            return self._open(Open(setup), setup)
         except (ChannelClosed, ChildEnded):  # the warm process was killed: start a new one
             self._kill()
             self._use(start_warm(self.without, 1))
-            return self.fork(setup)
+            return self._open(Open(setup), setup)
 
-    def fork(self, setup: ChildSetup) -> Child:
+    def _open(self, message: object, setup: ChildSetup) -> Child:
         self.wait_until_loaded()
-        return super().fork(setup)
-
-    def fork_imported(self, setup: ChildSetup) -> Child | None:
-        """Return a child that begins after its import; None if that leaves more than modules.
-
-        There is one importer at a time, since the end of any child ends all other processes.
-        """
-        program = setup.submission, setup.imports
-        if program in self.unshared:
-            return None
-        try:
-            if self.importer is None or self.importer.program != program:
-                self.end_importer()
-                self.importer = Importer(self, setup)
-            return self.importer.fork(setup)
-        except (ChannelClosed, ChildEnded):
-            self.unshared.add(program)
-            return None
-
-    def end_importer(self) -> None:
-        """End the process that has imported a program, if there is one."""
-        if self.importer is not None:
-            self.importer.child.end()
-            self.importer = None
+        ours, theirs = socket.socketpair()
+        with ExitStack() as undone:
+            undone.enter_context(ours)
+            with theirs:
+                self.control.send(message)
+                try:
+                    socket.send_fds(self.control.sock, [b"!"], [theirs.fileno()])
+                except OSError as error:
+                    raise ChannelClosed(str(error)) from error
+            child = Child(Channel(ours), self, setup.limits.cpu_seconds)
+            undone.pop_all()  # the child keeps its end
+        return child
 
     def pid_of(self, child: Child) -> int:
         """Return a child's process number here: in a namespace of its own it has another one."""
@@ -447,6 +368,17 @@ class WarmWorker(Forker):
                 if numbers and int(numbers[1].split()[-1]) == child.ready.pid:
                     return process.pid
         return child.ready.pid
+
+    def end(self, child: Child, gone: bool) -> int | None:
+        child.channel.close()
+        try:
+            self.control.send(End(child.ready.pid, gone))
+            ended = msgspec.msgpack.decode(self._hear(), type=Ended)
+        except (ChannelClosed, ChannelTimeout):
+            self._kill()
+            return None
+        child.cpu = ended.cpu
+        return ended.status
 
     def _hear(self) -> bytes:
         """Await a message of the warm process; give up early if a child suspended it."""
@@ -479,7 +411,6 @@ class WarmWorker(Forker):
             self.process.wait()
 
     def hang_up(self) -> None:
-        self.end_importer()
         for each in [self, *self.beside]:
             each.control.close()  # the server then ends its children and itself
 

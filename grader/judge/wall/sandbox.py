@@ -8,10 +8,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-import msgspec
-
 from grader.judge.submission import CannotGrade
-from grader.judge.wall.children import Child, ChildEnded, WarmWorker, Worker
+from grader.judge.wall.children import Child, ChildEnded, Worker
 from grader.judge.wall.isolation import ONE_PROCESS, Isolation, find_refusal
 from grader.judge.wall.workplace import remove
 from grader.protocol import ChildSetup, Limits
@@ -45,47 +43,26 @@ class Sandbox:
     bans: list[str] = field(default_factory=list)  # modules that children may not import, by name
     shown: list[str] = field(default_factory=list)  # folders that children need not copy
     programs: list[str] = field(default_factory=list)  # modules that checks import
-    importing: WarmWorker | None = None  # to import a program once; see `Options`
     unseen: str = ""  # a scratch folder that no child has seen
     used: list[tuple[Child, str]] = field(default_factory=list)  # children, and their folders
 
-    def open_child(self, cpu_seconds: int, module: str = "") -> Child:
+    def open_child(self, cpu_seconds: int) -> Child:
         """Return a child with this budget, in processor seconds.
 
-        `module` is what it imports first; with an `importing` worker, it may have done so already.
-        Raises CannotGrade if no child can start. No line of the submission has run then, so it is
-        not the cause.
+        Raises CannotGrade if none can start. No line of the submission has run then, so it is not
+        the cause.
         """
         self._clear()
+        self.compile()
         with require_child():
             setup = self._setup(cpu_seconds)
-            child = self._fork_imported(setup, module) or self._open(setup)
+            child = self.worker.open(setup)
         self.layers = self._layers_around(child)
         # In a mount namespace the child sees a file system of its own: the next may use the folder.
         self.unseen = setup.scratch if "mount-namespace" in self.layers else ""
         if not self.unseen:
             self.used.append((child, setup.scratch))
         return child
-
-    def _fork_imported(self, setup: ChildSetup, module: str) -> Child | None:
-        """Return a child that begins after the import; None if it must import the program itself.
-
-        A single program is compiled as it is imported, which is faster than in a child before.
-        """
-        if self.importing is None or not module:
-            return None
-        if len(self.programs) > 1:
-            self.compile()
-        bytecode = self.bytecode if self.bytecode.exists() else self.work / "uncompiled"
-        bytecode.mkdir(exist_ok=True)
-        return self.importing.fork_imported(
-            msgspec.structs.replace(setup, bytecode=str(bytecode), imports=module)
-        )
-
-    def _open(self, setup: ChildSetup) -> Child:
-        """Return a child that imports compiled files."""
-        self.compile()
-        return self.worker.open(setup)
 
     def _clear(self) -> None:
         """Remove the files of children that have ended: each may write gigabytes."""
@@ -102,7 +79,7 @@ class Sandbox:
         """
         tree = Path(tempfile.mkdtemp(dir=self.work)) / "tree"
         shutil.copytree(self.tree, tree)
-        copy = replace(self, tree=tree, used=[], importing=None)
+        copy = replace(self, tree=tree, used=[])
         for name, text in texts.items():
             copy.write(name, text)
         return copy
@@ -119,8 +96,7 @@ class Sandbox:
     def beside(self, count: int) -> list["Sandbox"]:
         """Return at most `count` other sandboxes of the same tree, to work at the same time."""
         workers = self.worker.helpers(count) if count > 0 else ()
-        alone = replace(self, importing=None, unseen="")
-        return [replace(alone, worker=each, used=[]) for each in workers]
+        return [replace(self, worker=each, used=[], unseen="") for each in workers]
 
     @property
     def bytecode(self) -> Path:
