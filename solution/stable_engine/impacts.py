@@ -231,7 +231,7 @@ class Impacts:
         """Stop balls before walls that impacts have taken them through."""
         statics = self.contacts.world.statics
         for body in self.contacts.hit_ago:
-            x, y, core = body.last_x, body.last_y, CORE * body.r
+            x, y, core = body.last_x, body.last_y, body.r if body.is_bullet else CORE * body.r
             dx, dy = body.x - x, body.y - y
             length = sqrt(dx * dx + dy * dy)
             if length > core:

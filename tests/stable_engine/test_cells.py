@@ -123,6 +123,7 @@ def do_all_stay(seed, steps, make=Cells):
 
 LOST = sample((1, 7, 24, 10, 31, 134, 41, 89, 452, 64, 766, 588, 969, 869, 755), 3)
 LOST_AT_SEAMS = sample((72, 588, 877), 3)
+LOST_AT_LINES = sample((1, 10, 21, 35, 52, 62, 137), 2)
 
 
 @pytest.mark.parametrize("seed", LOST)
@@ -135,8 +136,13 @@ def test_balls_do_not_leave_their_cells_at_seams(seed):
     do_all_stay(seed, 150, Seams)
 
 
+@pytest.mark.parametrize("seed", LOST_AT_LINES)
+def test_balls_do_not_leave_their_cells_through_lines(seed):
+    do_all_stay(seed, 100, Lines)
+
+
 @pytest.mark.soak  # three minutes each
-@pytest.mark.parametrize("make", [Cells, Seams])
+@pytest.mark.parametrize("make", [Cells, Seams, Lines])
 def test_balls_stay_in_a_thousand_grids_of_cells(make):
     for seed in range(1000):
         do_all_stay(seed, 240, make)
