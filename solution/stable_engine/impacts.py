@@ -194,15 +194,19 @@ class Impacts:
         return since if deeper >= 0 else -c.gap / speed
 
     def look_back(self, c: Contact, since: float) -> tuple[float, float, float]:
-        """Return `since` (s) and the normal if two round bodies began to touch then, else zeros.
+        """Return `since` (s) and the normal if two round bodies began to close in then, else zeros.
 
-        One of them was hit then, so this has slack: rounding would decide it.
+        One of them was hit then, while they touched: by rounding alone, or under a load.
         """
         a, b = c.a, c.b
         vx, vy = b.vx - a.vx, b.vy - a.vy
         x, y = b.x - a.x - vx * since, b.y - a.y - vy * since
         distance = sqrt(x * x + y * y)
-        if abs(distance - a.r - b.r) > self.touching_gap or x * vx + y * vy >= 0 or not b.r:
+        gap = distance - a.r - b.r
+        if gap > self.touching_gap or x * vx + y * vy >= 0 or not b.r:
+            return 0.0, 0.0, 0.0
+        was_hit = since in (self.contacts.hit_ago.get(a), self.contacts.hit_ago.get(b))
+        if gap < -self.touching_gap and not (was_hit and distance > 0):
             return 0.0, 0.0, 0.0
         return since, x / distance, y / distance
 
