@@ -206,7 +206,8 @@ class Impacts:
         if gap > self.touching_gap or x * vx + y * vy >= 0 or not b.r:
             return 0.0, 0.0, 0.0
         was_hit = since in (self.contacts.hit_ago.get(a), self.contacts.hit_ago.get(b))
-        if gap < -self.touching_gap and not (was_hit and distance > 0):
+        is_loaded = was_hit and distance > 0 and not (a.joint_count or b.joint_count)
+        if gap < -self.touching_gap and not is_loaded:
             return 0.0, 0.0, 0.0
         return since, x / distance, y / distance
 
@@ -232,9 +233,9 @@ class Impacts:
         self.keep_inside()
 
     def keep_inside(self) -> None:
-        """Stop balls before walls that impacts have taken them through."""
+        """Stop balls before walls that impacts, or springs to those hit, have taken them through."""
         statics = self.contacts.world.statics
-        for body in self.contacts.hit_ago:
+        for body in [*self.contacts.hit_ago, *[body for body, _ in self.flight.changes]]:
             x, y, core = body.last_x, body.last_y, body.r if body.is_bullet else CORE * body.r
             dx, dy = body.x - x, body.y - y
             length = sqrt(dx * dx + dy * dy)
