@@ -233,7 +233,7 @@ class Impacts:
         self.keep_inside()
 
     def keep_inside(self) -> None:
-        """Stop balls before walls that impacts, or springs to those hit, have taken them through."""
+        """Stop balls before walls that impacts have taken them through, or springs to those hit."""
         statics = self.contacts.world.statics
         for body in [*self.contacts.hit_ago, *[body for body, _ in self.flight.changes]]:
             x, y, core = body.last_x, body.last_y, body.r if body.is_bullet else CORE * body.r
