@@ -28,17 +28,9 @@ from .scenes import NAMED
 TREE = Path(__file__).parents[1]
 WHEEL = Path(__file__).with_name("wheel")  # for a wheel and a trial of it
 OUT = Path("build/compiled")
-INSTALLED = Path(sysconfig.get_path("platlib"))
-FOLDERS = (
-    TREE / OUT,
-    TREE.parent / OUT,
-    INSTALLED,
-)  # where it may be; the kit's is second
+FOLDERS = (TREE / OUT, TREE.parent / OUT, Path(sysconfig.get_path("platlib")))  # where it is
 NAME = "stable_compiled"
-LEFT_PLAIN = (
-    "reading.py",
-    "validate.py",
-)  # their classes inherit from plain ones
+LEFT_PLAIN = ("reading.py", "validate.py")  # their classes inherit from plain ones
 CONSTANT = re.compile(r"^([A-Z][A-Z_]*) = ", re.MULTILINE)
 FUTURE = "from __future__ import annotations\n"
 EFFECT = "\nclass Effect:"
@@ -113,10 +105,9 @@ def load(folder):
     """Return the compiled engine in folder, or None if it is of another source or Python."""
     package = folder / NAME
     try:
-        fresh = all((package / name).read_text("utf-8") == t for name, t in sources().items())
+        if any((package / name).read_text("utf-8") != t for name, t in sources().items()):
+            return None
     except FileNotFoundError:
-        return None
-    if not fresh:
         return None
     before = list(sys.path)
     sys.path.append(str(folder))
@@ -195,9 +186,8 @@ def main(arguments=None):
     if Compiled.package is None:
         sys.exit(f"What was compiled into {folder} cannot be imported.")
     differ = same_bits()
-    print(
-        f"the same bits in {len(NAMED)} scenes: {'NO: ' + ', '.join(differ) if differ else 'yes'}"
-    )
+    answer = "NO: " + ", ".join(differ) if differ else "yes"
+    print(f"the same bits in {len(NAMED)} scenes: {answer}")
     print(f"to use it, put {folder} on PYTHONPATH and import {NAME} for stable_engine")
     sys.exit(1 if differ else 0)
 

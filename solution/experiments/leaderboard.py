@@ -276,6 +276,8 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     if options.renew and not options.markdown:
         parser.error("--renew needs --markdown FILE: results.json beside it has the other engines.")
+    if options.markdown and (options.only or options.quick):
+        parser.error("--markdown needs all rows: leave out --only and --quick.")
     subjects = {
         subject: [r for r in some if options.only in r.title and (r.quick or not options.quick)]
         for subject, some in make_rows().items()
