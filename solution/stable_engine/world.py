@@ -289,7 +289,7 @@ class World(WorldState):
                 coast(dt)
             return
 
-        # 1 detect, which is done unless the program has changed anything
+        # 1 detect: the step before has, unless the program has changed anything since
         lags = bool(self.lag_hooks or self.forces) or self.g != (0.0, 0.0)
         is_known = h == self.lag_h and self.forces.keys() == self.pushed
         if is_known:
