@@ -134,7 +134,7 @@ class Body:
         self.is_kinematic = kinematic
         self.sleeps = False
         self.still = 0.0  # s, how long it has been slow and steady enough to sleep
-        self.is_thrown = False  # whether an impact has moved it
+        self.is_thrown = False  # a mark while Impacts.find_near runs
         self.calm = 0.0, 0.0, 0.0  # px/s: vx, vy and the speed of its rim when that began
         self.kept = 0.0  # s, how long it has stayed where it is
         self.place = inf, 0.0, 0.0  # x, y and angle when that began
