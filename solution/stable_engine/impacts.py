@@ -233,9 +233,13 @@ class Impacts:
         self.keep_inside()
 
     def keep_inside(self) -> None:
-        """Stop balls before walls that impacts have taken them through, or springs to those hit."""
+        """Stop balls before walls that impacts took them through, or joints to balls that were hit."""
         statics = self.contacts.world.statics
-        for body in [*self.contacts.hit_ago, *[body for body, _ in self.flight.changes]]:
+        moved = [*self.contacts.hit_ago, *[body for body, _ in self.flight.changes]]
+        if self.frame_of:
+            frames = dict.fromkeys([self.frame_of[body] for body in moved if body in self.frame_of])
+            moved = list(dict.fromkeys([*moved, *[b for frame in frames for b in frame.balls]]))
+        for body in moved:
             x, y, core = body.last_x, body.last_y, body.r if body.is_bullet else CORE * body.r
             dx, dy = body.x - x, body.y - y
             length = sqrt(dx * dx + dy * dy)
