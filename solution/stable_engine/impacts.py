@@ -233,7 +233,7 @@ class Impacts:
         self.keep_inside()
 
     def keep_inside(self) -> None:
-        """Stop balls before walls that impacts took them through, or joints to balls that were hit."""
+        """Stop balls before walls, if an impact took them through: on them, or by a joint."""
         statics = self.contacts.world.statics
         moved = [*self.contacts.hit_ago, *[body for body, _ in self.flight.changes]]
         if self.frame_of:
