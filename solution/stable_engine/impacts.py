@@ -183,13 +183,14 @@ class Impacts:
     def time_below(self, c: Contact, since: float) -> float:
         """Return how long ago (s) a ball fell through a flat face; 0 if not `since` then.
 
-        In that time it may have been hit, so this has slack for a fall.
+        In that time it may have been hit, so this has slack for a fall; a load overlaps before it.
         """
         g, lag = self.flight.pull(c)
         closing = c.closing_speed()
         speed = (speed_at_touch(c, closing, g, lag) + closing + lag) / 2
         deeper = -c.gap - speed * since
-        if c.gap >= 0 or deeper > self.touching_gap + abs(g) * since * since:
+        before = min(self.depths.get(c, 0.0), 0.0)
+        if c.gap >= 0 or deeper > self.touching_gap + abs(g) * since * since - before:
             return 0.0
         return since if deeper >= 0 else -c.gap / speed
 
@@ -331,14 +332,10 @@ class Impacts:
         for body in hit:
             self.contacts.hit_ago[body] = ago
         around = list(dict.fromkeys([c for body in hit for c in self.beside[body]]))
-        if self.faces and len(around) > 1:  # faces first, as they lift
-            around.sort(key=lambda c: c not in self.faces)
         for c in around:
             if ago > 0:
                 self.look_where(c)
             self.look(c, is_new=ago > 0)
-            if c.gap < 0 and c in self.faces and not (c in self.due or c.a.joint_count):
-                self.lift(c)
 
     def lift(self, c: Contact) -> None:
         """Put a ball onto a face that stops it, but not higher than it was at first."""
