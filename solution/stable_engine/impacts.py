@@ -15,8 +15,6 @@ from .springs import Springs
 from .sweep import NO_HIT, first_stop, moment_of_touch
 
 MOST_IMPACTS = 100  # of a contact in one step
-SETTLINGS = 3  # each may cause further impacts
-TURNS = 5  # of normal impulses and friction, where bodies stay together
 PASSES = 200  # of the solver for impacts at one moment
 WORK = 4000  # contacts, over all passes of the solver for one large group
 ARC = 1.1  # ratio by which the touch may lie further back for flights on an arc
@@ -46,7 +44,7 @@ class Impacts:
 
     The earliest impact in the world comes first. At one moment the hardest comes first, equally
     hard ones together: so an impact travels through a row of balls, and a mirrored scene stays
-    mirrored. At the end, pairs that still close in slowly are stopped, a whole island at once.
+    mirrored. Pairs that still close in slowly are left to the next step.
 
     A contact is found after the touch, so balls are moved back to it, along the way they flew: see
     Flight. There they bounce, by the normal at the touch, and fly on. So nothing is left in a wall
@@ -215,14 +213,8 @@ class Impacts:
     def resolve_all(self) -> None:
         """Resolve all impacts, and those that they cause, until no pair closes in fast."""
         self.link()
-        for _ in range(SETTLINGS):
-            reached: dict[Body, float] = {}
-            while self.due:
-                self.resolve_first(reached)
-            while reached:
-                self.settle(reached)
-            if not self.due:
-                break
+        while self.due:
+            self.resolve_first()
         self.put_back(list(self.stops))
         for c in self.faces:
             self.look_where(c)
@@ -276,8 +268,8 @@ class Impacts:
             self.put_back(hit)
             self.resolve([c], [])
 
-    def resolve_first(self, reached: dict[Body, float]) -> None:
-        """Resolve the first impacts. Note which balls they moved, and how long ago."""
+    def resolve_first(self) -> None:
+        """Resolve the first impacts, and find those that they cause."""
         group, ago = self.take_first()
         hit = balls_of(group)
         if len(group) == 1 and self.is_alone(group[0]):
@@ -294,7 +286,6 @@ class Impacts:
                 self.resolve_at_touch(group, hit, ago, frames)
             else:
                 self.resolve(group, frames)
-            reached.update(dict.fromkeys(hit, ago))
             self.look_around(hit, ago)
         self.meet_others(hit)
 
@@ -469,48 +460,6 @@ class Impacts:
         if impact and impact.number == entry[1]:
             early.append(entry)
 
-    def settle(self, reached: dict[Body, float]) -> None:
-        """Stop at once all pairs that close in slowly, in the island of a ball that was hit.
-
-        The solver stops islands with joints or static bodies. Where anything was fast at the hit,
-        stopping it would take energy.
-        """
-        body, ago = reached.popitem()
-        slow = self.island_of(body, reached)
-        hit = balls_of(slow)
-        if len(slow) < 2 or not all([self.is_free(body) for body in hit]):
-            return
-        if any([ball in self.flight.cut_short for ball in hit]):
-            return
-        self.flight.fly_back(hit, ago)
-        for c in slow:
-            c.nx, c.ny, c.gap = collide(c.a, c.b)
-        if all(c.closing_speed() <= self.slow for c in slow):
-            self.resolve(slow, [], bounces=False, turns=TURNS)
-        self.flight.fly_on(hit, ago)
-        self.look_around(hit, ago)
-
-    def is_free(self, body: Body) -> bool:
-        """Return whether a ball may be moved: no joint holds it, and nothing static."""
-        if body.joint_count or self.contacts.was_stopped(body):
-            return False
-        return not any([c.b.is_static for c in self.beside[body]])
-
-    def island_of(self, body: Body, reached: dict[Body, float]) -> list[Contact]:
-        """Return the contacts of a ball's island. Remove its balls from `reached`."""
-        ahead, bodies, found = [body], {body}, dict[Contact, None]()
-        while ahead:
-            for c in self.beside[ahead.pop()]:
-                if c.gap > self.touching_gap:
-                    continue
-                found[c] = None
-                for other in (c.a, c.b):
-                    if other not in bodies and not other.is_static:
-                        bodies.add(other)
-                        ahead.append(other)
-                        reached.pop(other, None)
-        return list(found)
-
     def frames_of(self, group: list[Contact]) -> list[Frame]:
         """Return each frame of rods that a ball of these contacts is in."""
         found: dict[Frame, None] = {}
@@ -521,7 +470,7 @@ class Impacts:
                     found[frame] = None
         return list(found)
 
-    def law(self, c: Contact, bounces: bool) -> tuple[float, float]:
+    def law(self, c: Contact) -> tuple[float, float]:
         """Return the speed (px/s) at which a pair separates.
 
         At any step size a ball leaves a wall exactly: e is applied to its speed at the surface. If
@@ -529,7 +478,7 @@ class Impacts:
 
         Also return the share of the impulse without the speed gained below the surface.
         """
-        closing, e = c.closing_speed(), c.e if bounces else 0.0
+        closing, e = c.closing_speed(), c.e
         g, lag = self.flight.pull(c)
         if g == 0:
             return e * closing, 1.0
@@ -540,28 +489,22 @@ class Impacts:
         whole = parting + closing
         return parting, min((1 + e) * crossing / whole, 1.0) if whole > 0 else 1.0
 
-    def resolve(
-        self, group: list[Contact], frames: list[Frame], bounces: bool = True, turns: int = 1
-    ) -> None:
+    def resolve(self, group: list[Contact], frames: list[Frame]) -> None:
         """Make contacts separate at the speeds of the law, or faster.
 
         Normal impulses come first, then friction limited by them, so no energy is created.
-        In further turns, normal impulses stop motion that friction has caused.
         """
         hold(frames)
-        hits = [Hit(c, self.law(c, bounces)) for c in group]
+        hits = [Hit(c, self.law(c)) for c in group]
         for hit in hits if frames else []:
             hit.feel(frames)
         passes = passes_for(len(hits), frames)
-        for turn in range(turns):
-            if not press(hits, frames) and turn:
+        for _ in range(passes):
+            if not press(hits, frames):
                 break
-            for _ in range(passes - 1):
-                if not press(hits, frames):
-                    break
-            for _ in range(passes):
-                if not rub(hits, frames):
-                    break
+        for _ in range(passes):
+            if not rub(hits, frames):
+                break
 
 
 class Hit:
