@@ -8,7 +8,7 @@ from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, the_way_it_came
 from .effect import Effect, WorldState
 from .joint import Joints
-from .loads import HEAVY, Pile, Stage, find_piles
+from .loads import DEEP, HEAVY, Pile, Stage, find_piles
 from .order import Group, give_places, in_same_place, put_in_order
 from .soft import SAME_DIRECTION, Pace, softness
 from .springs import Springs
@@ -321,7 +321,7 @@ class Contacts(Effect):
             c.ax, c.ay = nx * a.inv_mass, ny * a.inv_mass
             c.bx, c.by = nx * b.inv_mass, ny * b.inv_mass
             c.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - c.gap
-            is_heavy = is_heavy or c.ratio > HEAVY
+            is_heavy = is_heavy or c.ratio > HEAVY or c.gap < -DEEP * c.reach
         self.piles = self.find_piles(is_heavy)
 
     def find_piles(self, is_heavy: bool) -> list[Pile]:

@@ -8,6 +8,7 @@ from .joint import Joint
 from .network import Network
 
 HEAVY = 2.5  # times the lightest ball at a contact
+DEEP = 0.05  # of both radii; balls that overlap by more were thrown at each other
 RESTING = 30.0  # 1/s, in units of the world; a ball that bounces faster is left to impacts
 CALM = 0.5  # 1/s, in units of the world, by the square of that ratio: passes may leave this speed
 STEEPEST = 1000.0  # a larger ratio counts as this, or rounding would decide what presses
@@ -191,7 +192,8 @@ def find_piles(
         most, ratio = max(mass.get(c.a, 0.0), mass.get(c.b, 0.0)), c.ratio
         if most:
             ratio = max(ratio, most / min(c.a.m, c.b.m or c.a.m))
-        if ratio > HEAVY and (not c.e or abs(c.closing_speed()) < RESTING * unit):
+        is_deep = c.b.inv_mass > 0 and not c.e and c.gap < -DEEP * c.reach
+        if is_deep or (ratio > HEAVY and (not c.e or abs(c.closing_speed()) < RESTING * unit)):
             heavy.append(len(rows))
         rows.append(Load(c, ratio))
     if not heavy:
