@@ -13,6 +13,7 @@ RESTING = 30.0  # 1/s, in units of the world; a ball that bounces faster is left
 CALM = 0.5  # 1/s, in units of the world, by the square of that ratio: passes may leave this speed
 STEEPEST = 1000.0  # a larger ratio counts as this, or rounding would decide what presses
 MOST_ROWS = 128  # contacts and rods of a pile; a larger one is left to passes
+FEW_ROWS = 32  # the same where balls were thrown at each other
 FAR = 0.5  # radii; where a ball moves by more in a substep, its contacts are other ones by then
 TURNS = 16  # of choosing which contacts press
 PUSHED = 0.1  # share by which a contact gives way, per ratio: many firm ones have no solution
@@ -79,11 +80,11 @@ class Pile:
 
     __slots__ = ("bodies", "calm", "is_wild", "kept", "loads", "network", "rods", "rows")
 
-    def __init__(self, rows: list[Joint], unit: float) -> None:
-        self.rows = rows
-        self.loads = [row for row in rows if isinstance(row, Load)]
-        self.rods = [row for row in rows if not isinstance(row, Load)]
-        self.bodies = dict.fromkeys([body for row in rows for body in (row.end_a, row.end_b)])
+    def __init__(self, loads: list[Load], rods: list[Joint], unit: float) -> None:
+        self.loads = loads
+        self.rods = rods
+        self.rows: list[Joint] = [*loads, *rods]
+        self.bodies = dict.fromkeys([body for row in self.rows for body in (row.end_a, row.end_b)])
         masses = [body.m for body in self.bodies if body.m]
         ratio = max(max(masses) / min(masses), *[load.ratio for load in self.loads])
         for load in self.loads:
@@ -180,47 +181,64 @@ def find_piles(
 ) -> list[Pile]:
     """Return the piles in which a body, or a frame, is much heavier than a ball at its contact.
 
-    Each frame has its rods, and the mass (kg) that presses where it touches. unit is that of the
-    world.
+    So are those with balls thrown at each other, unless they bounce. Each frame has its rods, and
+    the mass (kg) that presses where it touches. unit is that of the world.
     """
     mass: dict[Body, float] = {}  # kg, of the frames of balls
     for rods, load in frames:
         mass.update({body: load for rod in rods for body in (rod.end_a, rod.end_b)})
-    rows: list[Joint] = []
-    heavy: list[int] = []  # places of rows
-    for c in contacts:
-        most, ratio = max(mass.get(c.a, 0.0), mass.get(c.b, 0.0)), c.ratio
-        if most:
-            ratio = max(ratio, most / min(c.a.m, c.b.m or c.a.m))
-        is_deep = c.b.inv_mass > 0 and not c.e and c.gap < -DEEP * c.reach
-        if is_deep or (ratio > HEAVY and (not c.e or abs(c.closing_speed()) < RESTING * unit)):
-            heavy.append(len(rows))
-        rows.append(Load(c, ratio))
-    if not heavy:
+    ratios = [ratio_of(c, mass) if mass else c.ratio for c in contacts]
+    firsts = find_firsts(contacts, ratios, unit)
+    if not firsts:
         return []
-    rows += [rod for rods, _ in frames for rod in rods]
-    beside: dict[Body, list[int]] = {}  # the places of each ball's rows
-    for place, row in enumerate(rows):
-        for body in (row.end_a, row.end_b):
+    frame_rods = [rod for rods, _ in frames for rod in rods]
+    ends = [(c.a, c.b) for c in contacts] + [(rod.end_a, rod.end_b) for rod in frame_rods]
+    beside: dict[Body, list[int]] = {}  # the places of each ball's contacts and rods
+    for place, both in enumerate(ends):
+        for body in both:
             if body.inv_mass:
                 beside.setdefault(body, []).append(place)
     piles: list[Pile] = []
     seen: set[int] = set()
-    for first in heavy:
+    for first, most in firsts:
         if first not in seen:
-            places = places_from(rows[first], rows, beside)
-            seen |= places
-            if len(places) <= MOST_ROWS:
-                piles.append(Pile([rows[place] for place in sorted(places)], unit))
+            places = sorted(places_from(ends[first], ends, beside))
+            seen.update(places)
+            if 1 < len(places) <= most:
+                count = len(contacts)
+                loads = [Load(contacts[at], ratios[at]) for at in places if at < count]
+                piles.append(
+                    Pile(loads, [frame_rods[at - count] for at in places if at >= count], unit)
+                )
     return piles
 
 
-def places_from(row: Joint, rows: list[Joint], beside: dict[Body, list[int]]) -> set[int]:
-    """Return the places of a row, and of all that balls connect it to."""
+def find_firsts(contacts: list[Contact], ratios: list[float], unit: float) -> list[tuple[int, int]]:
+    """Return the places of contacts that make a pile, each with the most rows it may have."""
+    heavy: list[tuple[int, int]] = []
+    deep: list[tuple[int, int]] = []
+    for place, (c, ratio) in enumerate(zip(contacts, ratios, strict=True)):
+        if ratio > HEAVY and (not c.e or abs(c.closing_speed()) < RESTING * unit):
+            heavy.append((place, MOST_ROWS))
+        elif c.gap < -DEEP * c.reach and c.b.inv_mass and not c.e:
+            deep.append((place, FEW_ROWS))
+    return heavy + deep
+
+
+def ratio_of(c: Contact, mass: dict[Body, float]) -> float:
+    """Return the ratio of the masses that meet at a contact, with those (kg) of frames."""
+    most = max(mass.get(c.a, 0.0), mass.get(c.b, 0.0))
+    return max(c.ratio, most / min(c.a.m, c.b.m or c.a.m)) if most else c.ratio
+
+
+def places_from(
+    both: tuple[Body, Body], ends: list[tuple[Body, Body]], beside: dict[Body, list[int]]
+) -> set[int]:
+    """Return the places of all that balls connect to one of these two bodies."""
     found: set[int] = set()
-    ahead = {row.end_a, row.end_b}
+    ahead = set(both)
     while ahead:
         new = {place for body in ahead for place in beside.get(body, [])} - found
         found |= new
-        ahead = {body for place in new for body in (rows[place].end_a, rows[place].end_b)}
+        ahead = {body for place in new for body in ends[place]}
     return found
