@@ -237,7 +237,9 @@ class Contacts(Effect):
         return (a.vx - b.vx + gx * since) * nx + (a.vy - b.vy + gy * since) * ny
 
     def meet(self, pair: Pair, nx: float, ny: float, gap: float) -> Contact:
-        """Add the contact of two bodies that an impact has moved together."""
+        """Add the contact of two bodies that an impact has moved together, and wake them."""
+        pair.a.wake()
+        pair.b.wake()
         c = pair.contact = self.make_contact(pair.a, pair.b, nx, ny)
         c.gap = c.found = gap
         self.touching.append(c)
@@ -336,18 +338,17 @@ class Contacts(Effect):
     def find_order(self) -> None:
         """Find the contacts solved in turn, with their order, and those solved at once.
 
-        In a mirrored scene the order looks the same in the mirror; else any order will do.
+        The order depends on where contacts began alone, and looks the same in a mirror.
         """
         if self.begun:
             self.beginnings += 1
             g, grain = self.world.g, self.touching_gap
             if give_places(self.begun, g, grain, self.beginnings):
                 self.is_mirrored = True
-        if self.is_mirrored:
-            self.is_mirrored = any([put_in_order(each, self.touching_gap) for each in self.groups])
-            return
-        for group in self.groups:
-            group.in_turn, group.ties, group.ordered = group.contacts, [], []
+        was_mirrored = self.is_mirrored
+        self.is_mirrored = any(
+            [put_in_order(each, self.touching_gap, was_mirrored) for each in self.groups]
+        )
 
     def keep_forces(self, h: float) -> None:
         """Scale the kept impulses to a substep of h seconds, so that the forces stay the same."""

@@ -109,9 +109,11 @@ class Pile:
         the least turn of the frame would throw it.
         """
         for load in self.loads:
-            c = load.c
-            jn = 0.0 if self.rods else min(c.jn, c.last)
-            c.last, c.jn = c.jn, jn
+            c, before = load.c, load.c.jn
+            c.jn = 0.0 if self.rods else min(before, c.last)
+            c.last = before
+            if c.jn < before:
+                c.jt *= c.jn / before  # friction without its load would throw balls
 
     def settle(self, stage: Stage) -> None:
         """Solve for all impulses, if a pass has left more than a calm speed."""

@@ -18,7 +18,7 @@ class Group:
 
     __slots__ = (
         *("bias_rate", "contacts", "in_turn", "is_mirrored", "mass_scale", "moves_b", "ordered"),
-        "ties",
+        *("sorted", "ties"),
     )
 
     def __init__(self, moves_b: bool) -> None:
@@ -27,6 +27,7 @@ class Group:
         self.in_turn: list[Contact] = []  # those of them that are solved one after the other
         self.ties: list[Tie] = []  # the others
         self.ordered: list[Contact] = []  # the contacts when they were put in order
+        self.sorted: list[Contact] = []  # those in order
         self.is_mirrored = False  # whether any two of them had the same place then
         self.bias_rate = self.mass_scale = 0.0  # see softness
 
@@ -117,19 +118,33 @@ def give_places(
     return len(contacts) > 1 and len({c.place for c in contacts}) < len(contacts)
 
 
-def put_in_order(group: Group, grain: float) -> bool:
-    """Put the contacts of a group in order. Return whether any two have the same place."""
+def put_in_order(group: Group, grain: float, is_mirrored: bool) -> bool:
+    """Put the contacts of a group in order. Return whether any two have the same place.
+
+    Most were in it before, so there is little to sort. Only a mirrored scene has equal places.
+    """
     if group.contacts == group.ordered:
         return group.is_mirrored
-    group.ordered, group.in_turn, group.ties = group.contacts, [], []
-    places = in_same_place(group.contacts)
-    for same in places:
+    here, before = set(group.contacts), set(group.ordered)
+    kept = [c for c in group.sorted if c in here]
+    group.sorted = sorted(kept + [c for c in group.contacts if c not in before], key=PLACE)
+    group.ordered, group.in_turn, group.ties = group.contacts, group.sorted, []
+    group.is_mirrored = False
+    if is_mirrored:
+        find_ties(group, grain)
+    return group.is_mirrored
+
+
+def find_ties(group: Group, grain: float) -> None:
+    """Find the contacts of a group that have the same place."""
+    group.in_turn = []
+    for _, equals in groupby(group.sorted, key=PLACE):
+        same = list(equals)
+        group.is_mirrored = group.is_mirrored or len(same) > 1
         if len(same) > 1 and share_of_each(same) < 1:
             group.ties.append(Tie(same, grain))
         else:
             group.in_turn += same
-    group.is_mirrored = len(places) < len(group.contacts)
-    return group.is_mirrored
 
 
 def in_same_place(contacts: list[Contact]) -> list[list[Contact]]:
