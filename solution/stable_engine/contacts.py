@@ -29,6 +29,7 @@ MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
 CROWDED = 0.1  # radii, by which balls that bear a load overlap in a crowd
 PARTED = 0.3  # share of an overlap that a step takes from balls in a crowd
 TOUCHING = 1e-6  # a gap that counts as touching: rounding
+LEVEL = 1e-6  # a sine; contacts that rise by less do not bear what is above
 MOST_BODIES = 2**29  # and no id is larger
 BEARING = 0.05  # of a weight; a smaller push does not hold a ball
 REDETECT_DISTANCE = 1e-4  # contacts stay valid until a body moves further
@@ -640,18 +641,43 @@ class Contacts(Effect):
 
         The next step begins with these impulses; unchanged, they would throw balls up.
         """
-        contacts = self.all_contacts()
+        contacts, g = self.all_contacts(), self.world.g
         balls = in_touch(body, contacts)
-        mass = sum([ball.m for ball in balls])
-        left = 0.0 if body.is_static else (mass - body.m * (1 - share)) / mass
-        for c in contacts:
-            if c.a in balls:
-                c.jn *= left
-                c.jt *= left
+        if body.is_static:
+            for c in contacts:
+                if c.a in balls:
+                    c.jn = c.jt = 0.0
+            return
+        lost = {body: body.m * (1 - share) * hypot(*g) * self.h if share else inf}  # kg px/s
+        for ball in sorted(
+            balls, key=lambda ball: (ball is not body, ball.x * g[0] + ball.y * g[1])
+        ):
+            if ball in lost:
+                self.unload(ball, lost, [c for c in contacts if ball in (c.a, c.b)])
+
+    def unload(self, ball: Body, lost: dict[Body, float], contacts: list[Contact]) -> None:
+        """Take the impulse that a ball has lost off the contacts that bear it, and pass it on."""
+        gx, gy = self.world.g
+        pull = hypot(gx, gy) or 1.0
+        sides = [(c, c.b, 1.0) if c.a is ball else (c, c.a, -1.0) for c in contacts]
+        below = [(c, other, (c.nx * gx + c.ny * gy) / pull * side) for c, other, side in sides]
+        if lost[ball] < inf:
+            below = [(c, other, down) for c, other, down in below if down > -LEVEL]
+        bears = sum([c.jn * max(down, 0.0) for c, _, down in below])
+        left = max(1 - lost[ball] / bears, 0.0) if bears else 0.0
+        for c, other, down in below:
+            if down > 0:
+                lost[other] = lost.get(other, 0.0) + c.jn * (1 - left) * down
+            c.jn *= left
+            c.jt *= left
 
     def body_moved(self, body: Body) -> None:
         """Look for near pairs anew. Nobody flew to where a program has put the body."""
         self.flown.pop(body, None)
+        if not body.is_static and all(
+            [collide(c.a, c.b)[2] > self.touching_gap for c in self.of_body(body)]
+        ):
+            self.lighter(body, 0.0)
         self.broad_phase.bounds = []
 
     def static_moved(self, body: Body) -> None:

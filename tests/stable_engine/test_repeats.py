@@ -1,5 +1,7 @@
 """Test that repeated runs give identical bits, in any order of adding bodies."""
 
+import random
+
 import pytest
 from samples import sample
 from worlds_for_tests import build, build_playground, state
@@ -14,6 +16,9 @@ from experiments.scenes import (
     shuffled,
     stack,
 )
+from stable_engine import Body, Bounce, Box, Circle, Contacts, Friction, World
+
+LOST_DIGITS = 1e-6  # px; sums in another order differ by rounding, which impacts magnify
 
 
 @pytest.mark.parametrize(
@@ -44,3 +49,26 @@ def test_the_order_of_adding_bodies_changes_no_bit(scene, seed):
     for i, body in zip(order, shuffled_world.bodies, strict=True):
         twin = straight.bodies[i]
         assert (body.x, body.y, body.w) == (twin.x, twin.y, twin.w)
+
+
+def heap(seed, side=1, far=()):
+    """Return the places of six balls that fell on each other, mirrored for side -1."""
+    rng, surface = random.Random(seed), {"friction": 0.5, "restitution": 0.4}
+    world = World(effects=[Contacts(), Friction(), Bounce()])
+    world.add(Body(Box((300, 50)), (0, 50), **surface))
+    places = [(side * rng.uniform(-30, 30), -40 - 30 * i) for i in range(6)]
+    fallen = [world.add(Body(Circle(12), place, mass=1, **surface)) for place in places]
+    for place in far:
+        world.add(Body(Circle(12), place, mass=1, **surface))
+    run(world, 1.5)
+    return [place for ball in fallen for place in (side * ball.x, ball.y)]
+
+
+@pytest.mark.parametrize("seed", sample(range(20), 5))
+def test_a_mirrored_copy_of_a_heap_moves_alike(seed):
+    assert heap(seed, -1) == pytest.approx(heap(seed), abs=LOST_DIGITS)
+
+
+@pytest.mark.parametrize("seed", sample(range(20), 5))
+def test_a_ball_far_off_changes_nothing(seed):
+    assert heap(seed, far=[(5000, -40)]) == pytest.approx(heap(seed), abs=LOST_DIGITS)

@@ -22,6 +22,7 @@ from experiments.scenes import (
 )
 from stable_engine import (
     Body,
+    Bounce,
     Box,
     Circle,
     Contacts,
@@ -208,3 +209,19 @@ def test_a_ball_on_a_spring_creeps_to_its_rest_length_against_drag():
     assert ball.x == pytest.approx(20 * math.exp(-60 / 20), abs=0.01)
     run(world, 140)
     assert abs(ball.x) < 0.06 and ball.asleep
+
+
+@pytest.mark.parametrize("gap", [0.5, 2])
+@pytest.mark.parametrize("start", [-200, -203.7, -211.1])
+def test_an_impact_passes_through_a_sleeping_row(gap, start):
+    world = World(effects=[Contacts(), Bounce(), Sleep()])
+    world.add(Body(Box((2000, 50)), (0, 50)))
+    places = [(40 + gap) * i for i in range(5)]
+    row = [world.add(Body(Circle(20), (x, -20), mass=1, restitution=1)) for x in places]
+    run(world, 2)
+    assert all(ball.asleep for ball in row)
+    thrown = world.add(Body(Circle(20), (start, -20), mass=1, restitution=1))
+    thrown.vel = (300, 0)
+    run(world, 2)
+    assert row[-1].vel.x == pytest.approx(300, abs=1)
+    assert all(not ball.asleep or speed(ball) == 0 for ball in row)

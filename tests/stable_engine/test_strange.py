@@ -40,14 +40,18 @@ def rises(world, bodies, places, seconds, dt=DT):
 # ---------------------------------------------------------------- loads that vanish
 
 
-@pytest.mark.parametrize("masses", [(1, 1, 100), (1, 1, 1, 1, 1, 100), (1, 1000)])
-@pytest.mark.parametrize("taken", ["all of it", "its mass"])
+@pytest.mark.parametrize(
+    "masses", [(1, 1, 100), (1, 1, 1, 1, 1, 100), (1, 1000), (1000, 1, 1, 100)]
+)
+@pytest.mark.parametrize("taken", ["all of it", "its place", "its mass"])
 def test_a_load_that_vanishes_throws_no_ball_up(masses, taken):
     world = build(stack(*masses), *SLEEPY)
     tall = world.bodies[3:]
     run(world, 1.5)
     if taken == "all of it":
         world.remove(tall.pop())
+    elif taken == "its place":
+        tall.pop().pos = (900, -20)
     else:
         tall[-1].mass = 1
     places = [-20 * (2 * i + 1) for i in range(len(tall))]
