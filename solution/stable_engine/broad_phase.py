@@ -52,6 +52,11 @@ class Bounds:
         self.low = self.high = self.side_low = self.side_high = 0.0  # px
         self.first_lane = 0
 
+    def holds(self) -> bool:
+        """Return whether the body is still in its room."""
+        x, y = self.body.x, self.body.y
+        return self.left <= x <= self.right and self.top <= y <= self.bottom
+
     def make_room(self, back: float, ahead: float) -> None:
         """Make room for a body's path, from `back` seconds ago to `ahead` s from now."""
         body, margin = self.body, self.margin
@@ -141,8 +146,7 @@ class BroadPhase:
         doubtful = self.moving if late or self.falls else self.near + self.find_pushed()
         self.leavers = leavers = []
         for one in doubtful:
-            body = one.body
-            if not (one.left <= body.x <= one.right and one.top <= body.y <= one.bottom):
+            if not one.holds():
                 leavers.append(one)
         if (leavers and (late or len(leavers) > MANY)) or (doubtful and self.is_quiet):
             self.is_stale = True
@@ -188,6 +192,18 @@ class BroadPhase:
             self.far = [one for one in self.moving if not one.near]
         self.leavers, self.is_stale = [], False
         return found
+
+    def follow_thrown(self, margin: float) -> list[Pair]:
+        """Make room for thrown bodies that have left theirs. Return the new near pairs."""
+        count = len(self.pairs)
+        self.leavers = [one for one in self.moving if one.body.is_thrown and not one.holds()]
+        for one in self.leavers:
+            one.make_room(0.0, 0.0)
+        self.search(margin)
+        self.leavers = []
+        self.near = [one for one in self.moving if one.near]
+        self.far = [one for one in self.moving if not one.near]
+        return self.pairs[count:]
 
     def set_ahead(self, dt: float) -> None:
         """Choose the length of new rooms by how the last ones did."""

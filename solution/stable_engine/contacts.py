@@ -138,15 +138,20 @@ class Contacts(Effect):
         held = {c.a for c in bearing} | {c.b for c in bearing}
         back = self.last_dt if self.lets_none_pass else 0.0
         found = phase.renew(g, held, dt, back, self.slow * dt)
+        self.take_in(found)
+        touched = {c.a for c in self.unpaired.values()}
+        for pair in found if touched else []:
+            if pair.a in touched:
+                pair.contact = self.unpaired.pop(pair_number(pair.a, pair.b), None)
+
+    def take_in(self, found: list[Pair]) -> None:
+        """Note new near pairs, and drop those to ignore."""
+        phase = self.broad_phase
         if self.ignored:
             phase.pairs = [p for p in phase.pairs if pair_number(p.a, p.b) not in self.ignored]
         for pair in found:
             if pair.b.is_static:
                 self.beside_static[pair.a] = None
-        touched = {c.a for c in self.unpaired.values()}
-        for pair in found if touched else []:
-            if pair.a in touched:
-                pair.contact = self.unpaired.pop(pair_number(pair.a, pair.b), None)
 
     def find_contacts(self, dt: float) -> None:
         """Find the present contacts of all bodies, with the impulses they had before.

@@ -14,6 +14,7 @@ from .soft import SAME_DIRECTION
 from .springs import Springs
 from .sweep import NO_HIT, first_stop, moment_of_touch
 
+MOVED = 0.01  # radii; a ball that was hit and moved by less meets nothing new
 MOST_IMPACTS = 100  # of a contact in one step
 PASSES = 200  # of the solver for impacts at one moment
 WORK = 4000  # contacts, over all passes of the solver for one large group
@@ -366,7 +367,9 @@ class Impacts:
         for body in bodies:
             self.near[body] = []
             body.is_thrown = True
-        for pair in self.contacts.broad_phase.pairs:
+        contacts = self.contacts
+        contacts.take_in(contacts.broad_phase.follow_thrown(self.reach))
+        for pair in contacts.broad_phase.pairs:
             if pair.contact is None:
                 if pair.a.is_thrown:
                     self.near[pair.a].append(pair)
@@ -379,7 +382,7 @@ class Impacts:
         """Find impacts of balls that were hit with bodies which they did not touch before."""
         met: list[Contact] = []
         for body in hit:
-            x, y, far = body.x - body.last_x, body.y - body.last_y, FAR * body.r
+            x, y, far = body.x - body.last_x, body.y - body.last_y, MOVED * body.r
             if x * x + y * y > far * far:
                 if body not in self.near:
                     balls = [*hit, *balls_of(list(self.due))]
