@@ -48,15 +48,32 @@ class Sleep(Effect):
         self.awake_changed_hooks = world.hooks("awake_changed")
 
     def detect(self, h: float) -> None:
-        """Wake islands that an awake ball touches, and those that these touch in turn."""
+        """Wake islands that an awake ball touches or may reach through others in this step."""
         world = self.world
         if len(world.awake) + len(world.statics) == len(world.bodies):
             return
         contacts = world.effects.get("Contacts")
-        while isinstance(contacts, Contacts) and (touched := sleepers(contacts)):
+        while isinstance(contacts, Contacts) and (touched := self.sleepers(contacts)):
             for body in touched:
                 body.wake()
             contacts.detect(h)
+
+    def sleepers(self, contacts: Contacts) -> list[Body]:
+        """Return the sleeping balls in contacts, and those against which these may be thrown."""
+        touched = [(c, body) for c in contacts.touching for body in (c.a, c.b) if body.sleeps]
+        found = dict.fromkeys([body for _, body in touched])
+        # px, the longest way in a step: a ball that is hit flies off at most twice as fast
+        far = max([2 * c.closing_speed() for c, _ in touched], default=0.0) * contacts.last_dt
+        ahead = list(found) if far > contacts.touching_gap else []
+        asleep = [body for body in self.world.bodies if body.sleeps] if ahead else []
+        while ahead:
+            ball = ahead.pop()
+            for other in asleep:
+                reach = ball.r + other.r + far
+                if other not in found and hypot(other.x - ball.x, other.y - ball.y) < reach:
+                    found[other] = None
+                    ahead.append(other)
+        return list(found)
 
     def finish(self, h: float) -> None:
         self.since += h * self.world.substep_count
@@ -157,8 +174,3 @@ class Sleep(Effect):
         self.world.has_changed = True
         for awake_changed in self.awake_changed_hooks:
             awake_changed()
-
-
-def sleepers(contacts: Contacts) -> list[Body]:
-    """Return the sleeping balls in contacts, which all have one awake body."""
-    return [body for c in contacts.touching for body in (c.a, c.b) if body.sleeps]
