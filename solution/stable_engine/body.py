@@ -26,7 +26,6 @@ class Listeners:
     static_moved_hooks: list[Callable[..., Any]]
     body_moved_hooks: list[Callable[..., Any]]
     body_changed_hooks: list[Callable[..., Any]]
-    lighter_hooks: list[Callable[..., Any]]
 
     def set_bullet(self, body: Body, value: bool) -> None:
         """Make a body a bullet, or not."""
@@ -34,6 +33,10 @@ class Listeners:
 
     def look_again(self, body: Body) -> None:
         """Check the new values of this body in the next step."""
+        raise NotImplementedError
+
+    def relieve(self, lost: dict[Body, float]) -> None:
+        """Tell effects of masses (kg) that bodies have lost: infinity if they leave."""
         raise NotImplementedError
 
     def push(self, body: Body, fx: float, fy: float, torque: float) -> None:
@@ -215,8 +218,7 @@ class Body:
         rule = "0, as the body is static" if self.is_static else "above 0, as the body can move"
         require((value == 0) == self.is_static, "Body.mass", value, rule)
         if self.world and value < self.m:
-            for lighter in self.world.lighter_hooks:
-                lighter(self, value / self.m)
+            self.world.relieve({self: self.m - value})
         self.weigh(value)
         self.changed()
 

@@ -6,9 +6,9 @@ from math import hypot, inf, sqrt
 from .body import Body, State, state_of
 from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, the_way_it_came
-from .effect import Effect, WorldState
+from .effect import Direction, Effect, WorldState
 from .joint import Joints
-from .loads import DEEP, HEAVY, Pile, Stage, find_piles
+from .loads import DEEP, HEAVY, Pile, Stage, find_piles, take_off
 from .order import Group, give_places, in_same_place, put_in_order
 from .soft import SAME_DIRECTION, Pace, softness
 from .springs import Springs
@@ -29,7 +29,6 @@ MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
 CROWDED = 0.1  # radii, by which balls that bear a load overlap in a crowd
 PARTED = 0.3  # share of an overlap that a step takes from balls in a crowd
 TOUCHING = 1e-6  # a gap that counts as touching: rounding
-LEVEL = 1e-6  # a sine; contacts that rise by less do not bear what is above
 MOST_BODIES = 2**29  # and no id is larger
 BEARING = 0.05  # of a weight; a smaller push does not hold a ball
 REDETECT_DISTANCE = 1e-4  # contacts stay valid until a body moves further
@@ -335,11 +334,19 @@ class Contacts(Effect):
     def find_piles(self, is_heavy: bool) -> list[Pile]:
         """Return the piles with heavy bodies; is_heavy tells whether any two masses differ much."""
         rods = self.world.effects.get("Rods")
+        pull = hypot(*self.world.g)
+        loads: dict[Body, float] = {}  # kg, that press where forces or frames of rods do
+        for body, (fx, fy, _) in self.world.forces.items() if pull else []:
+            if hypot(fx, fy) > HEAVY * body.m * pull:
+                loads[body] = hypot(fx, fy) / pull
+        is_heavy = is_heavy or bool(loads)
         frames = []
-        if isinstance(rods, Joints):
-            is_heavy = is_heavy or rods.any_heavy()
-            frames = rods.loose_frames() if is_heavy else []
-        return find_piles(self.touching, frames, self.world.unit) if is_heavy else []
+        if isinstance(rods, Joints) and (is_heavy or rods.any_heavy()):
+            is_heavy, frames = True, rods.loose_frames()
+            for frame, load in frames:
+                loads.update({body: load for rod in frame for body in (rod.end_a, rod.end_b)})
+        links = [rod for frame, _ in frames for rod in frame]
+        return find_piles(self.touching, links, loads, self.world.unit) if is_heavy else []
 
     def find_order(self) -> None:
         """Find the contacts solved in turn, with their order, and those solved at once.
@@ -641,40 +648,13 @@ class Contacts(Effect):
         self.wake_beside(body)
         self.broad_phase.bounds = []
 
-    def lighter(self, body: Body, share: float) -> None:
-        """Lower the impulses below a body that loses mass, by the weight it loses.
+    def unload(self, lost: dict[Body, float], direction: Direction) -> None:
+        """Lower the kept impulses under bodies that press less.
 
-        The next step begins with these impulses; unchanged, they would throw balls up.
+        The next step begins with these; unchanged, they would throw balls up.
         """
-        contacts, g = self.all_contacts(), self.world.g
-        balls = in_touch(body, contacts)
-        if body.is_static:
-            for c in contacts:
-                if c.a in balls:
-                    c.jn = c.jt = 0.0
-            return
-        lost = {body: body.m * (1 - share) * hypot(*g) * self.h if share else inf}  # kg px/s
-        for ball in sorted(
-            balls, key=lambda ball: (ball is not body, ball.x * g[0] + ball.y * g[1])
-        ):
-            if ball in lost:
-                self.unload(ball, lost, [c for c in contacts if ball in (c.a, c.b)])
-
-    def unload(self, ball: Body, lost: dict[Body, float], contacts: list[Contact]) -> None:
-        """Take the impulse that a ball has lost off the contacts that bear it, and pass it on."""
-        gx, gy = self.world.g
-        pull = hypot(gx, gy) or 1.0
-        sides = [(c, c.b, 1.0) if c.a is ball else (c, c.a, -1.0) for c in contacts]
-        below = [(c, other, (c.nx * gx + c.ny * gy) / pull * side) for c, other, side in sides]
-        if lost[ball] < inf:
-            below = [(c, other, down) for c, other, down in below if down > -LEVEL]
-        bears = sum([c.jn * max(down, 0.0) for c, _, down in below])
-        left = max(1 - lost[ball] / bears, 0.0) if bears else 0.0
-        for c, other, down in below:
-            if down > 0:
-                lost[other] = lost.get(other, 0.0) + c.jn * (1 - left) * down
-            c.jn *= left
-            c.jt *= left
+        impulses = {body: force * self.h for body, force in lost.items()}
+        take_off(self.all_contacts(), impulses, direction)
 
     def body_moved(self, body: Body) -> None:
         """Look for near pairs anew. Nobody flew to where a program has put the body."""
@@ -682,7 +662,7 @@ class Contacts(Effect):
         if not body.is_static and all(
             [collide(c.a, c.b)[2] > self.touching_gap for c in self.of_body(body)]
         ):
-            self.lighter(body, 0.0)
+            self.world.relieve({body: inf})
         self.broad_phase.bounds = []
 
     def static_moved(self, body: Body) -> None:
@@ -721,20 +701,6 @@ class Contacts(Effect):
     def awake_changed(self) -> None:
         self.broad_phase.bounds = []
         self.pace.awake_changed(any([c.a.sleeps for c in self.all_contacts()]))
-
-
-def in_touch(body: Body, contacts: list[Contact]) -> set[Body]:
-    """Return the balls that touch a body, directly or through others; statics end the search."""
-    beside: dict[Body, list[Body]] = {}
-    for c in contacts:
-        beside.setdefault(c.a, []).append(c.b)
-        beside.setdefault(c.b, []).append(c.a)
-    found, ahead = {body}, [body]
-    while ahead:
-        near = [b for b in beside.get(ahead.pop(), []) if b not in found and not b.is_static]
-        found.update(near)
-        ahead += near
-    return found
 
 
 def is_rolling(c: Contact, speed: float, slow: float) -> bool:

@@ -12,6 +12,10 @@ if TYPE_CHECKING:
     from .contact import Contact
 
 
+Direction = tuple[float, float]
+Push = tuple[float, float, float]  # kg px/s² along x and y, and kg px²/s²
+
+
 class WorldState(Listeners):
     """The world as effects know it: its bodies, and the effects that the scene declares."""
 
@@ -23,7 +27,7 @@ class WorldState(Listeners):
     awake: list[Body]  # the balls that can move now
     statics: list[Body]
     effects: dict[str, Effect]
-    forces: dict[Body, tuple[float, float, float]]  # kg px/s² twice, kg px²/s²
+    forces: dict[Body, Push]
 
     @property
     def unit(self) -> float:
@@ -160,8 +164,11 @@ class Effect:
     def body_changed(self, body: Body) -> None:
         """Take over a new mass, friction or restitution of a body."""
 
-    def lighter(self, body: Body, share: float) -> None:
-        """Prepare for a body's mass to fall to this share: 0 if it leaves."""
+    def unload(self, lost: dict[Body, float], direction: Direction) -> None:
+        """Prepare for bodies to press less, by forces (kg px/s²), or infinity if they leave.
+
+        Only their ratio counts in the direction, x and y.
+        """
 
     def body_moved(self, body: Body) -> None:
         """Take over a body's position that the program has set."""

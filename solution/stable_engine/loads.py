@@ -1,9 +1,10 @@
 """Loads: where heavy bodies press on light ones, contacts and rods are solved together."""
 
-from math import hypot
+from math import hypot, inf
 
 from .body import Body
 from .contact import Contact
+from .effect import Direction
 from .joint import Joint
 from .network import Network
 
@@ -21,6 +22,7 @@ FRAMED = 1.0  # the same where frames of rods press
 SOFTEST = 1e-2  # the most of both
 RELAXED = 1e-3  # of that share, what is left after the move
 FIRM = 1 + 1e-9  # times the pivot of a rod, for the same reason
+LEVEL = 1e-6  # a sine; contacts that rise by less do not bear what is above
 FREE = 1e30  # 1/kg, the pivot of a row that takes no impulse
 
 
@@ -179,22 +181,18 @@ class Pile:
 
 
 def find_piles(
-    contacts: list[Contact], frames: list[tuple[list[Joint], float]], unit: float
+    contacts: list[Contact], rods: list[Joint], loads: dict[Body, float], unit: float
 ) -> list[Pile]:
     """Return the piles in which a body, or a frame, is much heavier than a ball at its contact.
 
-    So are those with balls thrown at each other, unless they bounce. Each frame has its rods, and
-    the mass (kg) that presses where it touches. unit is that of the world.
+    So are those with balls thrown at each other, unless they bounce. loads are the masses (kg) that
+    press where they are not the bodies' own, as in frames of rods. unit is that of the world.
     """
-    mass: dict[Body, float] = {}  # kg, of the frames of balls
-    for rods, load in frames:
-        mass.update({body: load for rod in rods for body in (rod.end_a, rod.end_b)})
-    ratios = [ratio_of(c, mass) if mass else c.ratio for c in contacts]
+    ratios = [ratio_of(c, loads) if loads else c.ratio for c in contacts]
     firsts = find_firsts(contacts, ratios, unit)
     if not firsts:
         return []
-    frame_rods = [rod for rods, _ in frames for rod in rods]
-    ends = [(c.a, c.b) for c in contacts] + [(rod.end_a, rod.end_b) for rod in frame_rods]
+    ends = [(c.a, c.b) for c in contacts] + [(rod.end_a, rod.end_b) for rod in rods]
     beside: dict[Body, list[int]] = {}  # the places of each ball's contacts and rods
     for place, both in enumerate(ends):
         for body in both:
@@ -208,10 +206,8 @@ def find_piles(
             seen.update(places)
             if 1 < len(places) <= most:
                 count = len(contacts)
-                loads = [Load(contacts[at], ratios[at]) for at in places if at < count]
-                piles.append(
-                    Pile(loads, [frame_rods[at - count] for at in places if at >= count], unit)
-                )
+                rows = [Load(contacts[at], ratios[at]) for at in places if at < count]
+                piles.append(Pile(rows, [rods[at - count] for at in places if at >= count], unit))
     return piles
 
 
@@ -227,9 +223,9 @@ def find_firsts(contacts: list[Contact], ratios: list[float], unit: float) -> li
     return heavy + deep
 
 
-def ratio_of(c: Contact, mass: dict[Body, float]) -> float:
-    """Return the ratio of the masses that meet at a contact, with those (kg) of frames."""
-    most = max(mass.get(c.a, 0.0), mass.get(c.b, 0.0))
+def ratio_of(c: Contact, loads: dict[Body, float]) -> float:
+    """Return the ratio of the masses (kg) that press at a contact."""
+    most = max(loads.get(c.a, 0.0), loads.get(c.b, 0.0))
     return max(c.ratio, most / min(c.a.m, c.b.m or c.a.m)) if most else c.ratio
 
 
@@ -243,4 +239,54 @@ def places_from(
         new = {place for body in ahead for place in beside.get(body, [])} - found
         found |= new
         ahead = {body for place in new for body in ends[place]}
+    return found
+
+
+def take_off(contacts: list[Contact], lost: dict[Body, float], direction: Direction) -> None:
+    """Take the impulses (kg px/s) that bodies have lost off the contacts that bear them.
+
+    All that a body has lost goes through the contacts ahead of it in the direction, in the ratio of
+    what they bear, to the bodies there. A body that leaves has lost infinity: it bears nothing
+    either. Without a static body, nothing bears what touched it.
+    """
+    beside: dict[Body, list[Contact]] = {}
+    for c in contacts:
+        beside.setdefault(c.a, []).append(c)
+        beside.setdefault(c.b, []).append(c)
+    x, y = direction
+    found = in_touch([*lost], beside)
+    for body in sorted(found, key=lambda body: (lost.get(body) != inf, body.x * x + body.y * y)):
+        if body.is_static:
+            for c in [c for ball in found if ball.m for c in beside.get(ball, [])]:
+                c.jn = c.jt = 0.0
+        elif body in lost:
+            unload(body, lost, beside.get(body, []), direction)
+
+
+def unload(
+    ball: Body, lost: dict[Body, float], contacts: list[Contact], direction: Direction
+) -> None:
+    """Lower the impulses of a ball's contacts by what it lost, and note what those ahead lose."""
+    x, y = direction
+    size = hypot(x, y) or 1.0
+    sides = [(c, c.b, 1.0) if c.a is ball else (c, c.a, -1.0) for c in contacts]
+    ahead = [(c, other, (c.nx * x + c.ny * y) / size * side) for c, other, side in sides]
+    if lost[ball] < inf:
+        ahead = [(c, other, share) for c, other, share in ahead if share > -LEVEL]
+    bears = sum([c.jn * max(share, 0.0) for c, _, share in ahead])
+    left = max(1 - lost[ball] / bears, 0.0) if bears else 0.0
+    for c, other, share in ahead:
+        if share > 0 and not other.is_static:
+            lost[other] = lost.get(other, 0.0) + c.jn * (1 - left) * share
+        c.jn *= left
+        c.jt *= left
+
+
+def in_touch(bodies: list[Body], beside: dict[Body, list[Contact]]) -> set[Body]:
+    """Return these bodies and the balls that touch them, directly or through other balls."""
+    found, ahead = set(bodies), bodies
+    while ahead:
+        near = [b for c in beside.get(ahead.pop(), []) for b in (c.a, c.b) if not b.is_static]
+        ahead += [b for b in dict.fromkeys(near) if b not in found]
+        found.update(near)
     return found

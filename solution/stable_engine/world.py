@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from .body import Body
 from .check import complaints, missing
-from .effect import Effect, WorldState
+from .effect import Direction, Effect, Push, WorldState
 from .joint import Joint
 from .rays import RayHit, cast_ray
 from .validate import pair, positive, refuse, require, whole
@@ -32,7 +32,7 @@ class World(WorldState):
         *("detect_hooks", "impact_hooks", "prepare_hooks"),
         *("force_hooks", "warm_start_hooks", "solve_hooks", "relax_hooks", "finish_hooks"),
         *("tell_hooks", "coast_hooks", "press_hooks", "lag_hooks", "static_moved_hooks"),
-        *("body_moved_hooks", "body_changed_hooks", "lighter_hooks", "forget_hooks"),
+        *("body_moved_hooks", "body_changed_hooks", "unload_hooks", "forget_hooks"),
     )
 
     def __init__(
@@ -54,7 +54,7 @@ class World(WorldState):
         self.warned: set[str] = set()  # the effects that a step has warned of
         self.has_changed = True
         self.forces = {}
-        self.pushed: set[Body] = set()  # by forces in the step before
+        self.pushed: dict[Body, Push] = {}  # the forces of the step before
         self.effects = {}
         if not isinstance(effects, Iterable):
             refuse("World.effects", effects, "a list of effects")
@@ -76,7 +76,7 @@ class World(WorldState):
         self.static_moved_hooks = self.hooks("static_moved")
         self.body_moved_hooks = self.hooks("body_moved")
         self.body_changed_hooks = self.hooks("body_changed")
-        self.lighter_hooks = self.hooks("lighter")
+        self.unload_hooks = self.hooks("unload")
         self.forget_hooks = self.hooks("forget")
         self.update_hooks()
 
@@ -102,8 +102,11 @@ class World(WorldState):
 
     @gravity.setter
     def gravity(self, value: Iterable[float]) -> None:
-        before, self.g, self.lag_h = self.g, pair("World.gravity", value), 0.0
-        if self.g != before:
+        (gx, gy), self.g, self.lag_h = self.g, pair("World.gravity", value), 0.0
+        lost = gx - self.g[0], gy - self.g[1]
+        if lost != (0.0, 0.0):
+            size = math.hypot(*lost)
+            self.unload({body: body.m * size for body in self.bodies if body.m}, lost)
             for body in self.bodies:
                 body.wake()
 
@@ -196,8 +199,7 @@ class World(WorldState):
         body.wake()
         self.lag_h = 0.0
         self.forces.pop(body, None)
-        for lighter in self.lighter_hooks:
-            lighter(body, 0.0)
+        self.relieve({body: math.inf})
         for forget in self.forget_hooks:
             forget(body)
         # new lists, so that a program may remove bodies while it loops over world.bodies
@@ -246,6 +248,24 @@ class World(WorldState):
             body.vy += fy * body.inv_mass * h
             body.w += torque * body.inv_inertia * h
 
+    def relieve(self, lost: dict[Body, float]) -> None:
+        """Tell effects of masses (kg) that bodies have lost: infinity if they leave."""
+        pull = math.hypot(*self.g) or 1.0
+        self.unload({body: mass * pull for body, mass in lost.items()}, self.g)
+
+    def end_pushes(self) -> None:
+        """Tell effects of forces that are less than in the step before."""
+        for body, (before_x, before_y, _) in self.pushed.items():
+            fx, fy, _ = self.forces.get(body, (0.0, 0.0, 0.0))
+            lost = before_x - fx, before_y - fy
+            if body.world is self and lost[0] * before_x + lost[1] * before_y > 0:
+                self.unload({body: math.hypot(*lost)}, lost)
+
+    def unload(self, lost: dict[Body, float], direction: Direction) -> None:
+        """Tell effects by how much (kg px/s²) bodies press less."""
+        for unload in self.unload_hooks:
+            unload(lost, direction)
+
     def clear_forces(self) -> None:
         """End all forces at the end of their step."""
         self.forces = {}
@@ -291,7 +311,9 @@ class World(WorldState):
 
         # 1 detect: the step before has, unless the program has changed anything since
         lags = bool(self.lag_hooks or self.forces) or self.g != (0.0, 0.0)
-        is_known = h == self.lag_h and self.forces.keys() == self.pushed
+        is_known = h == self.lag_h and self.forces.keys() == self.pushed.keys()
+        if self.pushed and self.forces != self.pushed:
+            self.end_pushes()
         if is_known:
             self.lag_behind()
         has_changed = self.has_changed
@@ -358,7 +380,7 @@ class World(WorldState):
     def catch_up(self, h: float) -> None:
         """Take velocities on to the time of the positions, except those of pressed bodies."""
         self.change_velocities(h / 2)
-        self.pushed = set(self.forces)
+        self.pushed = self.forces
         if self.forces:
             self.clear_forces()
 

@@ -59,6 +59,29 @@ def test_a_load_that_vanishes_throws_no_ball_up(masses, taken):
     assert max(map(speed, tall)) < 1
 
 
+def test_a_push_that_ends_throws_no_ball_up():
+    world = build(stack(1, 1, 1), "Contacts")
+    tall = world.bodies[3:]
+    places = [-20, -60, -100]
+    for _ in range(90):
+        tall[-1].apply_force((0, 50 * G))
+        world.step(DT)
+    assert [ball.y for ball in tall] == pytest.approx(places, abs=LAUNCHED)
+    assert rises(world, tall, places, 2) < LAUNCHED
+
+
+def test_a_tower_rises_as_one_when_gravity_turns_over():
+    world = build(stack(1, 1, 1, 1, 1), "Contacts")
+    tall = world.bodies[3:]
+    run(world, 1)
+    start = [ball.y for ball in tall]
+    world.gravity = (0, -G)
+    run(world, 0.5)
+    risen = [y - ball.y for y, ball in zip(start, tall, strict=True)]
+    # half a substep of gravity is 0.5 px by then, and the earlier overlap is pushed out
+    assert risen == pytest.approx([G * 0.5**2 / 2] * 5, abs=1)
+
+
 def test_a_tower_without_its_floor_falls_as_one():
     world = build(stack(1, 10, 100), "Contacts")
     tall = world.bodies[3:]
