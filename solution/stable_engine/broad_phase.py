@@ -113,6 +113,7 @@ class BroadPhase:
 
     def __init__(self) -> None:
         self.bounds: list[Bounds] = []  # of all bodies, in the order of the last sweep
+        self.rooms: dict[Body, Bounds] = {}
         self.moving: list[Bounds] = []  # of those that can move
         self.widest = 0.0  # px, half of the widest that can move
         self.narrowest = 0.0  # px, the least width of a lane
@@ -134,6 +135,7 @@ class BroadPhase:
     def take(self, bodies: list[Body]) -> None:
         """Begin anew, with these bodies."""
         self.bounds = [Bounds(body, place) for place, body in enumerate(bodies)]
+        self.rooms = {one.body: one for one in self.bounds}
         self.moving = [b for b in self.bounds if not b.body.idle or b.body.is_kinematic]
         halves = [max(b.body.hx, b.body.hy) for b in self.moving]
         self.widest, self.narrowest = max(halves), LANE * sum(halves) / len(halves)
@@ -193,12 +195,12 @@ class BroadPhase:
         self.leavers, self.is_stale = [], False
         return found
 
-    def follow_thrown(self, margin: float) -> list[Pair]:
-        """Make room for thrown bodies that have left theirs. Return the new near pairs."""
+    def follow(self, bodies: list[Body], dt: float, margin: float) -> list[Pair]:
+        """Make room for bodies that were thrown out of theirs. Return the new near pairs."""
         count = len(self.pairs)
-        self.leavers = [one for one in self.moving if one.body.is_thrown and not one.holds()]
+        self.leavers = [self.rooms[body] for body in bodies]
         for one in self.leavers:
-            one.make_room(0.0, 0.0)
+            one.make_room(0.0, max(self.ahead - self.age, dt))
         self.search(margin)
         self.leavers = []
         self.near = [one for one in self.moving if one.near]

@@ -248,7 +248,8 @@ class Contacts(Effect):
         c = pair.contact = self.make_contact(pair.a, pair.b, nx, ny)
         c.gap = c.found = gap
         self.touching.append(c)
-        (self.balls if c.b.inv_mass else self.statics).contacts.append(c)
+        group = self.balls if c.b.inv_mass else self.statics
+        group.contacts = [*group.contacts, c]  # a new list, as its order is new
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
         return c
 

@@ -367,9 +367,7 @@ class Impacts:
         for body in bodies:
             self.near[body] = []
             body.is_thrown = True
-        contacts = self.contacts
-        contacts.take_in(contacts.broad_phase.follow_thrown(self.reach))
-        for pair in contacts.broad_phase.pairs:
+        for pair in self.contacts.broad_phase.pairs:
             if pair.contact is None:
                 if pair.a.is_thrown:
                     self.near[pair.a].append(pair)
@@ -378,9 +376,22 @@ class Impacts:
         for body in bodies:
             body.is_thrown = False
 
+    def follow(self, bodies: list[Body]) -> None:
+        """Find the near pairs of bodies that impacts have thrown out of their rooms."""
+        found = self.contacts.broad_phase.follow(bodies, self.dt, self.reach)
+        self.contacts.take_in(found)
+        for pair in found:
+            for body in (pair.a, pair.b):
+                if body in self.near:
+                    self.near[body].append(pair)
+
     def meet_others(self, hit: list[Body]) -> None:
         """Find impacts of balls that were hit with bodies which they did not touch before."""
         met: list[Contact] = []
+        rooms = self.contacts.broad_phase.rooms
+        thrown = [body for body in hit if not rooms[body].holds()]
+        if thrown:
+            self.follow(thrown)
         for body in hit:
             x, y, far = body.x - body.last_x, body.y - body.last_y, MOVED * body.r
             if x * x + y * y > far * far:
@@ -452,6 +463,7 @@ class Impacts:
                 if due[entry[2]].speed < hardest:
                     heappush(queue, entry)
         for c in group:
+            self.contacts.crowd.pop(c, None)
             del due[c]
             self.counts[c] = self.counts.get(c, 0) + 1
         return group, -earliest
