@@ -190,8 +190,7 @@ class BroadPhase:
             self.search(margin)
         found = self.pairs[count:]
         if found or self.is_stale:
-            self.near = [one for one in self.moving if one.near]
-            self.far = [one for one in self.moving if not one.near]
+            self.part_near()
         self.leavers, self.is_stale = [], False
         return found
 
@@ -203,9 +202,15 @@ class BroadPhase:
             one.make_room(0.0, max(self.ahead - self.age, dt))
         self.search(margin)
         self.leavers = []
+        found = self.pairs[count:]
+        if found:
+            self.part_near()
+        return found
+
+    def part_near(self) -> None:
+        """List the bodies that can move: those with others near, and the rest."""
         self.near = [one for one in self.moving if one.near]
         self.far = [one for one in self.moving if not one.near]
-        return self.pairs[count:]
 
     def set_ahead(self, dt: float) -> None:
         """Choose the length of new rooms by how the last ones did."""

@@ -125,9 +125,12 @@ def put_in_order(group: Group, grain: float, is_mirrored: bool) -> bool:
     """
     if group.contacts == group.ordered:
         return group.is_mirrored
-    here, before = set(group.contacts), set(group.ordered)
-    kept = [c for c in group.sorted if c in here]
-    group.sorted = sorted(kept + [c for c in group.contacts if c not in before], key=PLACE)
+    if len(group.contacts) > 1:
+        here, before = set(group.contacts), set(group.ordered)
+        kept = [c for c in group.sorted if c in here]
+        group.sorted = sorted(kept + [c for c in group.contacts if c not in before], key=PLACE)
+    else:
+        group.sorted = group.contacts
     group.ordered, group.in_turn, group.ties = group.contacts, group.sorted, []
     group.is_mirrored = False
     if is_mirrored:
