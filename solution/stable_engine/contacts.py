@@ -8,7 +8,7 @@ from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, the_way_it_came
 from .effect import Direction, Effect, WorldState
 from .joint import Joints
-from .loads import DEEP, HEAVY, Pile, Stage, find_piles, take_off
+from .loads import DEEP, HEAVY, TALL, Pile, Stage, find_piles, take_off
 from .order import Group, give_places, in_same_place, put_in_order
 from .soft import SAME_DIRECTION, Pace, softness
 from .springs import Springs
@@ -323,17 +323,22 @@ class Contacts(Effect):
         if self.crowd:
             self.gather_crowd()
         self.find_order()
-        is_heavy = False
+        is_heavy, weight = False, hypot(*self.world.g) * h  # px/s, of 1 kg in a substep
+        tall = TALL * weight or inf
         for c in self.touching:
             a, b, nx, ny = c.a, c.b, c.nx, c.ny
             c.ax, c.ay = nx * a.inv_mass, ny * a.inv_mass
             c.bx, c.by = nx * b.inv_mass, ny * b.inv_mass
             c.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - c.gap
-            is_heavy = is_heavy or c.ratio > HEAVY or c.gap < -DEEP * c.reach
-        self.piles = self.find_piles(is_heavy)
+            if c.ratio > HEAVY or c.gap < -DEEP * c.reach or c.jn > tall * c.mn:
+                is_heavy = True
+        self.piles = self.find_piles(is_heavy, weight)
 
-    def find_piles(self, is_heavy: bool) -> list[Pile]:
-        """Return the piles with heavy bodies; is_heavy tells whether any two masses differ much."""
+    def find_piles(self, is_heavy: bool, weight: float) -> list[Pile]:
+        """Return the piles with heavy loads; is_heavy tells whether any contact has one.
+
+        weight is that of 1 kg in a substep (px/s).
+        """
         rods = self.world.effects.get("Rods")
         pull = hypot(*self.world.g)
         loads: dict[Body, float] = {}  # kg, that press where forces or frames of rods do
@@ -347,7 +352,9 @@ class Contacts(Effect):
             for frame, load in frames:
                 loads.update({body: load for rod in frame for body in (rod.end_a, rod.end_b)})
         links = [rod for frame, _ in frames for rod in frame]
-        return find_piles(self.touching, links, loads, self.world.unit) if is_heavy else []
+        if not is_heavy:
+            return []
+        return find_piles(self.touching, links, loads, weight, self.world.unit)
 
     def find_order(self) -> None:
         """Find the contacts solved in turn, with their order, and those solved at once.

@@ -9,6 +9,7 @@ from .joint import Joint
 from .network import Network
 
 HEAVY = 2.5  # times the lightest ball at a contact
+TALL = 14.0  # times the weight of its effective mass; a contact that bears more carries a tower
 DEEP = 0.05  # of both radii; balls that overlap by more were thrown at each other
 RESTING = 30.0  # 1/s, in units of the world; a ball that bounces faster is left to impacts
 CALM = 0.5  # 1/s, in units of the world, by the square of that ratio: passes may leave this speed
@@ -181,17 +182,23 @@ class Pile:
 
 
 def find_piles(
-    contacts: list[Contact], rods: list[Joint], loads: dict[Body, float], unit: float
+    contacts: list[Contact],
+    rods: list[Joint],
+    loads: dict[Body, float],
+    weight: float,
+    unit: float,
 ) -> list[Pile]:
     """Return the piles in which a body, or a frame, is much heavier than a ball at its contact.
 
-    So are those with balls thrown at each other, unless they bounce. loads are the masses (kg) that
-    press where they are not the bodies' own, as in frames of rods. unit is that of the world.
+    So are towers, and balls thrown at each other, unless they bounce. loads are the masses (kg)
+    that press where they are not the bodies' own, as in frames of rods. weight is that of 1 kg in a
+    substep (px/s), unit that of the world.
     """
     ratios = [ratio_of(c, loads) if loads else c.ratio for c in contacts]
-    firsts = find_firsts(contacts, ratios, unit)
+    firsts = find_firsts(contacts, ratios, weight, unit)
     if not firsts:
         return []
+    count = len(contacts)
     ends = [(c.a, c.b) for c in contacts] + [(rod.end_a, rod.end_b) for rod in rods]
     beside: dict[Body, list[int]] = {}  # the places of each ball's contacts and rods
     for place, both in enumerate(ends):
@@ -204,23 +211,32 @@ def find_piles(
         if first not in seen:
             places = sorted(places_from(ends[first], ends, beside))
             seen.update(places)
-            if 1 < len(places) <= most:
-                count = len(contacts)
+            balls = {body for place in places for body in ends[place] if body.inv_mass}
+            if 1 < len(places) <= (most or len(balls)):
                 rows = [Load(contacts[at], ratios[at]) for at in places if at < count]
                 piles.append(Pile(rows, [rods[at - count] for at in places if at >= count], unit))
     return piles
 
 
-def find_firsts(contacts: list[Contact], ratios: list[float], unit: float) -> list[tuple[int, int]]:
-    """Return the places of contacts that make a pile, each with the most rows it may have."""
+def find_firsts(
+    contacts: list[Contact], ratios: list[float], weight: float, unit: float
+) -> list[tuple[int, int]]:
+    """Return the places of contacts that make a pile, each with the most rows it may have.
+
+    For a tower, that is 0: it may have as many as it has balls. Its load replaces the ratio.
+    """
     heavy: list[tuple[int, int]] = []
     deep: list[tuple[int, int]] = []
+    tall: list[tuple[int, int]] = []
     for place, (c, ratio) in enumerate(zip(contacts, ratios, strict=True)):
         if ratio > HEAVY and (not c.e or abs(c.closing_speed()) < RESTING * unit):
             heavy.append((place, MOST_ROWS))
         elif c.gap < -DEEP * c.reach and c.b.inv_mass and not c.e:
             deep.append((place, FEW_ROWS))
-    return heavy + deep
+        elif weight and c.jn > TALL * weight * c.mn:
+            tall.append((place, 0))
+            ratios[place] = c.jn / (weight * c.mn)
+    return heavy + deep + tall
 
 
 def ratio_of(c: Contact, loads: dict[Body, float]) -> float:
