@@ -9,7 +9,9 @@ from .joint import Joint
 from .network import Network
 
 HEAVY = 2.5  # times the lightest ball at a contact
-TALL = 14.0  # times the weight of its effective mass; a contact that bears more carries a tower
+TALL = 13.3  # weights of its effective mass; a contact that bears more carries a tower. Not whole,
+# so that rounding does not decide between towers of equal balls
+BEARING = 0.05  # weights of its effective mass; a contact with less bears nothing
 DEEP = 0.05  # of both radii; balls that overlap by more were thrown at each other
 RESTING = 30.0  # 1/s, in units of the world; a ball that bounces faster is left to impacts
 CALM = 0.5  # 1/s, in units of the world, by the square of that ratio: passes may leave this speed
@@ -211,11 +213,24 @@ def find_piles(
         if first not in seen:
             places = sorted(places_from(ends[first], ends, beside))
             seen.update(places)
-            balls = {body for place in places for body in ends[place] if body.inv_mass}
-            if 1 < len(places) <= (most or len(balls)):
+            if not most and is_tower([ends[place] for place in places]):
+                places = [at for at in places if at >= count or bears(contacts[at], weight)]
+                most = MOST_ROWS
+            if 1 < len(places) <= most:
                 rows = [Load(contacts[at], ratios[at]) for at in places if at < count]
                 piles.append(Pile(rows, [rods[at - count] for at in places if at >= count], unit))
     return piles
+
+
+def bears(c: Contact, weight: float) -> bool:
+    """Return whether a contact bears any weight worth mentioning; weight as in find_piles."""
+    return c.jn > BEARING * weight * c.mn
+
+
+def is_tower(ends: list[tuple[Body, Body]]) -> bool:
+    """Return whether balls connected by these pairs have no way round, as in a tower."""
+    balls = {body for both in ends for body in both if body.inv_mass}
+    return sum([1 for a, b in ends if a.inv_mass and b.inv_mass]) < len(balls)
 
 
 def find_firsts(
@@ -223,7 +238,7 @@ def find_firsts(
 ) -> list[tuple[int, int]]:
     """Return the places of contacts that make a pile, each with the most rows it may have.
 
-    For a tower, that is 0: it may have as many as it has balls. Its load replaces the ratio.
+    That is 0 for towers, as only they may have one. There the load replaces the ratio.
     """
     heavy: list[tuple[int, int]] = []
     deep: list[tuple[int, int]] = []
@@ -289,8 +304,8 @@ def unload(
     ahead = [(c, other, (c.nx * x + c.ny * y) / size * side) for c, other, side in sides]
     if lost[ball] < inf:
         ahead = [(c, other, share) for c, other, share in ahead if share > -LEVEL]
-    bears = sum([c.jn * max(share, 0.0) for c, _, share in ahead])
-    left = max(1 - lost[ball] / bears, 0.0) if bears else 0.0
+    borne = sum([c.jn * max(share, 0.0) for c, _, share in ahead])
+    left = max(1 - lost[ball] / borne, 0.0) if borne else 0.0
     for c, other, share in ahead:
         if share > 0 and not other.is_static:
             lost[other] = lost.get(other, 0.0) + c.jn * (1 - left) * share

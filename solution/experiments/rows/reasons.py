@@ -1,11 +1,8 @@
 """Reasons for the rows that the stable engine loses, by how their titles begin."""
 
-SOFT = "Contacts are soft: they sink by a little that grows with the weight."
 ROLLS = "A last ball still rolls: nothing brakes rolling, so chance decides when it stops."
 REASONS = {
     "rained pile: 100 balls, late speed": ROLLS,
-    "tower: 20 equal balls, top": SOFT,
-    "tower: 40 equal balls, top": SOFT,
 }
 
 
