@@ -348,7 +348,7 @@ class Contacts(Effect):
         is_heavy = is_heavy or bool(loads)
         frames = []
         if isinstance(rods, Joints) and (is_heavy or rods.any_heavy()):
-            is_heavy, frames = True, rods.loose_frames()
+            is_heavy, frames = True, rods.frame_loads()
             for frame, load in frames:
                 loads.update({body: load for rod in frame for body in (rod.end_a, rod.end_b)})
         links = [rod for frame, _ in frames for rod in frame]

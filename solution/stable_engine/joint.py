@@ -145,7 +145,7 @@ class Joints(Effect, Generic[AnyJoint]):
         """Return whether any rigid joints press like a heavy body."""
         return False
 
-    def loose_frames(self) -> list[tuple[list[Joint], float]]:
+    def frame_loads(self) -> list[tuple[list[Joint], float]]:
         """Return the rigid joints that are connected and can move, and the mass (kg) they press."""
         return []
 

@@ -150,11 +150,10 @@ class Rods(Joints[Rod]):
         self.find_frames()
         return any([frame.load > HEAVY * frame.lightest for frame in self.frames])
 
-    def loose_frames(self) -> list[tuple[list[Joint], float]]:
-        """Leave out frames between static bodies: nearly straight ones pull without limit."""
+    def frame_loads(self) -> list[tuple[list[Joint], float]]:
+        """Return the rods of each frame, and the mass (kg) that presses where it touches."""
         self.find_frames()
-        loose = [frame for frame in self.frames if len(frame.ends) - len(frame.balls) < 2]
-        return [([*frame.rods], frame.load) for frame in loose]
+        return [([*frame.rods], frame.load) for frame in self.frames]
 
     def warm_start(self, h: float) -> None:
         for rod in self.awake:
