@@ -144,3 +144,36 @@ def test_a_light_bead_on_the_way_to_a_heavy_bob_stretches_no_rod(bead):
         for rod in rods:
             assert rod.a.pos.distance_to(rod.b.pos) == pytest.approx(rod.length, abs=0.1)
         assert sum(map(energy, balls)) == pytest.approx(start, abs=0.01 * 100 * G * 150)
+
+
+@pytest.mark.parametrize("count", [6, 12])
+@pytest.mark.parametrize("mass", [5.0, 50.0])
+def test_a_heavy_ball_on_a_bridge_of_light_ones_gets_no_energy(count, mass):
+    world = World((0, G), effects=make(("Contacts", "Friction", "Rods")))
+    spots = [(40 * i, 60 * math.sin(math.pi * i / count)) for i in range(count + 1)]
+    row = [add_ball(world, *at, 0 if at in (spots[0], spots[-1]) else 1.0, 15.0) for at in spots]
+    lengths = [math.dist(a.pos, b.pos) for a, b in pairwise(row)]
+    for a, b in pairwise(row):
+        world.add(Rod(a, b))
+    moving = [*row[1:-1], add_ball(world, 20 * count, -40, mass, 30.0)]
+
+    def energy():
+        kinetic = sum(b.m * b.vel.length_squared() + b.omega**2 / b.inv_inertia for b in moving)
+        return kinetic / 2 - G * sum(b.m * b.y for b in moving)
+
+    start, most, off = energy(), -math.inf, 0.0
+    for _ in steps(world, 6):
+        most = max(most, energy())
+        now = [math.dist(a.pos, b.pos) for a, b in pairwise(row)]
+        off = max(off, *[abs(a - b) for a, b in zip(now, lengths, strict=True)])
+    assert most - start < 0.01 * mass * G * 100
+    assert off < 0.5
+
+
+@pytest.mark.parametrize("count", [10, 20, 40])
+def test_a_tower_does_not_sink(count):
+    world = world_with_floor()
+    tower = [add_ball(world, 0, -RADIUS - 2 * RADIUS * i, 1.0) for i in range(count)]
+    for _ in steps(world, 3):
+        pass
+    assert -2 * RADIUS * count + RADIUS == pytest.approx(tower[-1].y, abs=0.5)
