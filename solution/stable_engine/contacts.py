@@ -323,21 +323,22 @@ class Contacts(Effect):
         if self.crowd:
             self.gather_crowd()
         self.find_order()
-        is_heavy, weight = False, hypot(*self.world.g) * h  # px/s, of 1 kg in a substep
+        is_heavy = is_loaded = False
+        weight = hypot(*self.world.g) * h  # px/s, of 1 kg in a substep
         tall = TALL * weight or inf
         for c in self.touching:
             a, b, nx, ny = c.a, c.b, c.nx, c.ny
             c.ax, c.ay = nx * a.inv_mass, ny * a.inv_mass
             c.bx, c.by = nx * b.inv_mass, ny * b.inv_mass
             c.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - c.gap
-            if c.ratio > HEAVY or c.gap < -DEEP * c.reach or c.jn > tall * c.mn:
-                is_heavy = True
-        self.piles = self.find_piles(is_heavy, weight)
+            is_heavy = is_heavy or c.ratio > HEAVY
+            is_loaded = is_loaded or c.gap < -DEEP * c.reach or c.jn > tall * c.mn
+        self.piles = self.find_piles(is_heavy, is_loaded, weight)
 
-    def find_piles(self, is_heavy: bool, weight: float) -> list[Pile]:
-        """Return the piles with heavy loads; is_heavy tells whether any contact has one.
+    def find_piles(self, is_heavy: bool, is_loaded: bool, weight: float) -> list[Pile]:
+        """Return the piles with heavy bodies or other loads; weight as in loads.find_piles.
 
-        weight is that of 1 kg in a substep (px/s).
+        is_heavy tells whether any two masses differ much, is_loaded whether any contact bears much.
         """
         rods = self.world.effects.get("Rods")
         pull = hypot(*self.world.g)
@@ -352,7 +353,7 @@ class Contacts(Effect):
             for frame, load in frames:
                 loads.update({body: load for rod in frame for body in (rod.end_a, rod.end_b)})
         links = [rod for frame, _ in frames for rod in frame]
-        if not is_heavy:
+        if not (is_heavy or is_loaded):
             return []
         return find_piles(self.touching, links, loads, weight, self.world.unit)
 

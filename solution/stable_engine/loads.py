@@ -192,9 +192,9 @@ def find_piles(
 ) -> list[Pile]:
     """Return the piles in which a body, or a frame, is much heavier than a ball at its contact.
 
-    So are towers, and balls thrown at each other, unless they bounce. loads are the masses (kg)
-    that press where they are not the bodies' own, as in frames of rods. weight is that of 1 kg in a
-    substep (px/s), unit that of the world.
+    So are towers, and balls thrown at each other, unless they bounce or joints hold them. loads are
+    the masses (kg) that press where they are not the bodies' own, as in frames of rods. weight is
+    that of 1 kg in a substep (px/s), unit that of the world.
     """
     ratios = [ratio_of(c, loads) if loads else c.ratio for c in contacts]
     firsts = find_firsts(contacts, ratios, weight, unit)
@@ -213,8 +213,11 @@ def find_piles(
         if first not in seen:
             places = sorted(places_from(ends[first], ends, beside))
             seen.update(places)
-            if not most and is_tower([ends[place] for place in places]):
-                places = [at for at in places if at >= count or bears(contacts[at], weight)]
+            linked = [ends[place] for place in places]
+            if most < MOST_ROWS and any([a.joint_count or b.joint_count for a, b in linked]):
+                continue
+            if not most and is_tower(linked):
+                places = [place for place in places if bears(contacts[place], weight)]
                 most = MOST_ROWS
             if 1 < len(places) <= most:
                 rows = [Load(contacts[at], ratios[at]) for at in places if at < count]
