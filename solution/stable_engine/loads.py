@@ -245,16 +245,27 @@ def find_firsts(
     """
     heavy: list[tuple[int, int]] = []
     deep: list[tuple[int, int]] = []
-    tall: list[tuple[int, int]] = []
+    tall: list[int] = []
     for place, (c, ratio) in enumerate(zip(contacts, ratios, strict=True)):
         if ratio > HEAVY and (not c.e or abs(c.closing_speed()) < RESTING * unit):
             heavy.append((place, MOST_ROWS))
+        elif weight and c.jn > TALL * weight * c.mn:
+            tall.append(place)
         elif c.gap < -DEEP * c.reach and c.b.inv_mass and not c.e:
             deep.append((place, FEW_ROWS))
-        elif weight and c.jn > TALL * weight * c.mn:
-            tall.append((place, 0))
-            ratios[place] = c.jn / (weight * c.mn)
-    return heavy + deep + tall
+    towers: list[tuple[int, int]] = []
+    if tall:
+        counts: dict[Body, int] = {}  # of the balls that a ball touches: 1 or 2 in a tower
+        for c in contacts:
+            if c.b.inv_mass:
+                counts[c.a] = counts.get(c.a, 0) + 1
+                counts[c.b] = counts.get(c.b, 0) + 1
+        for place in tall:
+            c = contacts[place]
+            if counts.get(c.a, 0) <= 2 and counts.get(c.b, 0) <= 2:
+                towers.append((place, 0))
+                ratios[place] = c.jn / (weight * c.mn)
+    return heavy + deep + towers
 
 
 def ratio_of(c: Contact, loads: dict[Body, float]) -> float:
