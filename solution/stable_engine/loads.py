@@ -211,9 +211,11 @@ def find_piles(
     seen: set[int] = set()
     for first, most in firsts:
         if first not in seen:
-            places = sorted(places_from(ends[first], ends, beside))
+            places = sorted(places_from(ends[first], ends, beside, most or MOST_ROWS))
             seen.update(places)
             linked = [ends[place] for place in places]
+            if len(places) > MOST_ROWS:
+                continue
             if most < MOST_ROWS and any([a.joint_count or b.joint_count for a, b in linked]):
                 continue
             if not most and is_tower(linked):
@@ -275,12 +277,15 @@ def ratio_of(c: Contact, loads: dict[Body, float]) -> float:
 
 
 def places_from(
-    both: tuple[Body, Body], ends: list[tuple[Body, Body]], beside: dict[Body, list[int]]
+    both: tuple[Body, Body],
+    ends: list[tuple[Body, Body]],
+    beside: dict[Body, list[int]],
+    most: int,
 ) -> set[int]:
-    """Return the places of all that balls connect to one of these two bodies."""
+    """Return the places of all that balls connect to one of these two bodies, or more than most."""
     found: set[int] = set()
     ahead = set(both)
-    while ahead:
+    while ahead and len(found) <= most:
         new = {place for body in ahead for place in beside.get(body, [])} - found
         found |= new
         ahead = {body for place in new for body in ends[place]}
