@@ -83,7 +83,7 @@ class Body:
         *("e", "mu", "restitution_given", "friction_given"),
         *("x", "y", "vx", "vy", "turn", "w", "last_x", "last_y"),
         *("id", "world", "is_bullet", "is_kinematic", "idle", "sleeps", "island", "joint_count"),
-        *("still", "calm", "kept", "place", "is_thrown"),
+        *("still", "calm", "kept", "place", "is_thrown", "touches"),
         *("lag_x", "lag_y", "is_pressed", "is_fresh"),
     )
 
@@ -138,6 +138,7 @@ class Body:
         self.sleeps = False
         self.still = 0.0  # s, how long it has been slow and steady enough to sleep
         self.is_thrown = False  # a mark while Impacts.find_near runs
+        self.touches = 0  # the contacts of a ball with other balls
         self.calm = 0.0, 0.0, 0.0  # px/s: vx, vy and the speed of its rim when that began
         self.kept = 0.0  # s, how long it has stayed where it is
         self.place = inf, 0.0, 0.0  # x, y and angle when that began

@@ -8,7 +8,7 @@ from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, the_way_it_came
 from .effect import Direction, Effect, WorldState
 from .joint import Joints
-from .loads import DEEP, HEAVY, TALL, Pile, Stage, find_piles, take_off
+from .loads import DEEP, HEAVY, TALL, Pile, Stage, find_piles, find_towers, take_off
 from .order import Group, give_places, in_same_place, put_in_order
 from .soft import SAME_DIRECTION, Pace, softness
 from .springs import Springs
@@ -113,6 +113,7 @@ class Contacts(Effect):
             for one in phase.near:
                 body = one.body
                 body.last_x, body.last_y = body.x, body.y
+                body.touches = 0
             self.find_contacts(dt)
 
     def any_moved(self) -> bool:
@@ -205,6 +206,8 @@ class Contacts(Effect):
             touching.append(c)
             if b.inv_mass:
                 balls.append(c)
+                a.touches += 1
+                b.touches += 1
                 if gap < -a.r or gap < -b.r:
                     self.crowd[c] = None
             else:
@@ -250,6 +253,9 @@ class Contacts(Effect):
         self.touching.append(c)
         group = self.balls if c.b.inv_mass else self.statics
         group.contacts = [*group.contacts, c]  # a new list, as its order is new
+        if c.b.inv_mass:
+            c.a.touches += 1
+            c.b.touches += 1
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
         return c
 
@@ -323,7 +329,7 @@ class Contacts(Effect):
         if self.crowd:
             self.gather_crowd()
         self.find_order()
-        is_heavy = is_loaded = False
+        is_heavy = is_deep = is_tall = False
         weight = hypot(*self.world.g) * h  # px/s, of 1 kg in a substep
         tall = TALL * weight or inf
         for c in self.touching:
@@ -332,13 +338,18 @@ class Contacts(Effect):
             c.bx, c.by = nx * b.inv_mass, ny * b.inv_mass
             c.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - c.gap
             is_heavy = is_heavy or c.ratio > HEAVY
-            is_loaded = is_loaded or c.gap < -DEEP * c.reach or c.jn > tall * c.mn
-        self.piles = self.find_piles(is_heavy, is_loaded, weight)
+            if c.jn > tall * c.mn:
+                is_tall = is_tall or (a.touches <= 2 and b.touches <= 2)
+            else:
+                is_deep = is_deep or c.gap < -DEEP * c.reach
+        self.piles = self.find_piles(is_heavy, is_deep)
+        if is_tall:
+            self.piles += find_towers(self.touching, self.piles, weight, self.world.unit)
 
-    def find_piles(self, is_heavy: bool, is_loaded: bool, weight: float) -> list[Pile]:
-        """Return the piles with heavy bodies or other loads; weight as in loads.find_piles.
+    def find_piles(self, is_heavy: bool, is_deep: bool) -> list[Pile]:
+        """Return the piles with heavy loads: is_heavy tells whether any two masses differ much.
 
-        is_heavy tells whether any two masses differ much, is_loaded whether any contact bears much.
+        is_deep tells whether any two balls overlap deep.
         """
         rods = self.world.effects.get("Rods")
         pull = hypot(*self.world.g)
@@ -352,10 +363,10 @@ class Contacts(Effect):
             is_heavy, frames = True, rods.frame_loads()
             for frame, load in frames:
                 loads.update({body: load for rod in frame for body in (rod.end_a, rod.end_b)})
-        links = [rod for frame, _ in frames for rod in frame]
-        if not (is_heavy or is_loaded):
+        if not (is_heavy or is_deep):
             return []
-        return find_piles(self.touching, links, loads, weight, self.world.unit)
+        links = [rod for frame, _ in frames for rod in frame]
+        return find_piles(self.touching, links, loads, self.world.unit)
 
     def find_order(self) -> None:
         """Find the contacts solved in turn, with their order, and those solved at once.

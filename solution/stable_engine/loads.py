@@ -184,20 +184,16 @@ class Pile:
 
 
 def find_piles(
-    contacts: list[Contact],
-    rods: list[Joint],
-    loads: dict[Body, float],
-    weight: float,
-    unit: float,
+    contacts: list[Contact], rods: list[Joint], loads: dict[Body, float], unit: float
 ) -> list[Pile]:
     """Return the piles in which a body, or a frame, is much heavier than a ball at its contact.
 
-    So are towers, and balls thrown at each other, unless they bounce or joints hold them. loads are
-    the masses (kg) that press where they are not the bodies' own, as in frames of rods. weight is
-    that of 1 kg in a substep (px/s), unit that of the world.
+    So are those with balls thrown at each other, unless they bounce or joints hold them. loads are
+    the masses (kg) that press where they are not the bodies' own, as in frames of rods. unit is
+    that of the world.
     """
     ratios = [ratio_of(c, loads) if loads else c.ratio for c in contacts]
-    firsts = find_firsts(contacts, ratios, weight, unit)
+    firsts = find_firsts(contacts, ratios, unit)
     if not firsts:
         return []
     count = len(contacts)
@@ -211,63 +207,65 @@ def find_piles(
     seen: set[int] = set()
     for first, most in firsts:
         if first not in seen:
-            places = sorted(places_from(ends[first], ends, beside, most or MOST_ROWS))
+            places = sorted(places_from(ends[first], ends, beside, most))
             seen.update(places)
-            linked = [ends[place] for place in places]
-            if len(places) > MOST_ROWS:
-                continue
-            if most < MOST_ROWS and any([a.joint_count or b.joint_count for a, b in linked]):
-                continue
-            if not most and is_tower(linked):
-                places = [place for place in places if bears(contacts[place], weight)]
-                most = MOST_ROWS
-            if 1 < len(places) <= most:
+            is_free = not any(
+                [a.joint_count or b.joint_count for a, b in [ends[at] for at in places]]
+            )
+            if 1 < len(places) <= most and (is_free or most == MOST_ROWS):
                 rows = [Load(contacts[at], ratios[at]) for at in places if at < count]
                 piles.append(Pile(rows, [rods[at - count] for at in places if at >= count], unit))
     return piles
 
 
-def bears(c: Contact, weight: float) -> bool:
-    """Return whether a contact bears any weight worth mentioning; weight as in find_piles."""
-    return c.jn > BEARING * weight * c.mn
-
-
-def is_tower(ends: list[tuple[Body, Body]]) -> bool:
-    """Return whether balls connected by these pairs have no way round, as in a tower."""
-    balls = {body for both in ends for body in both if body.inv_mass}
-    return sum([1 for a, b in ends if a.inv_mass and b.inv_mass]) < len(balls)
-
-
-def find_firsts(
-    contacts: list[Contact], ratios: list[float], weight: float, unit: float
-) -> list[tuple[int, int]]:
-    """Return the places of contacts that make a pile, each with the most rows it may have.
-
-    That is 0 for towers, as only they may have one. There the load replaces the ratio.
-    """
+def find_firsts(contacts: list[Contact], ratios: list[float], unit: float) -> list[tuple[int, int]]:
+    """Return the places of contacts that make a pile, each with the most rows it may have."""
     heavy: list[tuple[int, int]] = []
     deep: list[tuple[int, int]] = []
-    tall: list[int] = []
     for place, (c, ratio) in enumerate(zip(contacts, ratios, strict=True)):
         if ratio > HEAVY and (not c.e or abs(c.closing_speed()) < RESTING * unit):
             heavy.append((place, MOST_ROWS))
-        elif weight and c.jn > TALL * weight * c.mn:
-            tall.append(place)
         elif c.gap < -DEEP * c.reach and c.b.inv_mass and not c.e:
             deep.append((place, FEW_ROWS))
-    towers: list[tuple[int, int]] = []
-    if tall:
-        counts: dict[Body, int] = {}  # of the balls that a ball touches: 1 or 2 in a tower
-        for c in contacts:
-            if c.b.inv_mass:
-                counts[c.a] = counts.get(c.a, 0) + 1
-                counts[c.b] = counts.get(c.b, 0) + 1
-        for place in tall:
-            c = contacts[place]
-            if counts.get(c.a, 0) <= 2 and counts.get(c.b, 0) <= 2:
-                towers.append((place, 0))
-                ratios[place] = c.jn / (weight * c.mn)
-    return heavy + deep + towers
+    return heavy + deep
+
+
+def find_towers(
+    contacts: list[Contact], piles: list[Pile], weight: float, unit: float
+) -> list[Pile]:
+    """Return the piles of balls in a row that bear much, besides these other piles.
+
+    There each ball touches at most two others, and the row has no way round. weight is that of 1 kg
+    in a substep (px/s).
+    """
+    beside: dict[Body, list[Contact]] = {}
+    for c in contacts:
+        if c.a.touches <= 2 and c.b.touches <= 2:
+            for body in (c.a, c.b):
+                if body.inv_mass:
+                    beside.setdefault(body, []).append(c)
+    towers: list[Pile] = []
+    seen = {body for pile in piles for body in pile.bodies}
+    for first, near in beside.items():
+        if first not in seen and any([c.jn > TALL * weight * c.mn for c in near]):
+            balls, ahead, rows = {first}, [first], dict[Contact, None]()
+            while ahead:
+                for c in beside[ahead.pop()]:
+                    rows[c] = None
+                    new = [b for b in (c.a, c.b) if b.inv_mass and b not in balls]
+                    balls.update(new)
+                    ahead += new
+            seen |= balls
+            links = 2 * len([c for c in rows if c.b.inv_mass])
+            is_row = links == sum([b.touches for b in balls]) and links < 2 * len(balls)
+            if is_row and len(balls) <= MOST_ROWS and not any([b.joint_count for b in balls]):
+                loads = [
+                    Load(c, max(c.jn / (weight * c.mn), c.ratio))
+                    for c in rows
+                    if c.jn > BEARING * weight * c.mn
+                ]
+                towers.append(Pile(loads, [], unit))
+    return towers
 
 
 def ratio_of(c: Contact, loads: dict[Body, float]) -> float:
