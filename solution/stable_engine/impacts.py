@@ -463,7 +463,7 @@ class Impacts:
                 if due[entry[2]].speed < hardest:
                     heappush(queue, entry)
         for c in group:
-            self.contacts.crowd.pop(c, None)
+            self.contacts.crowd.pop(c, None)  # they overlapped because they met
             del due[c]
             self.counts[c] = self.counts.get(c, 0) + 1
         return group, -earliest

@@ -330,11 +330,11 @@ def unload(
         c.jt *= left
 
 
-def in_touch(bodies: list[Body], beside: dict[Body, list[Contact]]) -> set[Body]:
+def in_touch(bodies: list[Body], beside: dict[Body, list[Contact]]) -> list[Body]:
     """Return these bodies and the balls that touch them, directly or through other balls."""
-    found, ahead = set(bodies), bodies
+    found, ahead = dict.fromkeys(bodies), bodies
     while ahead:
         near = [b for c in beside.get(ahead.pop(), []) for b in (c.a, c.b) if not b.is_static]
         ahead += [b for b in dict.fromkeys(near) if b not in found]
-        found.update(near)
-    return found
+        found.update(dict.fromkeys(near))
+    return list(found)
