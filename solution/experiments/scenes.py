@@ -20,12 +20,6 @@ EFFECTS = ("Contacts", "Friction", "Bounce", "Rods", "Springs", "Damping", "Bull
 NEED_CONTACTS = ("Friction", "Bounce", "Bullets")
 
 
-def all_but(effect):
-    """Return the names of all effects except one and those that need it."""
-    left_out = (effect, *NEED_CONTACTS) if effect == "Contacts" else (effect,)
-    return tuple(name for name in EFFECTS if name not in left_out)
-
-
 @dataclass
 class Ball:
     """A disc. Mass 0 makes it static."""

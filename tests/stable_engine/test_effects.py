@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from samples import sample
 from worlds_for_tests import (
+    all_but,
     build,
     build_playground,
     flying,
@@ -19,7 +20,7 @@ from worlds_for_tests import (
 import stable_engine
 from experiments.measures import run, watch
 from experiments.opcodes import count_opcodes, files_run
-from experiments.scenes import DT, EFFECTS, NEED_CONTACTS, Ball, Scene, Spring, all_but
+from experiments.scenes import DT, EFFECTS, NEED_CONTACTS, Ball, Scene, Spring
 from stable_engine import Body, Circle, Contacts, Rod, World
 
 HERE = Path(__file__).parent

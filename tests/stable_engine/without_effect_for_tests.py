@@ -21,11 +21,11 @@ def main(effect, *unavailable):
     if unavailable:
         module = f"stable_engine.{effect.lower()}"
         sys.modules[module] = Unavailable(module)
-    from worlds_for_tests import build_playground
+    from worlds_for_tests import all_but, build_playground
 
     from experiments.measures import run
     from experiments.opcodes import count_opcodes
-    from experiments.scenes import DT, all_but
+    from experiments.scenes import DT
 
     world = build_playground(all_but(effect))
     run(world, 0.3)

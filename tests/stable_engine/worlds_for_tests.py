@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import stable_engine
 from experiments.engines import Stable
-from experiments.scenes import Ball, Scene, Spring, floor
+from experiments.scenes import EFFECTS, NEED_CONTACTS, Ball, Scene, Spring, floor
 
 
 def build(scene, *effects, substeps=4):
@@ -13,6 +13,12 @@ def build(scene, *effects, substeps=4):
     world.bodies has the scene's order.
     """
     return Stable(replace(scene, effects=effects or scene.effects), substeps).world
+
+
+def all_but(effect):
+    """Return the names of all effects except one and those that need it."""
+    left_out = (effect, *NEED_CONTACTS) if effect == "Contacts" else (effect,)
+    return tuple(name for name in EFFECTS if name not in left_out)
 
 
 def make(names):

@@ -33,6 +33,20 @@ def duel(fast, mass=1.0):
     return Scene([first, second], SMOOTH_BULLETS, gravity=(0, 0))
 
 
+def thrown_at_others(fast):
+    """Make balls that are thrown at balls at rest, from different places; nothing bounces."""
+    thrown = [Ball((-100 - 0.56 * i * fast / 1000, 40 * i), vel=(fast, 0)) for i in range(COUNT)]
+    return Scene(
+        [*thrown, *(Ball((0, 40 * i)) for i in range(COUNT))], ("Contacts",), gravity=(0, 0)
+    )
+
+
+def pass_each_other(trial, scene, seconds):
+    """Count the thrown balls that are beyond the balls they were thrown at."""
+    engine = run_for(trial, scene, seconds)
+    return sum(engine.read(i).x > engine.read(i + COUNT).x for i in range(COUNT))
+
+
 # fmt: off
 def make_rows():
     solid, passed = "Bodies are solid at any speed.", partial(get_through, axis="y", seconds=0.4)
@@ -65,6 +79,9 @@ def make_rows():
         yield Row(f"bullets: to and fro at {fast:,.0f} px/s", "With e = 1 it stays in and as fast.",
                   partial(between_walls, fast, 5, SMOOTH_BULLETS),
                   partial(keeps_flying, seconds=1), law(fast))
+    for fast in (3000.0, 6000.0):
+        yield Row(f"fast balls: 20 thrown at 20 others at {fast:,.0f} px/s, no bounce", solid,
+                  partial(thrown_at_others, fast), partial(pass_each_other, seconds=0.4), never())
     for mass, speed in ((100.0, 600.0), (1000.0, 600.0), (1000.0, 1000.0)):
         yield Row(f"ram: {mass:g} kg on a rod behind 1 kg, {speed:g} px/s, wall of 20 px", solid,
                   partial(rammer, mass, speed), partial(get_through, axis="x", seconds=0.5),

@@ -1,9 +1,6 @@
 """Reasons for the rows that the stable engine loses, by how their titles begin."""
 
-ROLLS = "A last ball still rolls: nothing brakes rolling, so chance decides when it stops."
-REASONS = {
-    "rained pile: 100 balls, late speed": ROLLS,
-}
+REASONS = {"fast balls: 20 thrown at 20": "Without Bounce, balls do not meet on their way."}
 
 
 def find_reason(title):
