@@ -1,6 +1,10 @@
 """Reasons for the rows that the stable engine loses, by how their titles begin."""
 
-REASONS = {"fast balls: 20 thrown at 20": "Without Bounce, balls do not meet on their way."}
+REASONS = {
+    "fast balls: 20 thrown at 20": "Without Bounce, balls do not meet on their way.",
+    "rained pile: 100 balls, late speed": "A last ball still rolls: nothing brakes rolling, so "
+    "chance decides when it stops.",
+}
 
 
 def find_reason(title):

@@ -9,17 +9,7 @@ from ..measures import energy, states, stretches, watch, worst_stretch
 from ..reference import reference
 from ..scenes import DT, Ball, G, Scene, Spring, chain, oscillator, pendulum, pendulum_period
 from .hits import moment_lost
-from .row import (
-    Bound,
-    Row,
-    clock,
-    late,
-    law,
-    run_for,
-    seen,
-    share_off,
-    velocity_off_after,
-)
+from .row import Bound, Row, clock, late, law, run_for, seen, share_off, velocity_off_after
 from .row import energy as energy_bound
 
 RODS = ("Rods",)
