@@ -23,6 +23,7 @@ TURNS = 16  # of choosing which contacts press
 PUSHED = 0.1  # share by which a contact gives way, per ratio: many firm ones have no solution
 FRAMED = 1.0  # the same where frames of rods press
 SOFTEST = 1e-2  # the most of both
+HARDEST = 1e-6  # the most in a tower, where firm ones do have a solution
 RELAXED = 1e-3  # of that share, what is left after the move
 FIRM = 1 + 1e-9  # times the pivot of a rod, for the same reason
 LEVEL = 1e-6  # a sine; contacts that rise by less do not bear what is above
@@ -85,7 +86,7 @@ class Pile:
 
     __slots__ = ("bodies", "calm", "is_wild", "kept", "loads", "network", "rods", "rows")
 
-    def __init__(self, loads: list[Load], rods: list[Joint], unit: float) -> None:
+    def __init__(self, loads: list[Load], rods: list[Joint], unit: float, softest: float) -> None:
         self.loads = loads
         self.rods = rods
         self.rows: list[Joint] = [*loads, *rods]
@@ -93,7 +94,7 @@ class Pile:
         masses = [body.m for body in self.bodies if body.m]
         ratio = max(max(masses) / min(masses), *[load.ratio for load in self.loads])
         for load in self.loads:
-            load.give = min((FRAMED if self.rods else PUSHED) / ratio, SOFTEST)
+            load.give = min((FRAMED if self.rods else PUSHED) / ratio, softest)
         self.calm = CALM * unit / min(ratio, STEEPEST) ** 2  # px/s
         self.kept = [0.0] * len(self.rods)  # px/s
         self.is_wild = False  # whether its balls move far in this substep
@@ -214,7 +215,8 @@ def find_piles(
             )
             if 1 < len(places) <= most and (is_free or most == MOST_ROWS):
                 rows = [Load(contacts[at], ratios[at]) for at in places if at < count]
-                piles.append(Pile(rows, [rods[at - count] for at in places if at >= count], unit))
+                held = [rods[at - count] for at in places if at >= count]
+                piles.append(Pile(rows, held, unit, SOFTEST))
     return piles
 
 
@@ -264,7 +266,7 @@ def find_towers(
                     for c in rows
                     if c.jn > BEARING * weight * c.mn
                 ]
-                towers.append(Pile(loads, [], unit))
+                towers.append(Pile(loads, [], unit, HARDEST))
     return towers
 
 
