@@ -8,7 +8,7 @@ from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, the_way_it_came
 from .effect import Direction, Effect, WorldState
 from .joint import Joints
-from .loads import DEEP, HEAVY, TALL, Pile, Stage, find_piles, find_towers, take_off
+from .loads import DEEP, HEAVY, SUNK, TALL, Pile, Stage, find_piles, find_towers, take_off
 from .order import Group, give_places, in_same_place, put_in_order
 from .soft import SAME_DIRECTION, Pace, softness
 from .springs import Springs
@@ -331,7 +331,10 @@ class Contacts(Effect):
         self.find_order()
         is_heavy = is_deep = is_tall = False
         weight = hypot(*self.world.g) * h  # px/s, of 1 kg in a substep
-        tall = TALL * weight or inf
+        tall = inf  # px/s, by mass; a contact that bears more is left to towers
+        if weight and self.balls.contacts:
+            sinks = (1 - self.balls.mass_scale) / self.balls.bias_rate  # px by px/s, if it is not
+            tall = max(TALL * weight, SUNK * self.world.unit / sinks)
         for c in self.touching:
             a, b, nx, ny = c.a, c.b, c.nx, c.ny
             c.ax, c.ay = nx * a.inv_mass, ny * a.inv_mass
@@ -344,7 +347,7 @@ class Contacts(Effect):
                 is_deep = is_deep or c.gap < -DEEP * c.reach
         self.piles = self.find_piles(is_heavy, is_deep)
         if is_tall:
-            self.piles += find_towers(self.touching, self.piles, weight, self.world.unit)
+            self.piles += find_towers(self.touching, self.piles, tall, weight, self.world.unit)
 
     def find_piles(self, is_heavy: bool, is_deep: bool) -> list[Pile]:
         """Return the piles with heavy loads: is_heavy tells whether any two masses differ much.

@@ -11,6 +11,7 @@ from .network import Network
 HEAVY = 2.5  # times the lightest ball at a contact
 TALL = 13.3  # weights of its effective mass; a contact that bears more carries a tower. Not whole,
 # so that rounding does not decide between towers of equal balls
+SUNK = 0.01  # in units of the world; a contact that gives way by less sinks too little to be seen
 BEARING = 0.05  # weights of its effective mass; a contact with less bears nothing
 DEEP = 0.05  # of both radii; balls that overlap by more were thrown at each other
 RESTING = 30.0  # 1/s, in units of the world; a ball that bounces faster is left to impacts
@@ -233,12 +234,12 @@ def find_firsts(contacts: list[Contact], ratios: list[float], unit: float) -> li
 
 
 def find_towers(
-    contacts: list[Contact], piles: list[Pile], weight: float, unit: float
+    contacts: list[Contact], piles: list[Pile], tall: float, weight: float, unit: float
 ) -> list[Pile]:
     """Return the piles of balls in a row that bear much, besides these other piles.
 
-    There each ball touches at most two others, and the row has no way round. weight is that of 1 kg
-    in a substep (px/s).
+    There each ball touches at most two others, and the row has no way round. A contact bears much
+    if its impulse is more than `tall` (px/s) times its mass. weight is that of 1 kg in a substep.
     """
     beside: dict[Body, list[Contact]] = {}
     for c in contacts:
@@ -249,7 +250,7 @@ def find_towers(
     towers: list[Pile] = []
     seen = {body for pile in piles for body in pile.bodies}
     for first, near in beside.items():
-        if first not in seen and any([c.jn > TALL * weight * c.mn for c in near]):
+        if first not in seen and any([c.jn > tall * c.mn for c in near]):
             balls, ahead, rows = {first}, [first], dict[Contact, None]()
             while ahead:
                 for c in beside[ahead.pop()]:
