@@ -8,7 +8,7 @@ from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, the_way_it_came
 from .effect import Direction, Effect, WorldState
 from .joint import Joints
-from .loads import DEEP, HEAVY, SUNK, TALL, Pile, Stage, find_piles, find_towers, take_off
+from .loads import DEEP, HEAVY, LEANING, SUNK, TALL, Pile, Stage, find_piles, find_towers, take_off
 from .order import Group, give_places, in_same_place, put_in_order
 from .soft import SAME_DIRECTION, Pace, softness
 from .springs import Springs
@@ -330,7 +330,8 @@ class Contacts(Effect):
             self.gather_crowd()
         self.find_order()
         is_heavy = is_deep = is_tall = False
-        weight = hypot(*self.world.g) * h  # px/s, of 1 kg in a substep
+        gx, gy = self.world.g
+        weight = hypot(gx, gy) * h  # px/s, of 1 kg in a substep
         tall = inf  # px/s, by mass; a contact that bears more is left to towers
         if weight and self.balls.contacts:
             sinks = (1 - self.balls.mass_scale) / self.balls.bias_rate  # px by px/s, if it is not
@@ -342,7 +343,8 @@ class Contacts(Effect):
             c.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - c.gap
             is_heavy = is_heavy or c.ratio > HEAVY
             if c.jn > tall * c.mn:
-                is_tall = is_tall or (a.touches <= 2 and b.touches <= 2)
+                is_upright = abs(nx * gy - ny * gx) * h < LEANING * weight
+                is_tall = is_tall or (is_upright and a.touches <= 2 and b.touches <= 2)
             else:
                 is_deep = is_deep or c.gap < -DEEP * c.reach
         self.piles = self.find_piles(is_heavy, is_deep)

@@ -11,6 +11,7 @@ from .network import Network
 HEAVY = 2.5  # times the lightest ball at a contact
 TALL = 13.3  # weights of its effective mass; a contact that bears more carries a tower. Not whole,
 # so that rounding does not decide between towers of equal balls
+LEANING = 0.1  # a sine; a tower leans less
 SUNK = 0.01  # in units of the world; a contact that gives way by less sinks too little to be seen
 BEARING = 0.05  # weights of its effective mass; a contact with less bears nothing
 DEEP = 0.05  # of both radii; balls that overlap by more were thrown at each other
