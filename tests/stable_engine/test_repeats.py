@@ -64,11 +64,11 @@ def heap(seed, side=1, far=()):
     return [place for ball in fallen for place in (side * ball.x, ball.y)]
 
 
-@pytest.mark.parametrize("seed", sample(range(20), 5))
+@pytest.mark.parametrize("seed", sample(range(20), 10))
 def test_a_mirrored_copy_of_a_heap_moves_alike(seed):
     assert heap(seed, -1) == pytest.approx(heap(seed), abs=LOST_DIGITS)
 
 
-@pytest.mark.parametrize("seed", sample(range(20), 5))
+@pytest.mark.parametrize("seed", sample(range(20), 10))
 def test_a_ball_far_off_changes_nothing(seed):
     assert heap(seed, far=[(5000, -40)]) == pytest.approx(heap(seed), abs=LOST_DIGITS)
