@@ -8,7 +8,19 @@ from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, the_way_it_came
 from .effect import Direction, Effect, WorldState
 from .joint import Joints
-from .loads import DEEP, HEAVY, LEANING, SUNK, TALL, Pile, Stage, find_piles, find_towers, take_off
+from .loads import (
+    BEARING,
+    DEEP,
+    HEAVY,
+    LEANING,
+    SUNK,
+    TALL,
+    Pile,
+    Stage,
+    find_piles,
+    find_towers,
+    take_off,
+)
 from .order import Group, give_places, in_same_place, put_in_order
 from .soft import SAME_DIRECTION, Pace, softness
 from .springs import Springs
@@ -30,7 +42,6 @@ CROWDED = 0.1  # radii, by which balls that bear a load overlap in a crowd
 PARTED = 0.3  # share of an overlap that a step takes from balls in a crowd
 TOUCHING = 1e-6  # a gap that counts as touching: rounding
 MOST_BODIES = 2**29  # and no id is larger
-BEARING = 0.05  # of a weight; a smaller push does not hold a ball
 REDETECT_DISTANCE = 1e-4  # contacts stay valid until a body moves further
 
 OnHit = Callable[[Body, Body, float], object]
@@ -684,9 +695,8 @@ class Contacts(Effect):
     def body_moved(self, body: Body) -> None:
         """Look for near pairs anew. Nobody flew to where a program has put the body."""
         self.flown.pop(body, None)
-        if not body.is_static and all(
-            [collide(c.a, c.b)[2] > self.touching_gap for c in self.of_body(body)]
-        ):
+        gaps = [] if body.is_static else [collide(c.a, c.b)[2] for c in self.of_body(body)]
+        if gaps and min(gaps) > self.touching_gap:
             self.world.relieve({body: inf})
         self.broad_phase.bounds = []
 

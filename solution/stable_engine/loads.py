@@ -212,10 +212,10 @@ def find_piles(
         if first not in seen:
             places = sorted(places_from(ends[first], ends, beside, most))
             seen.update(places)
-            is_free = not any(
-                [a.joint_count or b.joint_count for a, b in [ends[at] for at in places]]
-            )
-            if 1 < len(places) <= most and (is_free or most == MOST_ROWS):
+            if not 1 < len(places) <= most:
+                continue
+            bodies = [body for at in places for body in ends[at]]
+            if most == MOST_ROWS or not any([body.joint_count for body in bodies]):
                 rows = [Load(contacts[at], ratios[at]) for at in places if at < count]
                 held = [rods[at - count] for at in places if at >= count]
                 piles.append(Pile(rows, held, unit, SOFTEST))
@@ -252,14 +252,9 @@ def find_towers(
     seen = {body for pile in piles for body in pile.bodies}
     for first, near in beside.items():
         if first not in seen and any([c.jn > tall * c.mn for c in near]):
-            balls, ahead, rows = {first}, [first], dict[Contact, None]()
-            while ahead:
-                for c in beside[ahead.pop()]:
-                    rows[c] = None
-                    new = [b for b in (c.a, c.b) if b.inv_mass and b not in balls]
-                    balls.update(new)
-                    ahead += new
-            seen |= balls
+            balls = in_touch([first], beside)
+            rows = dict.fromkeys([c for ball in balls for c in beside[ball]])
+            seen.update(balls)
             links = 2 * len([c for c in rows if c.b.inv_mass])
             is_row = links == sum([b.touches for b in balls]) and links < 2 * len(balls)
             if is_row and len(balls) <= MOST_ROWS and not any([b.joint_count for b in balls]):
@@ -336,7 +331,7 @@ def unload(
 
 def in_touch(bodies: list[Body], beside: dict[Body, list[Contact]]) -> list[Body]:
     """Return these bodies and the balls that touch them, directly or through other balls."""
-    found, ahead = dict.fromkeys(bodies), bodies
+    found, ahead = dict.fromkeys(bodies), [*bodies]
     while ahead:
         near = [b for c in beside.get(ahead.pop(), []) for b in (c.a, c.b) if not b.is_static]
         ahead += [b for b in dict.fromkeys(near) if b not in found]

@@ -141,8 +141,7 @@ def put_in_order(group: Group, grain: float, is_mirrored: bool) -> bool:
 def find_ties(group: Group, grain: float) -> None:
     """Find the contacts of a group that have the same place."""
     group.in_turn = []
-    for _, equals in groupby(group.sorted, key=PLACE):
-        same = list(equals)
+    for same in in_same_place(group.sorted):
         group.is_mirrored = group.is_mirrored or len(same) > 1
         if len(same) > 1 and share_of_each(same) < 1:
             group.ties.append(Tie(same, grain))

@@ -19,7 +19,7 @@ from experiments.engines.contestants import Contestant, list_contestants
 from experiments.leaderboard import ask, ask_at_equal_time, count_held, holds, report
 from experiments.measures import GaveUp
 from experiments.reference import reference
-from experiments.rows import make_rows
+from experiments.rows import list_rows, make_rows
 from experiments.rows.frames import changed, times
 from experiments.rows.reasons import REASONS, find_reason
 from experiments.rows.row import Bound, Row
@@ -27,7 +27,7 @@ from experiments.rows.ties import double
 from experiments.scenes import DT, G
 from experiments.table import BEGIN, END
 
-ROWS = [row for some in make_rows().values() for row in some]
+ROWS = list_rows()
 PAGE = (KIT / "handouts/hard-cases.md").read_text(encoding="utf-8")
 RESULTS = json.loads((KIT / "handouts/results.json").read_text(encoding="utf-8"))
 
@@ -280,10 +280,10 @@ UNFINISHED = """
 from functools import partial
 from experiments import leaderboard
 from experiments.engines.contestants import list_contestants
-from experiments.rows import make_rows
+from experiments.rows import list_rows
 lesson = list_contestants()[0][0]
 leaderboard.PATIENCE = 0.5
-for row in [row for some in make_rows().values() for row in some]:
+for row in list_rows():
     if row.quick and "Springs" not in row.make().effects:
         leaderboard.ask(row, lesson, 1)
 print("done")

@@ -22,3 +22,7 @@ def make_rows():
     rows = {subject: list(make()) for subject, make in SUBJECTS.items()}
     every = [row for some in rows.values() for row in some]
     return rows | {"other units, turned": list(frames.make_rows(every))}
+
+
+def list_rows():
+    return [row for some in make_rows().values() for row in some]
