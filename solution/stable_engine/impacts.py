@@ -233,6 +233,7 @@ class Impacts:
         if self.frame_of:
             frames = dict.fromkeys([self.frame_of[body] for body in moved if body in self.frame_of])
             moved = list(dict.fromkeys([*moved, *[b for frame in frames for b in frame.balls]]))
+        stopped: list[Body] = []
         for body in moved:
             x, y, core = body.last_x, body.last_y, body.r if body.is_bullet else CORE * body.r
             dx, dy = body.x - x, body.y - y
@@ -245,7 +246,9 @@ class Impacts:
                     for c in self.beside.get(body, []):
                         c.nx, c.ny, c.gap = collide(c.a, c.b)
                         c.found = c.gap
+                    stopped.append(body)
                 body.last_x, body.last_y = body.x, body.y
+        self.follow(stopped)
 
     def is_alone(self, c: Contact) -> bool:
         """Return whether an impact affects no other contact."""
@@ -376,9 +379,13 @@ class Impacts:
         for body in bodies:
             body.is_thrown = False
 
-    def follow(self, bodies: list[Body]) -> None:
-        """Find the near pairs of bodies that impacts have thrown out of their rooms."""
-        found = self.contacts.broad_phase.follow(bodies, self.dt, self.reach)
+    def follow(self, moved: list[Body]) -> None:
+        """Find the near pairs of bodies that impacts have moved, if out of their rooms."""
+        rooms = self.contacts.broad_phase.rooms
+        thrown = [body for body in moved if not rooms[body].holds()]
+        if not thrown:
+            return
+        found = self.contacts.broad_phase.follow(thrown, self.dt, self.reach)
         self.contacts.take_in(found)
         for pair in found:
             for body in (pair.a, pair.b):
@@ -388,10 +395,7 @@ class Impacts:
     def meet_others(self, hit: list[Body]) -> None:
         """Find impacts of balls that were hit with bodies which they did not touch before."""
         met: list[Contact] = []
-        rooms = self.contacts.broad_phase.rooms
-        thrown = [body for body in hit if not rooms[body].holds()]
-        if thrown:
-            self.follow(thrown)
+        self.follow(hit)
         for body in hit:
             x, y, far = body.x - body.last_x, body.y - body.last_y, MOVED * body.r
             if x * x + y * y > far * far:
