@@ -83,7 +83,7 @@ class Body:
         *("e", "mu", "restitution_given", "friction_given"),
         *("x", "y", "vx", "vy", "turn", "w", "last_x", "last_y"),
         *("id", "world", "is_bullet", "is_kinematic", "idle", "sleeps", "island", "joint_count"),
-        *("still", "calm", "kept", "place", "is_thrown", "touches"),
+        *("still", "calm", "kept", "place", "is_marked", "touches"),
         *("lag_x", "lag_y", "is_pressed", "is_fresh"),
     )
 
@@ -137,7 +137,7 @@ class Body:
         self.is_kinematic = kinematic
         self.sleeps = False
         self.still = 0.0  # s, how long it has been slow and steady enough to sleep
-        self.is_thrown = False  # a mark while Impacts.find_near runs
+        self.is_marked = False  # while BroadPhase.pairs_of runs
         self.touches = 0  # the contacts of a ball with other balls
         self.calm = 0.0, 0.0, 0.0  # px/s: vx, vy and the speed of its rim when that began
         self.kept = 0.0  # s, how long it has stayed where it is

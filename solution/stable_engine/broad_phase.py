@@ -16,6 +16,7 @@ LANE = 6.0  # width of a lane, in half widths of a ball
 FEW = 4  # boxes in a lane; up to so many, ended ones may stay
 ROUNDING = 1e-3  # steps
 MANY = 30  # bodies that leave their rooms at once: a sweep costs less than a search for each
+SHARE = 0.25  # of the bodies that can move, if these are more
 
 
 class Pair:
@@ -33,12 +34,12 @@ class Bounds:
     """The room in which a body's centre may move, and the box that holds the body meanwhile.
 
     The box goes from low to high along the axis of the sweep, from side_low to side_high across.
-    The sweep finds the first lane of the box.
+    The sweep finds the rank of the box in its order. The box crosses some lanes, first to last.
     """
 
     __slots__ = (
         *("body", "place", "near", "margin", "left", "right", "top", "bottom"),
-        *("vx", "vy", "high", "low", "side_high", "side_low", "first_lane"),
+        *("vx", "vy", "high", "low", "side_high", "side_low", "first_lane", "last_lane", "rank"),
     )
 
     def __init__(self, body: Body, place: int) -> None:
@@ -50,7 +51,7 @@ class Bounds:
         self.top = self.bottom = body.y  # px
         self.vx, self.vy = body.vx, body.vy  # px/s, when the room was made
         self.low = self.high = self.side_low = self.side_high = 0.0  # px
-        self.first_lane = 0
+        self.first_lane = self.last_lane = self.rank = 0
 
     def holds(self) -> bool:
         """Return whether the body is still in its room."""
@@ -94,6 +95,7 @@ class Bounds:
 
 
 LOW = attrgetter("low")
+RANK = attrgetter("rank")
 
 
 class BroadPhase:
@@ -109,6 +111,7 @@ class BroadPhase:
     only be near boxes that began before and have not ended. Lanes along the sweep leave few of
     these to compare. A lane is at least as wide as the mean box, or long boxes would cross many.
     Boxes that have ended are dropped now and then, which costs less than dropping each at once.
+    Until the next sweep, a new box is compared with all boxes of the lanes that it crosses.
     """
 
     def __init__(self) -> None:
@@ -122,6 +125,10 @@ class BroadPhase:
         self.near: list[Bounds] = []  # of bodies that can move and have others near
         self.far: list[Bounds] = []  # of the others that can move
         self.leavers: list[Bounds] = []  # of bodies that have left their rooms
+        self.is_parted = False  # whether these two lists are up to date
+        self.lanes: list[list[Bounds]] = []  # the boxes that cross each since the last sweep
+        self.lanes_per_px = 0.0
+        self.hull = 0.0, 0.0, 0.0, 0.0  # px, what the sweep has covered, along it and across
         self.is_quiet = False  # whether no near pair will touch unless a velocity changes
         self.is_sorted = False
         self.is_stale = True  # whether all rooms are renewed in the next step
@@ -144,13 +151,15 @@ class BroadPhase:
     def find_leavers(self, dt: float) -> list[Bounds]:
         """Return the bounds of the bodies that have left their rooms in a step of dt seconds."""
         self.age += dt
+        self.part_near()
         late = self.age > self.end
         doubtful = self.moving if late or self.falls else self.near + self.find_pushed()
         self.leavers = leavers = []
         for one in doubtful:
             if not one.holds():
                 leavers.append(one)
-        if (leavers and (late or len(leavers) > MANY)) or (doubtful and self.is_quiet):
+        many = max(MANY, SHARE * len(self.moving))
+        if (leavers and (late or len(leavers) > many)) or (doubtful and self.is_quiet):
             self.is_stale = True
         return leavers
 
@@ -188,11 +197,8 @@ class BroadPhase:
                 self.skip_pairs(ahead + 2 * dt, margin)
         else:
             self.search(margin)
-        found = self.pairs[count:]
-        if found or self.is_stale:
-            self.part_near()
         self.leavers, self.is_stale = [], False
-        return found
+        return self.pairs[count:]
 
     def follow(self, bodies: list[Body], dt: float, margin: float) -> list[Pair]:
         """Make room for bodies that were thrown out of theirs. Return the new near pairs."""
@@ -202,13 +208,13 @@ class BroadPhase:
             one.make_room(0.0, max(self.ahead - self.age, dt))
         self.search(margin)
         self.leavers = []
-        found = self.pairs[count:]
-        if found:
-            self.part_near()
-        return found
+        return self.pairs[count:]
 
     def part_near(self) -> None:
         """List the bodies that can move: those with others near, and the rest."""
+        if self.is_parted:
+            return
+        self.is_parted = True
         self.near = [one for one in self.moving if one.near]
         self.far = [one for one in self.moving if not one.near]
 
@@ -236,6 +242,7 @@ class BroadPhase:
             if hit_point(reach, x, y, dx, dy) < NO_HIT:
                 return
         self.is_quiet = True
+        self.is_parted = False
         for one in self.moving:
             one.near = False
 
@@ -253,19 +260,58 @@ class BroadPhase:
         """Add the pairs of leavers that are newly near. Those no longer near stay on the list."""
         for one in self.leavers:
             one.update_box(self.upright, margin)
+            before, last_before = one.first_lane, one.last_lane
+            self.find_lanes(one)
+            for index in range(one.first_lane, one.last_lane + 1):
+                if not before <= index <= last_before:
+                    self.lanes[index].append(one)
+        near, count = self.pairs_of([one.body for one in self.leavers]), len(self.pairs)
         for one in self.leavers:
-            a, pairs = one.body, self.pairs
-            known = [p.b if p.a is a else p.a for p in pairs if p.a is a or p.b is a]
-            low, high, side_low, side_high = one.low, one.high, one.side_low, one.side_high
-            for other in self.bounds:
+            a = one.body
+            pairs = near[a] + self.pairs[count:]
+            known = [a] + [p.b if p.a is a else p.a for p in pairs if p.a is a or p.b is a]
+            for other in self.find_near(one):
+                if other.body not in known:
+                    known.append(other.body)
+                    self.pair_up(one, other)
+
+    def find_near(self, one: Bounds) -> list[Bounds]:
+        """Return the boxes that overlap this one, in the order of the last sweep.
+
+        A box may be listed twice.
+        """
+        low, high, side_low, side_high = one.low, one.high, one.side_low, one.side_high
+        left, right, top, bottom = self.hull
+        lanes = self.lanes[one.first_lane : one.last_lane + 1]
+        if low < left or high > right or side_low < top or side_high > bottom:
+            lanes = [self.bounds]
+        found: list[Bounds] = []
+        for lane in lanes:
+            for other in lane:
                 if (
                     other.low < high
                     and other.high > low
                     and other.side_low < side_high
                     and other.side_high > side_low
-                    and not (other is one or other.body in known)
                 ):
-                    self.pair_up(one, other)
+                    found.append(other)
+        found.sort(key=RANK)
+        return found
+
+    def pairs_of(self, bodies: list[Body]) -> dict[Body, list[Pair]]:
+        """Return the near pairs of each of these bodies."""
+        found: dict[Body, list[Pair]] = {}
+        for body in bodies:
+            found[body] = []
+            body.is_marked = True
+        for pair in self.pairs:
+            if pair.a.is_marked:
+                found[pair.a].append(pair)
+            if pair.b.is_marked:
+                found[pair.b].append(pair)
+        for body in bodies:
+            body.is_marked = False
+        return found
 
     def pair_up(self, one: Bounds, other: Bounds) -> None:
         """Add two bodies to the near pairs, if at least one can move."""
@@ -277,13 +323,16 @@ class BroadPhase:
         pair = self.spare.pop() if self.spare else Pair(a, b)
         pair.a, pair.b, pair.contact = a, b, None
         self.pairs.append(pair)
-        one.near = other.near = True
+        if not (one.near and other.near):
+            one.near = other.near = True
+            self.is_parted = False
 
     def sweep(self, margin: float) -> None:
         """Add all pairs of boxes within margin px, if at least one can move."""
         left, right, top, bottom = self.find_hull(self.widest + margin)
         taller = (bottom - top) / (right - left)
         upright = taller > (1 / WIDER if self.upright else WIDER)
+        self.is_parted = False
         for one in self.bounds:
             one.near = False
             one.update_box(upright, margin)
@@ -294,22 +343,23 @@ class BroadPhase:
         self.sort(upright)
         if upright:
             left, right, top, bottom = top, bottom, left, right
+        self.hull = left, right, top, bottom
         count = min(int((bottom - top) / lane), int(sqrt(len(self.bounds)))) + 1
+        self.lanes_per_px = count / (bottom - top)
         lanes: list[list[Bounds]] = [[] for _ in range(count + 1)]
-        per_px = count / (bottom - top)
-        for one in self.bounds:
+        begun: list[list[Bounds]] = [[] for _ in lanes]  # the boxes in each that have not ended
+        self.lanes = lanes
+        for rank, one in enumerate(self.bounds):
+            one.rank = rank
             low, side_low, side_high = one.low, one.side_low, one.side_high
-            if low >= right:
-                break
-            if one.high <= left or side_low >= bottom or side_high <= top:
+            if low >= right or one.high <= left or side_low >= bottom or side_high <= top:
                 continue  # far from all bodies that can move
-            first = int((side_low - top) * per_px) if side_low > top else 0
-            last = int((side_high - top) * per_px) if side_high < bottom else count
-            one.first_lane = first
-            for index in range(first, last + 1):
-                met = lanes[index]
+            self.find_lanes(one)
+            first = one.first_lane
+            for index in range(first, one.last_lane + 1):
+                met = begun[index]
                 if len(met) > FEW:
-                    met = lanes[index] = [other for other in met if other.high > low]
+                    met = begun[index] = [other for other in met if other.high > low]
                 for other in met:
                     if (
                         other.high > low
@@ -319,6 +369,14 @@ class BroadPhase:
                     ):
                         self.pair_up(one, other)
                 met.append(one)
+                lanes[index].append(one)
+
+    def find_lanes(self, one: Bounds) -> None:
+        """Find the lanes that a box crosses."""
+        _, _, top, bottom = self.hull
+        per_px, low, high = self.lanes_per_px, one.side_low, one.side_high
+        one.first_lane = int((low - top) * per_px) if low > top else 0
+        one.last_lane = int((high - top) * per_px) if high < bottom else len(self.lanes) - 1
 
     def find_hull(self, edge: float) -> tuple[float, float, float, float]:
         """Return left, right, top and bottom of all rooms, with an edge (px) around them."""

@@ -116,9 +116,11 @@ class Contacts(Effect):
         if len(phase.bounds) != len(world.bodies):
             phase.take(world.bodies)
         renews = phase.is_stale or len(phase.leavers) > 0
+        phase.part_near()
         moved = renews or self.any_moved()
         if renews:
             self.renew_pairs(dt)
+            phase.part_near()
         if moved:
             self.changed = True
             for one in phase.near:
@@ -301,11 +303,15 @@ class Contacts(Effect):
 
     def flight_of(self, a: Body, b: Body) -> float:
         """Return how long (s) two bodies have flown freely: a step, if none was hit or stopped."""
-        if not (self.last_dt and (self.hit_ago or self.flown)):
+        flown = self.flown
+        if not (self.last_dt and flown):
             return self.last_dt
-        hit_ago, flown = self.hit_ago, self.flown
-        least = min(hit_ago.get(a, flown.get(a, inf)), hit_ago.get(b, flown.get(b, inf)))
+        least = min(flown.get(a, inf), flown.get(b, inf))
         return self.last_dt if least == inf else least
+
+    def note_impact(self, body: Body, ago: float) -> None:
+        """Note that a ball was hit some seconds ago, and has flown freely since."""
+        self.hit_ago[body] = self.flown[body] = ago
 
     def was_stopped(self, body: Body) -> bool:
         """Return whether a bullet met something static in the step before."""

@@ -70,7 +70,7 @@ class Impacts:
         self.counts: dict[Contact, int] = {}  # of impacts so far
         self.fastest = 0.0  # px/s, of all impacts
         self.stops: dict[Body, State] = {}  # where walls stopped balls that `passes` let fly on
-        self.near: dict[Body, list[Pair]] = {}  # the near pairs of balls that were hit
+        self.near: dict[Body, list[Pair]] = {}  # of balls that were hit
         self.flight = Flight(contacts, rods, springs, h)
         self.frame_of = self.flight.frame_of
         self.number = 0  # of impacts found so far
@@ -267,7 +267,7 @@ class Impacts:
             self.resolve_at_touch([c], hit, ago, [], late)
             self.look_where(c)
             for body in hit:
-                self.contacts.hit_ago[body] = ago + late
+                self.contacts.note_impact(body, ago + late)
         else:
             self.put_back(hit)
             self.resolve([c], [])
@@ -325,7 +325,7 @@ class Impacts:
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
         for body in hit:
-            self.contacts.hit_ago[body] = ago
+            self.contacts.note_impact(body, ago)
         around = list(dict.fromkeys([c for body in hit for c in self.beside[body]]))
         for c in around:
             if ago > 0:
@@ -365,20 +365,6 @@ class Impacts:
             c.a for c in self.touching if c.b.is_static and (c not in self.faces or c.a.is_bullet)
         }
 
-    def find_near(self, bodies: list[Body]) -> None:
-        """Find the near pairs of these bodies that do not touch."""
-        for body in bodies:
-            self.near[body] = []
-            body.is_thrown = True
-        for pair in self.contacts.broad_phase.pairs:
-            if pair.contact is None:
-                if pair.a.is_thrown:
-                    self.near[pair.a].append(pair)
-                if pair.b.is_thrown:
-                    self.near[pair.b].append(pair)
-        for body in bodies:
-            body.is_thrown = False
-
     def follow(self, moved: list[Body]) -> None:
         """Find the near pairs of bodies that impacts have moved, if out of their rooms."""
         rooms = self.contacts.broad_phase.rooms
@@ -401,7 +387,8 @@ class Impacts:
             if x * x + y * y > far * far:
                 if body not in self.near:
                     balls = [*hit, *balls_of(list(self.due))]
-                    self.find_near([ball for ball in balls if ball not in self.near])
+                    balls = [ball for ball in balls if ball not in self.near]
+                    self.near.update(self.contacts.broad_phase.pairs_of(balls))
                 for pair in self.near[body]:
                     self.meet(pair, met)
         if not met:

@@ -163,4 +163,9 @@ def share_of_each(contacts: list[Contact]) -> float:
 
 def balls_of(contacts: list[Contact]) -> list[Body]:
     """Return the balls of contacts, each once."""
-    return list(dict.fromkeys([b for c in contacts for b in (c.a, c.b) if not b.is_static]))
+    balls: dict[Body, None] = {}
+    for c in contacts:
+        balls[c.a] = None
+        if c.b.inv_mass:
+            balls[c.b] = None
+    return list(balls)
