@@ -84,7 +84,7 @@ class Body:
         *("x", "y", "vx", "vy", "turn", "w", "last_x", "last_y"),
         *("id", "world", "is_bullet", "is_kinematic", "idle", "sleeps", "island", "joint_count"),
         *("still", "calm", "kept", "place", "is_marked", "touches"),
-        *("lag_x", "lag_y", "is_pressed", "is_fresh"),
+        *("lag_x", "lag_y", "is_pressed", "is_fresh", "flown"),
     )
 
     def __init__(
@@ -137,6 +137,9 @@ class Body:
         self.is_kinematic = kinematic
         self.sleeps = False
         self.still = 0.0  # s, how long it has been slow and steady enough to sleep
+        # s, how long it has flown freely, if not for a step or more: since its last impact, or until
+        # Contacts stopped it
+        self.flown = inf
         self.is_marked = False  # while BroadPhase.pairs_of runs
         self.touches = 0  # the contacts of a ball with other balls
         self.calm = 0.0, 0.0, 0.0  # px/s: vx, vy and the speed of its rim when that began

@@ -41,7 +41,7 @@ class Bounce(Effect):
     def impact(self, h: float) -> None:
         self.slow = self.slow_speed(h * self.world.substep_count)
         touching, slow = self.contacts.touching, self.slow
-        if not self.contacts.begun and all(abs(c.closing_speed()) <= slow for c in touching):
+        if not self.contacts.begun and all([abs(c.closing_speed()) <= slow for c in touching]):
             return
         impacts = Impacts(self.contacts, self.rods, self.springs, slow, h)
         impacts.find()

@@ -270,15 +270,13 @@ class BroadPhase:
             a = one.body
             pairs = near[a] + self.pairs[count:]
             known = [a] + [p.b if p.a is a else p.a for p in pairs if p.a is a or p.b is a]
-            for other in self.find_near(one):
-                if other.body not in known:
-                    known.append(other.body)
-                    self.pair_up(one, other)
+            for other in self.find_near(one, known):
+                self.pair_up(one, other)
 
-    def find_near(self, one: Bounds) -> list[Bounds]:
-        """Return the boxes that overlap this one, in the order of the last sweep.
+    def find_near(self, one: Bounds, known: list[Body]) -> list[Bounds]:
+        """Return the boxes that overlap this one, but of known bodies, in the order of the sweep.
 
-        A box may be listed twice.
+        Add those bodies to the known ones: a box may be in several lanes.
         """
         low, high, side_low, side_high = one.low, one.high, one.side_low, one.side_high
         left, right, top, bottom = self.hull
@@ -293,8 +291,10 @@ class BroadPhase:
                     and other.high > low
                     and other.side_low < side_high
                     and other.side_high > side_low
+                    and other.body not in known
                 ):
                     found.append(other)
+                    known.append(other.body)
         found.sort(key=RANK)
         return found
 
@@ -373,8 +373,8 @@ class BroadPhase:
 
     def find_lanes(self, one: Bounds) -> None:
         """Find the lanes that a box crosses."""
-        _, _, top, bottom = self.hull
-        per_px, low, high = self.lanes_per_px, one.side_low, one.side_high
+        top, bottom, per_px = self.hull[2], self.hull[3], self.lanes_per_px
+        low, high = one.side_low, one.side_high
         one.first_lane = int((low - top) * per_px) if low > top else 0
         one.last_lane = int((high - top) * per_px) if high < bottom else len(self.lanes) - 1
 

@@ -24,7 +24,7 @@ class Contact:
     __slots__ = (
         *("a", "b", "nx", "ny", "found", "gap", "reach", "jn", "jt", "mn", "mt", "mu", "e"),
         *("ax", "ay", "bx", "by", "tax", "tay", "aw", "tbx", "tby", "bw", "arm_a", "arm_b"),
-        *("last", "place", "ratio"),
+        *("last", "place", "turn", "ratio"),
     )
 
     def __init__(self, a: Body, b: Body) -> None:
@@ -38,6 +38,7 @@ class Contact:
         self.jt = 0.0  # kg px/s, accumulated friction impulse
         self.last = 0.0  # kg px/s, jn after the substep before, in a pile of loads
         self.place = 0.0, 0.0, 0.0  # in the order of solving, see give_places
+        self.turn = -1  # when it was last put in order, see put_in_order
         self.mn = self.ratio = 0.0  # kg, effective mass along the normal; ratio of the masses
         self.weigh()
         self.mt = 0.0  # kg, effective mass along the tangent, filled in by Friction

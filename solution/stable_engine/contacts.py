@@ -63,7 +63,7 @@ class Contacts(Effect):
 
     __slots__ = (
         *("on_hit", "on_part", "hits", "parted", "touching", "begun", "changed", "lets_none_pass"),
-        *("last_dt", "flown", "hit_ago", "stopped", "broad_phase", "crowd"),
+        *("last_dt", "flying", "hit_ago", "stopped", "broad_phase", "crowd"),
         *("beside_static", "ends", "springs"),
         *("balls", "statics", "groups", "beginnings", "is_mirrored", "unpaired", "ignored", "pace"),
         *("h", "touching_gap", "slow", "max_push_speed", "begin_contact_hooks", "piles"),
@@ -83,8 +83,7 @@ class Contacts(Effect):
         self.changed = False  # whether contacts are new, so that their rows must be renewed
         self.lets_none_pass = False  # for Bounce: whether balls that touched and passed on count
         self.last_dt = 0.0  # s, of the step that ends; 0 once its impacts are resolved
-        # s, how long a ball has flown freely: since its last impact, or until it was stopped
-        self.flown: dict[Body, float] = {}
+        self.flying: list[Body] = []  # balls that were hit in the step before, or stopped
         self.hit_ago: dict[Body, float] = {}  # s, since the last impact of a ball in this step
         self.stopped: dict[Body, float] = {}  # s, into the step, until a static body stopped it
         # of a stopped ball: where it is, and where it would be
@@ -303,15 +302,12 @@ class Contacts(Effect):
 
     def flight_of(self, a: Body, b: Body) -> float:
         """Return how long (s) two bodies have flown freely: a step, if none was hit or stopped."""
-        flown = self.flown
-        if not (self.last_dt and flown):
-            return self.last_dt
-        least = min(flown.get(a, inf), flown.get(b, inf))
-        return self.last_dt if least == inf else least
+        least = min(a.flown, b.flown)
+        return least if least < inf and self.last_dt else self.last_dt
 
     def note_impact(self, body: Body, ago: float) -> None:
         """Note that a ball was hit some seconds ago, and has flown freely since."""
-        self.hit_ago[body] = self.flown[body] = ago
+        self.hit_ago[body] = body.flown = ago
 
     def was_stopped(self, body: Body) -> bool:
         """Return whether a bullet met something static in the step before."""
@@ -522,8 +518,11 @@ class Contacts(Effect):
             self.part_crowd(h * self.world.substep_count)
         self.begun, self.changed = [], False
         self.last_dt = h * self.world.substep_count
-        self.flown = {body: ago + self.last_dt for body, ago in self.hit_ago.items()}
-        self.hit_ago = {}
+        for body in self.flying:
+            body.flown = inf
+        for body, ago in self.hit_ago.items():
+            body.flown = ago + self.last_dt
+        self.flying, self.hit_ago = [*self.hit_ago], {}
         self.stopped = {}
         self.ends = {}
         for one in self.broad_phase.find_leavers(self.last_dt):
@@ -589,7 +588,7 @@ class Contacts(Effect):
     def stop_core(self, body: Body, h: float) -> None:
         """Stop a ball that moved far, or was hit, where its core met a static body."""
         distance = abs(body.x - body.last_x) + abs(body.y - body.last_y)
-        is_far = distance > body.r > 0 or (distance > 0 and body in self.flown)
+        is_far = distance > body.r > 0 or (distance > 0 and body.flown < inf)
         if is_far and not (body.is_bullet or body.is_static):
             self.sweep(body, (body.last_x, body.last_y), CORE * body.r, 0.0, h)
 
@@ -657,7 +656,9 @@ class Contacts(Effect):
                 self.ends[body] = state_of(body), self.ends.get(body, (end, end))[1]
             before = self.stopped.get(body, self.last_dt)
             self.stopped[body] = fraction * before
-            self.flown[body] = self.flown.get(body, self.last_dt) - (1 - fraction) * before
+            flown = body.flown if body.flown < inf else self.last_dt
+            body.flown = flown - (1 - fraction) * before
+            self.flying.append(body)
 
     def pull(self, body: Body) -> tuple[float, float]:
         """Return the acceleration of a body (px/s²) by gravity, forces and soft springs."""
@@ -700,7 +701,7 @@ class Contacts(Effect):
 
     def body_moved(self, body: Body) -> None:
         """Look for near pairs anew. Nobody flew to where a program has put the body."""
-        self.flown.pop(body, None)
+        body.flown = inf
         gaps = [] if body.is_static else [collide(c.a, c.b)[2] for c in self.of_body(body)]
         if gaps and min(gaps) > self.touching_gap:
             self.world.relieve({body: inf})
@@ -718,6 +719,9 @@ class Contacts(Effect):
 
     def forget(self, body: Body) -> None:
         """Wake whatever touches the body: it may have rested on it."""
+        body.flown = inf
+        self.flying = [other for other in self.flying if other is not body]
+        self.hit_ago.pop(body, None)
         self.wake_beside(body)
         self.drop(body, body)
 

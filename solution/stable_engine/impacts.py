@@ -1,7 +1,7 @@
 """Impacts: their order, those at one moment, and the positions afterwards."""
 
 from heapq import heappop, heappush
-from math import hypot, sqrt
+from math import hypot, inf, sqrt
 
 from .body import Body, State, state_of
 from .broad_phase import Pair
@@ -81,9 +81,8 @@ class Impacts:
         self.find_faces()
         if self.contacts.ends:
             self.let_pass()
-        flown = self.contacts.flown
         for c in self.touching:
-            self.look(c, c in self.begun or c.a in flown or c.b in flown)
+            self.look(c, c in self.begun or c.a.flown < inf or c.b.flown < inf)
 
     def let_pass(self) -> None:
         """Let balls that a face stopped fly on to the end of the step, if they will bounce off it.
@@ -94,10 +93,10 @@ class Impacts:
         contacts = self.contacts
         for body, (stop, end) in contacts.ends.items():
             if state_of(body) == stop:
-                flown = contacts.flown[body]
-                contacts.flown[body] = flown + contacts.last_dt - contacts.stopped[body]
+                flown = body.flown
+                body.flown = flown + contacts.last_dt - contacts.stopped[body]
                 if not self.passes(body, end):
-                    contacts.flown[body] = flown
+                    body.flown = flown
 
     def passes(self, body: Body, end: State) -> bool:
         """Put a ball that a wall stopped where it would be, if it will bounce off from there."""
@@ -248,17 +247,17 @@ class Impacts:
                         c.found = c.gap
                     stopped.append(body)
                 body.last_x, body.last_y = body.x, body.y
-        self.follow(stopped)
+        if stopped:
+            self.follow(stopped)
 
     def is_alone(self, c: Contact) -> bool:
         """Return whether an impact affects no other contact."""
-        for body in (c.a, c.b):
-            if body in self.frame_of or (body in self.beside and len(self.beside[body]) > 1):
-                return False
-        return True
+        if self.frame_of and (c.a in self.frame_of or c.b in self.frame_of):
+            return False
+        return len(self.beside[c.a]) == 1 and (c.b.is_static or len(self.beside[c.b]) == 1)
 
-    def resolve_alone(self, c: Contact, ago: float) -> None:
-        """Resolve an impact, some seconds ago, that affects no other contact."""
+    def resolve_alone(self, c: Contact, ago: float) -> list[Body]:
+        """Resolve an impact, some seconds ago, that affects no other contact. Return its balls."""
         hit = [c.a] if c.b.is_static else [c.a, c.b]
         is_free = c in self.faces and c.a not in self.flight.stiff
         is_stopped = is_free and self.contacts.was_stopped(c.a)
@@ -271,14 +270,15 @@ class Impacts:
         else:
             self.put_back(hit)
             self.resolve([c], [])
+        return hit
 
     def resolve_first(self) -> None:
         """Resolve the first impacts, and find those that they cause."""
         group, ago = self.take_first()
-        hit = balls_of(group)
         if len(group) == 1 and self.is_alone(group[0]):
-            self.resolve_alone(group[0], ago)
+            hit = self.resolve_alone(group[0], ago)
         else:
+            hit = balls_of(group)
             if not self.flight.can_all_go_back(hit):
                 ago = 0.0
             if ago == 0:
@@ -454,7 +454,8 @@ class Impacts:
                 if due[entry[2]].speed < hardest:
                     heappush(queue, entry)
         for c in group:
-            self.contacts.crowd.pop(c, None)  # they overlapped because they met
+            if self.contacts.crowd:
+                self.contacts.crowd.pop(c, None)  # they overlapped because they met
             del due[c]
             self.counts[c] = self.counts.get(c, 0) + 1
         return group, -earliest

@@ -1,5 +1,6 @@
 """The order in which contacts are solved: one that looks the same in a mirror."""
 
+from bisect import insort
 from collections import Counter
 from collections.abc import Callable
 from itertools import groupby
@@ -18,7 +19,7 @@ class Group:
 
     __slots__ = (
         *("bias_rate", "contacts", "in_turn", "is_mirrored", "mass_scale", "moves_b", "ordered"),
-        *("sorted", "ties"),
+        *("sorted", "ties", "turn"),
     )
 
     def __init__(self, moves_b: bool) -> None:
@@ -28,6 +29,7 @@ class Group:
         self.ties: list[Tie] = []  # the others
         self.ordered: list[Contact] = []  # the contacts when they were put in order
         self.sorted: list[Contact] = []  # those in order
+        self.turn = 0  # how often they were put in order
         self.is_mirrored = False  # whether any two of them had the same place then
         self.bias_rate = self.mass_scale = 0.0  # see softness
 
@@ -125,12 +127,15 @@ def put_in_order(group: Group, grain: float, is_mirrored: bool) -> bool:
     """
     if group.contacts == group.ordered:
         return group.is_mirrored
-    if len(group.contacts) > 1:
-        here, before = set(group.contacts), set(group.ordered)
-        kept = [c for c in group.sorted if c in here]
-        group.sorted = sorted(kept + [c for c in group.contacts if c not in before], key=PLACE)
-    else:
-        group.sorted = group.contacts
+    turn, group.turn = group.turn, group.turn + 1
+    new = [c for c in group.contacts if c.turn != turn]
+    new.sort(key=PLACE)
+    for c in group.contacts:
+        c.turn = group.turn
+    kept = [c for c in group.sorted if c.turn == group.turn]
+    for c in new if kept else []:
+        insort(kept, c, key=PLACE)
+    group.sorted = kept or new
     group.ordered, group.in_turn, group.ties = group.contacts, group.sorted, []
     group.is_mirrored = False
     if is_mirrored:
