@@ -137,8 +137,7 @@ class Body:
         self.is_kinematic = kinematic
         self.sleeps = False
         self.still = 0.0  # s, how long it has been slow and steady enough to sleep
-        # s, how long it has flown freely since it was hit, or until a static body stopped it, in the
-        # step before; infinity for other balls
+        # s of free flight, if it was hit or stopped in the step before; else infinity
         self.flown = inf
         self.is_marked = False  # while BroadPhase.pairs_of runs
         self.touches = 0  # the contacts of a ball with other balls
