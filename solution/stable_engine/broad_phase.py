@@ -123,9 +123,8 @@ class BroadPhase:
         self.pairs: list[Pair] = []
         self.spare: list[Pair] = []  # pairs of the last sweep: reuse is cheaper
         self.near: list[Bounds] = []  # of bodies that can move and have others near
-        self.far: list[Bounds] = []  # of the others that can move
         self.leavers: list[Bounds] = []  # of bodies that have left their rooms
-        self.is_parted = False  # whether these two lists are up to date
+        self.is_listed = False  # whether that list is up to date
         self.lanes: list[list[Bounds]] = []  # the boxes that cross each since the last sweep
         self.lanes_per_px = 0.0
         self.hull = 0.0, 0.0, 0.0, 0.0  # px, what the sweep has covered, along it and across
@@ -151,7 +150,7 @@ class BroadPhase:
     def find_leavers(self, dt: float) -> list[Bounds]:
         """Return the bounds of the bodies that have left their rooms in a step of dt seconds."""
         self.age += dt
-        self.part_near()
+        self.list_near()
         late = self.age > self.end
         doubtful = self.moving if late or self.falls else self.near + self.find_pushed()
         self.leavers = leavers = []
@@ -168,7 +167,11 @@ class BroadPhase:
 
         The others of these cannot leave their rooms before the `end`.
         """
-        return [one for one in self.far if one.body.vx != one.vx or one.body.vy != one.vy]
+        return [
+            one
+            for one in self.moving
+            if not one.near and (one.body.vx != one.vx or one.body.vy != one.vy)
+        ]
 
     def renew(
         self, g: tuple[float, float], held: set[Body], dt: float, back: float, margin: float
@@ -210,13 +213,11 @@ class BroadPhase:
         self.leavers = []
         return self.pairs[count:]
 
-    def part_near(self) -> None:
-        """List the bodies that can move: those with others near, and the rest."""
-        if self.is_parted:
-            return
-        self.is_parted = True
-        self.near = [one for one in self.moving if one.near]
-        self.far = [one for one in self.moving if not one.near]
+    def list_near(self) -> None:
+        """List the bodies that can move and have others near, if any has changed."""
+        if not self.is_listed:
+            self.is_listed = True
+            self.near = [one for one in self.moving if one.near]
 
     def set_ahead(self, dt: float) -> None:
         """Choose the length of new rooms by how the last ones did."""
@@ -242,7 +243,7 @@ class BroadPhase:
             if hit_point(reach, x, y, dx, dy) < NO_HIT:
                 return
         self.is_quiet = True
-        self.is_parted = False
+        self.is_listed = False
         for one in self.moving:
             one.near = False
 
@@ -325,14 +326,14 @@ class BroadPhase:
         self.pairs.append(pair)
         if not (one.near and other.near):
             one.near = other.near = True
-            self.is_parted = False
+            self.is_listed = False
 
     def sweep(self, margin: float) -> None:
         """Add all pairs of boxes within margin px, if at least one can move."""
         left, right, top, bottom = self.find_hull(self.widest + margin)
         taller = (bottom - top) / (right - left)
         upright = taller > (1 / WIDER if self.upright else WIDER)
-        self.is_parted = False
+        self.is_listed = False
         for one in self.bounds:
             one.near = False
             one.update_box(upright, margin)

@@ -21,7 +21,7 @@ from .loads import (
     find_towers,
     take_off,
 )
-from .order import Group, give_places, in_same_place, put_in_order
+from .order import PLACE, Group, give_places, in_same_place, put_in_order
 from .soft import SAME_DIRECTION, Pace, softness
 from .springs import Springs
 from .sweep import NO_HIT, first_hit, moment_of_touch, put_back
@@ -115,11 +115,11 @@ class Contacts(Effect):
         if len(phase.bounds) != len(world.bodies):
             phase.take(world.bodies)
         renews = phase.is_stale or len(phase.leavers) > 0
-        phase.part_near()
+        phase.list_near()
         moved = renews or self.any_moved()
         if renews:
             self.renew_pairs(dt)
-            phase.part_near()
+            phase.list_near()
         if moved:
             self.changed = True
             for one in phase.near:
@@ -572,7 +572,7 @@ class Contacts(Effect):
         some speed, which is energy from nothing.
         """
         deepest = 0.0
-        for same in in_same_place(list(self.crowd)):
+        for same in in_same_place(sorted(self.crowd, key=PLACE)):
             for c, (nx, ny, gap) in [(c, collide(c.a, c.b)) for c in same]:
                 a, b = c.a, c.b
                 deepest = max(deepest, -gap)

@@ -202,10 +202,11 @@ def find_piles(
     count = len(contacts)
     ends = [(c.a, c.b) for c in contacts] + [(rod.end_a, rod.end_b) for rod in rods]
     beside: dict[Body, list[int]] = {}  # the places of each ball's contacts and rods
-    for place, both in enumerate(ends):
-        for body in both:
-            if body.inv_mass:
-                beside.setdefault(body, []).append(place)
+    for place, (a, b) in enumerate(ends):
+        if a.inv_mass:
+            beside.setdefault(a, []).append(place)
+        if b.inv_mass:
+            beside.setdefault(b, []).append(place)
     piles: list[Pile] = []
     seen: set[int] = set()
     for first, most in firsts:
