@@ -150,9 +150,10 @@ class BroadPhase:
     def find_leavers(self, dt: float) -> list[Bounds]:
         """Return the bounds of the bodies that have left their rooms in a step of dt seconds."""
         self.age += dt
-        self.list_near()
-        late = self.age > self.end
-        doubtful = self.moving if late or self.falls else self.near + self.find_pushed()
+        late, doubtful = self.age > self.end, self.moving
+        if not (late or self.falls):
+            self.list_near()
+            doubtful = self.near + self.find_pushed()
         self.leavers = leavers = []
         for one in doubtful:
             if not one.holds():

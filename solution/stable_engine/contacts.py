@@ -115,11 +115,9 @@ class Contacts(Effect):
         if len(phase.bounds) != len(world.bodies):
             phase.take(world.bodies)
         renews = phase.is_stale or len(phase.leavers) > 0
-        phase.list_near()
         moved = renews or self.any_moved()
         if renews:
             self.renew_pairs(dt)
-            phase.list_near()
         if moved:
             self.changed = True
             for one in phase.near:
@@ -132,6 +130,7 @@ class Contacts(Effect):
         """Return whether a body with others near has moved since contacts were last found."""
         far = REDETECT_DISTANCE * self.world.unit
         far2 = far * far
+        self.broad_phase.list_near()
         for one in self.broad_phase.near:
             body = one.body
             dx, dy = body.x - body.last_x, body.y - body.last_y
@@ -150,6 +149,7 @@ class Contacts(Effect):
         held = {c.a for c in bearing} | {c.b for c in bearing}
         back = self.last_dt if self.lets_none_pass else 0.0
         found = phase.renew(g, held, dt, back, self.slow * dt)
+        phase.list_near()
         self.take_in(found)
         touched = {c.a for c in self.unpaired.values()}
         for pair in found if touched else []:
