@@ -16,7 +16,7 @@ LANE = 6.0  # width of a lane, in half widths of a ball
 FEW = 4  # boxes in a lane; up to so many, ended ones may stay
 ROUNDING = 1e-3  # steps
 MANY = 30  # bodies that leave their rooms at once: a sweep costs less than a search for each
-SHARE = 0.25  # of the bodies that can move, if these are more
+SHARE = 0.25  # of the bodies that can move: without gravity, at least so many
 
 
 class Pair:
@@ -158,7 +158,7 @@ class BroadPhase:
         for one in doubtful:
             if not one.holds():
                 leavers.append(one)
-        many = max(MANY, SHARE * len(self.moving))
+        many = MANY if self.falls else max(MANY, SHARE * len(self.moving))
         if (leavers and (late or len(leavers) > many)) or (doubtful and self.is_quiet):
             self.is_stale = True
         return leavers
