@@ -124,7 +124,8 @@ class BroadPhase:
         self.spare: list[Pair] = []  # pairs of the last sweep: reuse is cheaper
         self.near: list[Bounds] = []  # of bodies that can move and have others near
         self.leavers: list[Bounds] = []  # of bodies that have left their rooms
-        self.is_listed = False  # whether that list is up to date
+        self.far: list[Bounds] = []  # of the others that can move
+        self.is_listed = False  # whether these two lists are up to date
         self.lanes: list[list[Bounds]] = []  # the boxes that cross each since the last sweep
         self.lanes_per_px = 0.0
         self.hull = 0.0, 0.0, 0.0, 0.0  # px, what the sweep has covered, along it and across
@@ -168,11 +169,7 @@ class BroadPhase:
 
         The others of these cannot leave their rooms before the `end`.
         """
-        return [
-            one
-            for one in self.moving
-            if not one.near and (one.body.vx != one.vx or one.body.vy != one.vy)
-        ]
+        return [one for one in self.far if one.body.vx != one.vx or one.body.vy != one.vy]
 
     def renew(
         self, g: tuple[float, float], held: set[Body], dt: float, back: float, margin: float
@@ -215,10 +212,11 @@ class BroadPhase:
         return self.pairs[count:]
 
     def list_near(self) -> None:
-        """List the bodies that can move and have others near, if any has changed."""
+        """List the bodies that can move and have others near, and the rest, if any has changed."""
         if not self.is_listed:
             self.is_listed = True
             self.near = [one for one in self.moving if one.near]
+            self.far = [one for one in self.moving if not one.near]
 
     def set_ahead(self, dt: float) -> None:
         """Choose the length of new rooms by how the last ones did."""
