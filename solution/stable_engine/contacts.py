@@ -19,6 +19,7 @@ from .loads import (
     Stage,
     find_piles,
     find_towers,
+    find_wedged,
     take_off,
 )
 from .order import PLACE, Group, give_places, in_same_place, put_in_order
@@ -371,7 +372,7 @@ class Contacts(Effect):
         """
         rods = self.world.effects.get("Rods")
         pull = hypot(*self.world.g)
-        loads: dict[Body, float] = {}  # kg, that press where forces or frames of rods do
+        loads = find_wedged(self.statics.contacts)  # kg, that press beside the bodies' own masses
         for body, (fx, fy, _) in self.world.forces.items() if pull else []:
             if hypot(fx, fy) > HEAVY * body.m * pull:
                 loads[body] = hypot(fx, fy) / pull

@@ -1,5 +1,6 @@
 """Impacts: their order, those at one moment, and the positions afterwards."""
 
+from collections.abc import Sequence
 from heapq import heappop, heappush
 from math import hypot, inf, sqrt
 
@@ -8,6 +9,9 @@ from .broad_phase import Pair
 from .contact import Contact, collide, is_at_face, the_way_it_came
 from .contacts import CORE, FAR, Contacts
 from .flight import BEFORE, DEEPEST, Flight
+from .joint import Joint
+from .limits import FIRM, Limited, solve_within
+from .network import Network
 from .order import balls_of
 from .rods import Frame, Rods
 from .soft import SAME_DIRECTION
@@ -16,12 +20,9 @@ from .sweep import NO_HIT, first_stop, moment_of_touch
 
 MOVED = 0.01  # radii; a ball that was hit and moved by less meets nothing new
 MOST_IMPACTS = 100  # of a contact in one step
-PASSES = 200  # of the solver for impacts at one moment
-WORK = 4000  # contacts, over all passes of the solver for one large group
 ARC = 1.1  # ratio by which the touch may lie further back for flights on an arc
-SAME = 1e-9  # share by which equal times and speeds may differ
-FIXED = 1e-6  # share of an impulse that moves a ball which rods hold still
-CONVERGED = 1e-14  # share of an impulse; the last pass changes it by less
+SAME = 1e-6  # share of the highest speed by which those of mirrored impacts may differ
+LEAST = 1e-9  # share of the highest speed; an impact leaves less
 
 Entry = tuple[float, int, Contact]  # in a queue: s from now, so below 0, and an impact's number
 
@@ -447,11 +448,11 @@ class Impacts:
         group = [early[0][2]]
         if len(early) > 1:
             # touching_gap in px/s as well: rounding would decide between slow ones
-            hardest = max([due[c].speed for _, _, c in early])
-            hardest -= max(SAME * self.fastest, self.touching_gap)
-            group = [c for _, _, c in early if due[c].speed >= hardest]
+            hard = max([due[c].speed for _, _, c in early])
+            hard -= max(SAME * self.fastest, self.touching_gap)
+            group = [c for _, _, c in early if due[c].speed >= hard]
             for entry in early:
-                if due[entry[2]].speed < hardest:
+                if due[entry[2]].speed < hard:
                     heappush(queue, entry)
         for c in group:
             if self.contacts.crowd:
@@ -501,41 +502,81 @@ class Impacts:
 
         Normal impulses come first, then friction limited by them, so no energy is created.
         """
-        hold(frames)
+        for frame in frames:
+            frame.hold()
         hits = [Hit(c, self.law(c)) for c in group]
-        for hit in hits if frames else []:
-            hit.feel(frames)
-        passes = passes_for(len(hits), frames)
-        for _ in range(passes):
-            if not press(hits, frames):
-                break
-        for _ in range(passes):
-            if not rub(hits, frames):
-                break
+        rods = [Joint(rod.end_a, rod.end_b) for frame in frames for rod in frame.rods]
+        least = LEAST * self.fastest
+        resolve_at_once(hits, rods, least)
+        resolve_at_once([Rub(hit) for hit in hits if hit.mu * hit.total], rods, least)
 
 
-class Hit:
+class Hit(Limited):
     """A contact whose impact is resolved together with others of the same moment."""
 
-    __slots__ = ("c", "mass", "mu", "pressed", "rubbed", "wanted")
+    __slots__ = ("mu", "wanted")
 
     def __init__(self, c: Contact, law: tuple[float, float]) -> None:
-        self.c = c
+        super().__init__(c)
+        self.m = c.mn
         self.wanted, share = law  # px/s, the speed at which to separate
         self.mu = c.mu * share
-        self.mass = c.mn  # kg, effective mass along the normal
-        self.pressed = self.rubbed = 0.0  # kg px/s, impulses along normal and tangent
 
-    def feel(self, frames: list[Frame]) -> None:
-        """Find the effective mass, with all balls that hang on both bodies by rods."""
-        c, before = self.c, self.c.closing_speed()
-        for j in (c.mn, -c.mn):
-            c.push_apart(j)
-            hold(frames)
-            if j > 0:
-                share = before - c.closing_speed()
-        if share > FIXED:
-            self.mass = c.mn / share
+    def aim(self) -> None:
+        """Set rhs to the speed (px/s) that it lacks, and the pivot."""
+        self.pivot, self.rhs = FIRM / self.m, self.wanted - self.speed()
+
+
+class Rub(Hit):
+    """The friction of a contact after its impact: it slows the slip, as far as a limit."""
+
+    __slots__ = ()
+
+    def __init__(self, hit: Hit) -> None:
+        super().__init__(hit.c, (0.0, 0.0))
+        self.m = hit.c.mt
+        self.nx, self.ny = -self.ny, self.nx
+        self.arm_a, self.arm_b = self.end_a.r, self.end_b.r
+        self.high = hit.mu * hit.total
+        self.low = -self.high
+
+    def speed(self) -> float:
+        rims = self.end_a.w * self.arm_a + self.end_b.w * self.arm_b
+        return super().speed() - rims
+
+    def apply_impulse(self, j: float) -> None:
+        super().apply_impulse(j)
+        self.end_a.w -= self.arm_a * j * self.end_a.inv_inertia
+        self.end_b.w -= self.arm_b * j * self.end_b.inv_inertia
+
+
+class Moment:
+    """Rows and rods whose impulses belong to one moment."""
+
+    def __init__(self, rows: list[Hit], rods: list[Joint]) -> None:
+        self.rows = rows
+        self.rods = rods
+
+    def aim(self) -> None:
+        """Set each row's pivot and rhs. Rods are to keep their lengths."""
+        for row in self.rows:
+            row.aim()
+        for rod in self.rods:
+            rod.pivot, rod.rhs = FIRM / rod.m, -rod.speed()
+
+
+def resolve_at_once(rows: Sequence[Hit], rods: list[Joint], least: float) -> None:
+    """Give the rows the impulses that they need together."""
+    moment = Moment(list(rows), rods)
+    if len(rows) == 1 and not rods:
+        [row] = rows
+        row.aim()
+        row.take(max(row.low, min(row.rhs * row.m, row.high)), True)
+    elif rows:
+        network: Network[Joint] = Network([*rows, *rods])
+        limited: list[Limited] = [*rows]
+        for _ in range(2):  # the second takes back what firmness has left
+            solve_within(network, limited, moment.aim, least, True)
 
 
 def seen_from_start(a: Body, b: Body) -> tuple[float, float, float]:
@@ -551,43 +592,3 @@ def speed_at_touch(c: Contact, closing: float, g: float, lag: float) -> float:
     """Return how fast (px/s) a pair came together when it touched; g and lag: see Flight.pull."""
     speed = closing + lag
     return sqrt(max(speed * abs(speed) + 2 * g * c.gap, 0.0)) if g else speed
-
-
-def press(hits: list[Hit], frames: list[Frame]) -> bool:
-    """Push each contact apart once. Return whether any impulse has changed."""
-    changed = False
-    for hit in hits:
-        c = hit.c
-        j = max(hit.pressed + hit.mass * (hit.wanted + c.closing_speed()), 0.0)
-        change, hit.pressed = j - hit.pressed, j
-        c.push_apart(change)
-        hold(frames)
-        changed = changed or abs(change) > CONVERGED * j
-    return changed
-
-
-def rub(hits: list[Hit], frames: list[Frame]) -> bool:
-    """Slow the slip of each contact once. Return whether any impulse has changed."""
-    changed = False
-    for hit in hits:
-        c, limit = hit.c, hit.mu * hit.pressed
-        if limit or hit.rubbed:
-            jt = max(-limit, min(limit, hit.rubbed - c.mt * c.slip()))
-            change, hit.rubbed = jt - hit.rubbed, jt
-            c.drag(change)
-            hold(frames)
-            changed = changed or abs(change) > CONVERGED * limit
-    return changed
-
-
-def hold(frames: list[Frame]) -> None:
-    """Make rods pass on the impulses on their balls."""
-    for frame in frames:
-        frame.hold()
-
-
-def passes_for(count: int, frames: list[Frame]) -> int:
-    """Return the maximum of passes over so many contacts: 1 for a single free one."""
-    if count == 1 and not frames:
-        return 1
-    return max(min(PASSES, WORK // (count * (1 + sum([len(frame.rods) for frame in frames])))), 1)

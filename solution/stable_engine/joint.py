@@ -15,7 +15,10 @@ class Joint:
     a and b are the same body, or if both are static.
     """
 
-    __slots__ = ("distance", "dx", "dy", "end_a", "end_b", "m", "nx", "ny", "pivot", "rest", "rhs")
+    __slots__ = (
+        *("arm_a", "arm_b", "distance", "dx", "dy", "end_a", "end_b", "m", "nx", "ny", "pivot"),
+        *("rest", "rhs"),
+    )
     effect: ClassVar[str]  # the name of the effect that owns it
 
     def __init__(self, a: Body, b: Body) -> None:
@@ -29,6 +32,7 @@ class Joint:
         self.end_a = a
         self.end_b = b
         self.pivot = self.rhs = 0.0  # see Network.solve
+        self.arm_a = self.arm_b = 0.0  # px, with which an impulse along it turns A and B
         self.weigh()
         self.measure()
         self.rest = self.distance  # px, its length

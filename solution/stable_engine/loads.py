@@ -6,7 +6,8 @@ from .body import Body
 from .contact import Contact
 from .effect import Direction
 from .joint import Joint
-from .network import Network
+from .limits import FIRM, Limited, solve_within
+from .network import Network, bodies_of
 
 HEAVY = 2.5  # times the lightest ball at a contact
 TALL = 13.3  # weights of its effective mass; a contact that bears more carries a tower. Not whole,
@@ -21,15 +22,14 @@ STEEPEST = 1000.0  # a larger ratio counts as this, or rounding would decide wha
 MOST_ROWS = 128  # contacts and rods of a pile; a larger one is left to passes
 FEW_ROWS = 32  # the same where balls were thrown at each other
 FAR = 0.5  # radii; where a ball moves by more in a substep, its contacts are other ones by then
-TURNS = 16  # of choosing which contacts press
 PUSHED = 0.1  # share by which a contact gives way, per ratio: many firm ones have no solution
 FRAMED = 1.0  # the same where frames of rods press
 SOFTEST = 1e-2  # the most of both
 HARDEST = 1e-6  # the most in a tower, where firm ones do have a solution
 RELAXED = 1e-3  # of that share, what is left after the move
-FIRM = 1 + 1e-9  # times the pivot of a rod, for the same reason
+WEDGED = 0.9  # cosine; a ball between faces that turn less is pressed as by a heavier one
+PARALLEL = 1 - 1e-9  # cosine, of faces that are one
 LEVEL = 1e-6  # a sine; contacts that rise by less do not bear what is above
-FREE = 1e30  # 1/kg, the pivot of a row that takes no impulse
 
 
 class Stage:
@@ -45,20 +45,14 @@ class Stage:
         self.ball_rate = self.static_rate = 0.0  # 1/s, before the move
 
 
-class Load(Joint):
-    """A contact as a row of a network. Which body is A does not depend on the contact's."""
+class Load(Limited):
+    """A contact in a pile."""
 
-    __slots__ = ("c", "give", "presses", "ratio")
-    effect = "Contacts"
+    __slots__ = ("give", "ratio")
 
     def __init__(self, c: Contact, ratio: float) -> None:
-        self.c = c
+        super().__init__(c)
         self.ratio = ratio  # of the heavier body, or its frame, to the lighter ball
-        self.end_a, self.end_b, self.nx, self.ny = c.a, c.b, c.nx, c.ny
-        if c.b.inv_mass and (c.b.x, c.b.y) < (c.a.x, c.a.y):
-            self.end_a, self.end_b, self.nx, self.ny = c.b, c.a, -c.nx, -c.ny
-        self.pivot = self.rhs = 0.0
-        self.presses = False
         self.give = 0.0  # the share that it gives way
 
     def aim(self, stage: Stage) -> None:
@@ -76,7 +70,7 @@ class Load(Joint):
 
     def take(self, j: float, has_moved: bool) -> None:
         super().take(j, has_moved)
-        self.c.jn += j
+        self.c.jn = self.total
 
 
 class Pile:
@@ -86,13 +80,13 @@ class Pile:
     ball below has mass m. So what a pass leaves is solved exactly, for the contacts that press.
     """
 
-    __slots__ = ("bodies", "calm", "is_wild", "kept", "loads", "network", "rods", "rows")
+    __slots__ = ("bodies", "calm", "is_wild", "kept", "loads", "network", "rods", "rows", "stage")
 
     def __init__(self, loads: list[Load], rods: list[Joint], unit: float, softest: float) -> None:
         self.loads = loads
         self.rods = rods
         self.rows: list[Joint] = [*loads, *rods]
-        self.bodies = dict.fromkeys([body for row in self.rows for body in (row.end_a, row.end_b)])
+        self.bodies = bodies_of(self.rows)
         masses = [body.m for body in self.bodies if body.m]
         ratio = max(max(masses) / min(masses), *[load.ratio for load in self.loads])
         for load in self.loads:
@@ -127,63 +121,31 @@ class Pile:
         """Solve for all impulses, if a pass has left more than a calm speed."""
         if self.is_wild:
             return
+        self.stage = stage
         if stage.has_moved:
             self.kept = [0.0] * len(self.rods)
         for load in self.loads:
             load.aim(stage)
             if load.rhs > self.calm or (load.rhs < -self.calm and load.c.jn > 0):
-                return self.press(stage)
+                return self.press()
         for rod, speed in zip(self.rods, self.kept, strict=True):
             if abs(rod.speed() - speed) > self.calm:
-                return self.press(stage)
+                return self.press()
 
-    def press(self, stage: Stage) -> None:
-        """Find the contacts that press, and apply their impulses and those of the rods.
-
-        Each turn solves for some, then frees those that would pull and adds those that would close
-        (block pivoting). If that does not end, nothing changes.
-        """
+    def press(self) -> None:
+        """Apply the impulses of the contacts that press, and of the rods."""
         if self.network is None:
             self.network = Network(self.rows)
-        has_moved = stage.has_moved
-        before = [(body, body.vx, body.vy) for body in self.bodies]
-        taken = dict.fromkeys(self.rows, 0.0)  # kg px/s
         for load in self.loads:
-            load.aim(stage)
-            load.presses = load.c.jn > 0 or load.rhs > self.calm
-        for _ in range(TURNS):
-            for load in self.loads:
-                if not load.presses:
-                    taken[load] -= load.c.jn
-                    load.take(-load.c.jn, has_moved)
-            for load in self.loads:
-                load.aim(stage)
-                if not load.presses:
-                    load.pivot, load.rhs = FREE, 0.0
-            for rod, speed in zip(self.rods, self.kept, strict=True):
-                rod.pivot, rod.rhs = FIRM / rod.m, speed - rod.speed()
-            self.network.solve()
-            for load in self.loads:
-                load.rhs = load.rhs if load.presses else 0.0
-            for row in self.rows:
-                taken[row] += row.rhs
-                row.take(row.rhs, has_moved)
-            if not self.any_turned(stage):
-                return
-        for row, j in taken.items():
-            row.take(-j, has_moved)
-        for body, vx, vy in before:
-            body.vx, body.vy = vx, vy
+            load.total = load.c.jn
+        solve_within(self.network, self.loads, self.aim, self.calm, self.stage.has_moved)
 
-    def any_turned(self, stage: Stage) -> bool:
-        """Find out again which contacts press. Return whether any other do than before."""
-        turned = False
+    def aim(self) -> None:
+        """Set each row's pivot and rhs."""
         for load in self.loads:
-            load.aim(stage)
-            presses = load.c.jn >= 0 if load.presses else load.rhs > self.calm
-            turned = turned or presses != load.presses
-            load.presses = presses
-        return turned
+            load.aim(self.stage)
+        for rod, speed in zip(self.rods, self.kept, strict=True):
+            rod.pivot, rod.rhs = FIRM / rod.m, speed - rod.speed()
 
 
 def find_piles(
@@ -221,6 +183,21 @@ def find_piles(
                 held = [rods[at - count] for at in places if at >= count]
                 piles.append(Pile(rows, held, unit, SOFTEST))
     return piles
+
+
+def find_wedged(contacts: list[Contact]) -> dict[Body, float]:
+    """Return the balls between faces that are nearly parallel, as in a narrow or a flat V.
+
+    The impulse at each face grows as if the ball had the mass (kg) returned with it.
+    """
+    firsts: dict[Body, Contact] = {}
+    wedged: dict[Body, float] = {}
+    for c in contacts:
+        first = firsts.setdefault(c.a, c)
+        alike = abs(first.nx * c.nx + first.ny * c.ny)
+        if WEDGED < alike < PARALLEL:
+            wedged[c.a] = max(wedged.get(c.a, 0.0), c.a.m / (1 - alike))
+    return wedged
 
 
 def find_firsts(contacts: list[Contact], ratios: list[float], unit: float) -> list[tuple[int, int]]:

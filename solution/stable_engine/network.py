@@ -16,12 +16,13 @@ class Coupling:
     symmetric; once the order is known, `one` is eliminated before `other`.
     """
 
-    __slots__ = ("one", "other", "share", "value", "weight")
+    __slots__ = ("one", "other", "share", "spin", "value", "weight")
 
     def __init__(self, one: Joint, other: Joint) -> None:
         self.one = one
         self.other = other
         self.weight = 0.0  # 1/kg, of the balls they share; negative between links of a chain
+        self.spin = 0.0  # 1/kg, of the spins of these balls, between rows with arms
         self.value = 0.0  # 1/kg, the entry of the matrix
         self.share = 0.0  # how much of the row of `one` is taken off that of `other`
 
@@ -82,7 +83,7 @@ class Network(Generic[AnyJoint]):
         """
         for c in self.couplings:
             one, other = c.one, c.other
-            c.value = c.weight * (one.nx * other.nx + one.ny * other.ny)
+            c.value = c.weight * (one.nx * other.nx + one.ny * other.ny) + c.spin
         for c in self.filled:
             c.value = 0.0
         for row in self.rows:
@@ -107,18 +108,25 @@ class Network(Generic[AnyJoint]):
 def couple(joints: Sequence[Joint]) -> dict[Joint, dict[Joint, Coupling]]:
     """Return the couplings of joints that share balls, by pair of joints."""
     beside: dict[Joint, dict[Joint, Coupling]] = {joint: {} for joint in joints}
-    at: dict[Body, list[tuple[Joint, float]]] = {}
+    at: dict[Body, list[tuple[Joint, float, float]]] = {}
     for joint in joints:
-        for body, sign in ((joint.end_a, -1.0), (joint.end_b, 1.0)):
+        a, b = joint.end_a, joint.end_b
+        for body, sign, arm in ((a, -1.0, joint.arm_a), (b, 1.0, joint.arm_b)):
             if body.is_static:
                 continue
-            for other, there in at.setdefault(body, []):
+            for other, its_sign, its_arm in at.setdefault(body, []):
                 c = beside[joint].get(other)
                 if c is None:
                     c = beside[joint][other] = beside[other][joint] = Coupling(other, joint)
-                c.weight += sign * there * body.inv_mass
-            at[body].append((joint, sign))
+                c.weight += sign * its_sign * body.inv_mass
+                c.spin += arm * its_arm * body.inv_inertia
+            at[body].append((joint, sign, arm))
     return beside
+
+
+def bodies_of(joints: Sequence[Joint]) -> list[Body]:
+    """Return the bodies at the ends of joints, each once."""
+    return list(dict.fromkeys([body for one in joints for body in (one.end_a, one.end_b)]))
 
 
 def connect(joints: list[AnyJoint]) -> list[Network[AnyJoint]]:

@@ -11,6 +11,7 @@ from .body import Body
 from .contacts import Contacts
 from .effect import WorldState
 from .joint import Joint, Joints
+from .limits import FIRM
 from .loads import HEAVY
 from .network import Network, connect
 from .soft import SAME_DIRECTION, Pace, softness
@@ -32,7 +33,6 @@ PARTS = 4  # into which a substep is cut at first
 STEADY = 0.1  # share of an impulse; after parts, a whole substep must change it by less
 MOST_PARTS = 64
 MOST_WORK = 8192  # parts times rods, if masses differ much and that allows more parts
-FIRM = 1 + 1e-9  # times a pivot: with more rods than needed, the matrix has no inverse
 ROUNDING = 1e-9  # share of a length
 
 Velocity = tuple[float, float]

@@ -1,0 +1,116 @@
+"""Impulses within limits: contacts push and never pull, and friction holds only so much."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import inf
+
+from .contact import Contact
+from .joint import Joint
+from .network import Network, bodies_of
+
+TURNS = 16  # of changing all rows that are wrong, without fewer; then one is changed at a time
+MOST_TURNS = 200
+FIRM = 1 + 1e-9  # times a pivot: with more rows than needed, the matrix has no inverse
+FREE = 1e30  # 1/kg, the pivot of a row that takes no impulse
+
+
+class Limited(Joint):
+    """A contact as a row of a network, whose total impulse stays within limits.
+
+    Which body is A does not depend on the contact's.
+    """
+
+    __slots__ = ("at", "c", "high", "low", "total")
+    effect = "Contacts"
+
+    def __init__(self, c: Contact) -> None:
+        self.c = c
+        self.end_a, self.end_b, self.nx, self.ny = c.a, c.b, c.nx, c.ny
+        if c.b.inv_mass and (c.b.x, c.b.y) < (c.a.x, c.a.y):
+            self.end_a, self.end_b, self.nx, self.ny = c.b, c.a, -c.nx, -c.ny
+        self.arm_a = self.arm_b = 0.0
+        self.pivot = self.rhs = 0.0
+        self.low, self.high = 0.0, inf  # kg px/s
+        self.total = 0.0  # kg px/s, its impulse so far
+        self.at = 0.0  # -1 at the lower limit, 1 at the upper one, 0 between them
+
+    def take(self, j: float, has_moved: bool) -> None:
+        super().take(j, has_moved)
+        self.total += j
+
+    def begin(self, least: float) -> None:
+        """Choose a side to begin with."""
+        self.at = 0.0
+        if self.total <= self.low and self.rhs <= least:
+            self.at = -1.0
+        elif self.total >= self.high and self.rhs >= -least:
+            self.at = 1.0
+
+    def excess(self) -> float:
+        """Return what its impulse lacks to the limit that it is at, or is beyond; else 0."""
+        if self.at < 0 or self.total < self.low:
+            return self.low - self.total
+        return self.high - self.total if self.at > 0 or self.total > self.high else 0.0
+
+    def is_wrong(self, least: float) -> bool:
+        """Return whether it is beyond a limit, or at one while its bodies need less there."""
+        if self.at:
+            return self.at * self.rhs < -least
+        return not self.low <= self.total <= self.high
+
+    def turn(self) -> None:
+        """Go to the limit that it is beyond, or leave the one it is at."""
+        self.at = 0.0 if self.at else -1.0 if self.total < self.low else 1.0
+
+
+def solve_within(
+    network: Network[Joint],
+    limited: list[Limited],
+    aim: Callable[[], None],
+    least: float,
+    has_moved: bool,
+) -> bool:
+    """Find the impulses of all rows together: those of `limited` stay within their limits.
+
+    aim sets each row's pivot and rhs, see Network.solve. Each turn solves for some rows, then lets
+    go of those beyond their limits, and takes those that still lack more than `least` px/s (block
+    pivoting, Júdice and Pires 1994). If that does not end, nothing changes. Return whether it did.
+    """
+    before = [(body, body.vx, body.vy, body.w) for body in bodies_of(network.joints)]
+    taken = dict.fromkeys(network.joints, 0.0)  # kg px/s
+    aim()
+    for row in limited:
+        row.begin(least)
+    fewest, patience = len(limited) + 1, TURNS
+    for _ in range(MOST_TURNS):
+        for row in limited:
+            if row.at:
+                j = row.excess()
+                taken[row] += j
+                row.take(j, has_moved)
+        aim()
+        for row in limited:
+            if row.at:
+                row.pivot, row.rhs = FREE, 0.0
+        network.solve()
+        for row in limited:
+            if row.at:
+                row.rhs = 0.0
+        for one in network.joints:
+            taken[one] += one.rhs
+            one.take(one.rhs, has_moved)
+        aim()
+        wrong = [row for row in limited if row.is_wrong(least)]
+        if not wrong:
+            return True
+        patience -= 1
+        if len(wrong) < fewest:
+            fewest, patience = len(wrong), TURNS
+        for row in wrong if patience > 0 else wrong[:1]:
+            row.turn()
+    for one, j in taken.items():
+        one.take(-j, has_moved)
+    for body, vx, vy, w in before:
+        body.vx, body.vy, body.w = vx, vy, w
+    return False
