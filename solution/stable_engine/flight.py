@@ -196,14 +196,10 @@ class Flight:
 
     def fly_frame(self, frame: Frame, seconds: float) -> None:
         """Let a frame fly and turn for a time, or back, as if it were rigid."""
-        mass = sum([b.m for b in frame.balls])
-        x = sum([b.m * b.x for b in frame.balls]) / mass
-        y = sum([b.m * b.y for b in frame.balls]) / mass
         ax, ay = self.acceleration(frame.balls[0])
         vx, vy = frame.velocity()
-        spin = sum([b.m * ((b.x - x) * (b.vy - vy) - (b.y - y) * (b.vx - vx)) for b in frame.balls])
-        inertia = sum([b.m * ((b.x - x) ** 2 + (b.y - y) ** 2) for b in frame.balls])
-        c, s = cos(spin / inertia * seconds), sin(spin / inertia * seconds)
+        x, y, spin = frame.spin(vx, vy)
+        c, s = cos(spin * seconds), sin(spin * seconds)
         way_x = x + (vx + ax * (self.h + seconds) / 2) * seconds
         way_y = y + (vy + ay * (self.h + seconds) / 2) * seconds
         for b in frame.balls:

@@ -553,7 +553,7 @@ class Rub(Hit):
 class Moment:
     """Rows and rods whose impulses belong to one moment."""
 
-    def __init__(self, rows: list[Hit], rods: list[Joint]) -> None:
+    def __init__(self, rows: Sequence[Hit], rods: list[Joint]) -> None:
         self.rows = rows
         self.rods = rods
 
@@ -567,16 +567,15 @@ class Moment:
 
 def resolve_at_once(rows: Sequence[Hit], rods: list[Joint], least: float) -> None:
     """Give the rows the impulses that they need together."""
-    moment = Moment(list(rows), rods)
+    moment = Moment(rows, rods)
     if len(rows) == 1 and not rods:
         [row] = rows
         row.aim()
         row.take(max(row.low, min(row.rhs * row.m, row.high)), True)
     elif rows:
         network: Network[Joint] = Network([*rows, *rods])
-        limited: list[Limited] = [*rows]
         for _ in range(2):  # the second takes back what firmness has left
-            solve_within(network, limited, moment.aim, least, True)
+            solve_within(network, rows, moment.aim, least, True)
 
 
 def seen_from_start(a: Body, b: Body) -> tuple[float, float, float]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import inf
 
 from .contact import Contact
@@ -66,7 +66,7 @@ class Limited(Joint):
 
 def solve_within(
     network: Network[Joint],
-    limited: list[Limited],
+    limited: Sequence[Limited],
     aim: Callable[[], None],
     least: float,
     has_moved: bool,

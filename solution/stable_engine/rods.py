@@ -349,14 +349,30 @@ class Frame:
         return sum([2 * b.m * (gx * b.x + gy * b.y) for b in self.balls])
 
     def scale_speeds(self, wanted: float) -> None:
-        """Scale the speeds about the centre of mass until twice their energy is `wanted`."""
+        """Scale the speeds about the centre of mass until twice their energy is `wanted`.
+
+        A frame that flies freely keeps its spin, and so its angular momentum: the rest is scaled.
+        """
         vx, vy = self.velocity()
-        energy = self.energy(vx, vy)
-        if energy > 0 and wanted != energy:
-            share = sqrt(max(wanted, 0.0) / energy)
-            for ball in self.balls:
-                ball.vx = vx + (ball.vx - vx) * share
-                ball.vy = vy + (ball.vy - vy) * share
+        x, y, spin = (0.0, 0.0, 0.0) if self.hangs else self.spin(vx, vy)
+        turning = [(vx - spin * (b.y - y), vy + spin * (b.x - x)) for b in self.balls]
+        pairs = list(zip(self.balls, turning, strict=True))
+        fixed = sum([b.m * ((tx - vx) ** 2 + (ty - vy) ** 2) for b, (tx, ty) in pairs])
+        energy = sum([b.m * ((b.vx - tx) ** 2 + (b.vy - ty) ** 2) for b, (tx, ty) in pairs])
+        if energy > 0 and wanted != energy + fixed:
+            share = sqrt(max(wanted - fixed, 0.0) / energy)
+            for b, (tx, ty) in pairs:
+                b.vx = tx + (b.vx - tx) * share
+                b.vy = ty + (b.vy - ty) * share
+
+    def spin(self, vx: float, vy: float) -> tuple[float, float, float]:
+        """Return the centre of mass (px), and the spin (rad/s) about it by angular momentum."""
+        mass = sum([b.m for b in self.balls])
+        x = sum([b.m * b.x for b in self.balls]) / mass
+        y = sum([b.m * b.y for b in self.balls]) / mass
+        turn = sum([b.m * ((b.x - x) * (b.vy - vy) - (b.y - y) * (b.vx - vx)) for b in self.balls])
+        inertia = sum([b.m * ((b.x - x) ** 2 + (b.y - y) ** 2) for b in self.balls])
+        return x, y, turn / inertia if inertia else 0.0
 
     def energy(self, vx: float, vy: float) -> float:
         """Return twice the balls' energy (kg px²/s²), measured relative to a velocity."""

@@ -4,7 +4,7 @@ from math import expm1, hypot
 
 from .body import Body, State, state_of
 from .joint import Joint, Joints
-from .network import Network, connect
+from .network import Network, bodies_of, connect
 from .validate import not_negative
 
 NUMEROV = 1 / 12  # of how the stretch curves in a substep: see Springs
@@ -185,15 +185,16 @@ class Springs(Joints[Spring]):
     def lag(self, seconds: float) -> None:
         """Add the pull of soft springs: that of a third of a substep before, as it changes.
 
-        Where springs are stiff, nothing lags.
+        Where any spring of a network is stiff, nothing lags: else momentum would not be kept.
         """
         self.find_networks()
         h = 2 * abs(seconds)
+        for network in self.networks:
+            if any([spring.is_stiff(h) for spring in network.joints]):
+                for body in bodies_of(network.joints):
+                    body.is_pressed = True
         for spring in self.awake:
             a, b = spring.end_a, spring.end_b
-            if spring.is_stiff(h):
-                a.is_pressed = b.is_pressed = True
-                continue
             fx, fy = spring.pull_between(state_of(a), state_of(b), h / 3)
             a.lag_x += fx * a.inv_mass * seconds
             a.lag_y += fy * a.inv_mass * seconds
