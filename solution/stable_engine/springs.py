@@ -9,6 +9,7 @@ from .validate import not_negative
 
 NUMEROV = 1 / 12  # of how the stretch curves in a substep: see Springs
 STIFF = 0.25  # a spring is stiff if (omega h)² and its damping in a substep are more than this
+SWAYS = 0.5  # rad², of a light ball between tight springs in a substep; less is left alone
 SMALL = 1e-3  # below it, a series is more exact than the quotient
 LEAST_DRAG = 1e-12  # share of the mass: a spring without drag would have no row in the network
 
@@ -19,7 +20,7 @@ class Spring(Joint):
     stiffness is force per px of stretch (kg/s²), damping is force per px/s (kg/s).
     """
 
-    __slots__ = ("c", "crowd", "drag", "j", "k", "pull", "rate", "vx", "vy")
+    __slots__ = ("c", "crowd", "drag", "j", "k", "pull", "rate", "tied", "vx", "vy")
     effect = "Springs"
 
     def __init__(
@@ -34,6 +35,7 @@ class Spring(Joint):
         self.j = 0.0  # kg px/s, accumulated impulse, positive when it pushes
         self.crowd = 0.0  # 1/s², its maximum omega², from all springs at its ends
         self.rate = 0.0  # 1/s, at which damping slows it at most, by all springs at its ends
+        self.tied = False  # whether any of its ends has another spring
         self.pull = 0.0  # kg px/s, from its stretch in a substep
         self.drag = 0.0  # kg, impulse per px/s between its ends
         self.vx = self.vy = 0.0  # px/s, of B as seen from A in the move before
@@ -74,6 +76,15 @@ class Spring(Joint):
         """Return whether it, with all springs at its ends, swings too fast for substeps of h s."""
         return (self.crowd * h + self.rate) * h > STIFF
 
+    def sway(self, h: float) -> float:
+        """Return the drag (kg) across it with which a light end swings no faster than h allows.
+
+        Between tight springs it might: then its swing would grow. Others need none.
+        """
+        tight = -self.j * h / self.distance if self.distance else 0.0  # kg
+        turn2 = 2 * tight / self.m  # rad², of that swing in a substep of h seconds, squared
+        return tight * (1 - 1 / (1 + (turn2 / 2) ** 6)) if turn2 > SWAYS else 0.0
+
     def pull_between(self, here: State, there: State, ago: float = 0.0) -> tuple[float, float]:
         """Return the force (kg px/s²) on an end with the state `here`, the other being `there`.
 
@@ -86,6 +97,19 @@ class Spring(Joint):
         nx, ny = dx / distance, dy / distance
         force = self.k * (distance - self.rest) + (self.c - self.k * ago) * (vx * nx + vy * ny)
         return force * nx, force * ny
+
+
+class Sway(Joint):
+    """The motion of the ends of a tight spring across it, as a row of a network."""
+
+    __slots__ = ()
+    effect = "Springs"
+
+    def __init__(self, spring: Spring, drag: float) -> None:
+        self.end_a, self.end_b, self.m = spring.end_a, spring.end_b, spring.m
+        self.nx, self.ny = -spring.ny, spring.nx
+        self.arm_a = self.arm_b = 0.0
+        self.pivot, self.rhs = 1 / self.m + 1 / drag, -self.speed()
 
 
 class Springs(Joints[Spring]):
@@ -146,6 +170,8 @@ class Springs(Joints[Spring]):
         for spring in self.awake:
             (k_a, c_a), (k_b, c_b) = sums[spring.end_a], sums[spring.end_b]
             spring.crowd, spring.rate = k_a + k_b, c_a + c_b
+            ends = spring.end_a, spring.end_b
+            spring.tied = any([not end.is_static and len(self.springs_of[end]) > 1 for end in ends])
 
     def pull(self, body: Body, h: float) -> tuple[float, float]:
         """Return the acceleration (px/s²) of a body by its springs that are not stiff."""
@@ -181,6 +207,12 @@ class Springs(Joints[Spring]):
         for spring in self.awake:
             spring.apply_impulse(spring.rhs)
             spring.j += spring.rhs
+        drags = [(spring, spring.sway(h)) for spring in self.awake if spring.tied]
+        sways = [Sway(spring, drag) for spring, drag in drags if drag]
+        for across in connect(sways) if sways else []:
+            across.solve()
+            for sway in across.joints:
+                sway.apply_impulse(sway.rhs)
 
     def lag(self, seconds: float) -> None:
         """Add the pull of soft springs: that of a third of a substep before, as it changes.
