@@ -534,15 +534,16 @@ class Contacts(Effect):
         for body in self.beside_static:
             self.stop_core(body, h)
         for _ in range(CORNER_PASSES if self.statics.contacts else 0):
-            put_back = []
+            ways: dict[Body, list[State]] = {}
             for c in self.statics.contacts:
                 a, b = c.a, c.b
                 gap = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny - c.reach + c.found - c.gap
-                if gap < -CORE * a.r and self.let_no_deeper(c, gap):
-                    put_back.append(a)
-            if not put_back:
+                if gap < -CORE * a.r:
+                    self.find_way_out(c, gap, ways)
+            if not ways:
                 break
-            for body in dict.fromkeys(put_back):
+            for body, ways_out in ways.items():
+                self.put_out(body, ways_out)
                 self.stop_core(body, h)
 
     def press(self, h: float) -> None:
@@ -593,25 +594,28 @@ class Contacts(Effect):
         if is_far and not (body.is_bullet or body.is_static):
             self.sweep(body, (body.last_x, body.last_y), CORE * body.r, 0.0, h)
 
-    def let_no_deeper(self, c: Contact, gap: float) -> bool:
-        """Put back and stop a ball whose core entered a static body, or went deeper into it.
+    def find_way_out(self, c: Contact, gap: float, ways: dict[Body, list[State]]) -> None:
+        """Note what puts back and stops a ball whose core entered a static body, or went deeper.
 
-        Return whether it did. `gap` is along the normal at the start of the step; past a corner
-        the new normal counts, unless the ball went through the body.
+        `gap` is along the normal at the start of the step; past a corner the new normal counts,
+        unless the ball went through the body.
         """
         a, b = c.a, c.b
         nx, ny, now = the_way_it_came(c, *collide(a, b))
         if nx * c.nx + ny * c.ny < SAME_DIRECTION and self.went_through(c):
             nx, ny, now = c.nx, c.ny, gap
         back = min(c.found, -CORE * a.r) - now
-        if back <= self.touching_gap:
-            return False
-        a.x -= nx * back
-        a.y -= ny * back
-        closing = max((a.vx - b.vx) * nx + (a.vy - b.vy) * ny, 0.0)
-        a.vx -= nx * closing
-        a.vy -= ny * closing
-        return True
+        if back > self.touching_gap:
+            closing = max((a.vx - b.vx) * nx + (a.vy - b.vy) * ny, 0.0)
+            way = nx * back, ny * back, nx * closing, ny * closing
+            ways.setdefault(a, []).append(way)
+
+    def put_out(self, body: Body, ways: list[State]) -> None:
+        """Take the mean of these ways off a body's state: in a V, none of them comes first."""
+        body.x -= sum([way[0] for way in ways]) / len(ways)
+        body.y -= sum([way[1] for way in ways]) / len(ways)
+        body.vx -= sum([way[2] for way in ways]) / len(ways)
+        body.vy -= sum([way[3] for way in ways]) / len(ways)
 
     def went_through(self, c: Contact) -> bool:
         """Return whether the centre of a ball was in a static body at any time in this step."""
