@@ -25,7 +25,7 @@ FAR = 0.5  # radii; where a ball moves by more in a substep, its contacts are ot
 PUSHED = 0.1  # share by which a contact gives way, per ratio: many firm ones have no solution
 FRAMED = 1.0  # the same where frames of rods press
 SOFTEST = 1e-2  # the most of both
-HARDEST = 1e-6  # the most in a tower, where firm ones do have a solution
+HARDEST = 1e-6  # the least of both, and all in a tower, where firm ones do have a solution
 RELAXED = 1e-3  # of that share, what is left after the move
 WEDGED = 0.9  # cosine; a ball between faces that turn less is pressed as by a heavier one
 PARALLEL = 1 - 1e-9  # cosine, of faces that are one
@@ -90,7 +90,8 @@ class Pile:
         masses = [body.m for body in self.bodies if body.m]
         ratio = max(max(masses) / min(masses), *[load.ratio for load in self.loads])
         for load in self.loads:
-            load.give = min((FRAMED if self.rods else PUSHED) / ratio, softest)
+            given = (FRAMED if self.rods else PUSHED) / ratio
+            load.give = max(min(given, softest), HARDEST)
         self.calm = CALM * unit / min(ratio, STEEPEST) ** 2  # px/s
         self.kept = [0.0] * len(self.rods)  # px/s
         self.is_wild = False  # whether its balls move far in this substep
