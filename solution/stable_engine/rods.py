@@ -357,8 +357,8 @@ class Frame:
         x, y, spin = (0.0, 0.0, 0.0) if self.hangs else self.spin(vx, vy)
         turning = [(vx - spin * (b.y - y), vy + spin * (b.x - x)) for b in self.balls]
         pairs = list(zip(self.balls, turning, strict=True))
-        fixed = sum([b.m * ((tx - vx) ** 2 + (ty - vy) ** 2) for b, (tx, ty) in pairs])
-        energy = sum([b.m * ((b.vx - tx) ** 2 + (b.vy - ty) ** 2) for b, (tx, ty) in pairs])
+        fixed = sum([b.m * squares(tx - vx, ty - vy) for b, (tx, ty) in pairs])
+        energy = sum([b.m * squares(b.vx - tx, b.vy - ty) for b, (tx, ty) in pairs])
         if energy > 0 and wanted != energy + fixed:
             share = sqrt(max(wanted - fixed, 0.0) / energy)
             for b, (tx, ty) in pairs:
@@ -371,12 +371,12 @@ class Frame:
         x = sum([b.m * b.x for b in self.balls]) / mass
         y = sum([b.m * b.y for b in self.balls]) / mass
         turn = sum([b.m * ((b.x - x) * (b.vy - vy) - (b.y - y) * (b.vx - vx)) for b in self.balls])
-        inertia = sum([b.m * ((b.x - x) ** 2 + (b.y - y) ** 2) for b in self.balls])
+        inertia = sum([b.m * squares(b.x - x, b.y - y) for b in self.balls])
         return x, y, turn / inertia if inertia else 0.0
 
     def energy(self, vx: float, vy: float) -> float:
         """Return twice the balls' energy (kg px²/s²), measured relative to a velocity."""
-        return sum([b.m * ((b.vx - vx) ** 2 + (b.vy - vy) ** 2) for b in self.balls])
+        return sum([b.m * squares(b.vx - vx, b.vy - vy) for b in self.balls])
 
     def energy_before(self, h: float) -> float:
         """Return the energy that the balls had before the rods acted in this substep.
@@ -501,6 +501,11 @@ class Frame:
             self.keep_energy()
         for rod in self.rods:
             rod.given += rod.rhs
+
+
+def squares(x: float, y: float) -> float:
+    """Return the sum of two squares. Powers are rounded in other ways in another unit."""
+    return x * x + y * y
 
 
 def may_touch(rod: Rod) -> bool:
