@@ -37,6 +37,7 @@ RESTING_SPEED = 30.0  # 1/s, a slower impact does not bounce
 SPECULATIVE_SPEED = 10.0  # 1/s, slower pairs get a contact before they touch
 CORE = 0.5  # radii
 FAR = 0.125  # of both radii; balls that approach by more in a step may have passed each other
+SEAM = 1e-9  # a squared sine; faces that turn less are one
 CORNER_PASSES = 4  # of keeping cores out: a ball put back may meet another static body
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
 CROWDED = 0.1  # radii, by which balls that bear a load overlap in a crowd
@@ -607,15 +608,18 @@ class Contacts(Effect):
         back = min(c.found, -CORE * a.r) - now
         if back > self.touching_gap:
             closing = max((a.vx - b.vx) * nx + (a.vy - b.vy) * ny, 0.0)
-            way = nx * back, ny * back, nx * closing, ny * closing
-            ways.setdefault(a, []).append(way)
+            ways.setdefault(a, []).append((back, closing, nx, ny))
 
     def put_out(self, body: Body, ways: list[State]) -> None:
-        """Take the mean of these ways off a body's state: in a V, none of them comes first."""
-        body.x -= sum([way[0] for way in ways]) / len(ways)
-        body.y -= sum([way[1] for way in ways]) / len(ways)
-        body.vx -= sum([way[2] for way in ways]) / len(ways)
-        body.vy -= sum([way[3] for way in ways]) / len(ways)
+        """Put a ball out along the two longest of these ways at once: in a V, neither is first."""
+        back, closing, nx, ny = max(ways)
+        ways.remove((back, closing, nx, ny))
+        if ways:
+            back_2, closing_2, x, y = max(ways)
+            back, back_2 = parts(back, back_2, nx * x + ny * y)
+            closing, closing_2 = parts(closing, closing_2, nx * x + ny * y)
+            push(body, x, y, back_2, closing_2)
+        push(body, nx, ny, back, closing)
 
     def went_through(self, c: Contact) -> bool:
         """Return whether the centre of a ball was in a static body at any time in this step."""
@@ -762,6 +766,24 @@ def turned(x: float, y: float, angle: float) -> tuple[float, float]:
     """Return a unit vector turned by a small angle (rad)."""
     length = sqrt(1 + angle * angle)
     return (x - angle * y) / length, (y + angle * x) / length
+
+
+def push(body: Body, nx: float, ny: float, back: float, closing: float) -> None:
+    """Move a ball back (px) along a normal, and take a speed (px/s) along it away."""
+    body.x -= nx * back
+    body.y -= ny * back
+    body.vx -= nx * closing
+    body.vy -= ny * closing
+
+
+def parts(one: float, other: float, cosine: float) -> tuple[float, float]:
+    """Return the lengths along two directions that together reach as far along both as asked."""
+    rest = 1 - cosine * cosine
+    if one <= cosine * other or rest < SEAM:
+        return (0.0, other) if other > one else (one, 0.0)
+    if other <= cosine * one:
+        return one, 0.0
+    return (one - cosine * other) / rest, (other - cosine * one) / rest
 
 
 def is_crowded(c: Contact) -> bool:

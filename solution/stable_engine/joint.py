@@ -120,6 +120,7 @@ class Joints(Effect, Generic[AnyJoint]):
     def add(self, joint: AnyJoint) -> None:
         self.joints.append(joint)
         self.awake.append(joint)
+        self.world.update_hooks()
 
     def remove(self, joint: AnyJoint) -> None:
         self.joints.remove(joint)
@@ -142,6 +143,9 @@ class Joints(Effect, Generic[AnyJoint]):
     def is_used(self) -> bool:
         return bool(self.joints)
 
+    def is_idle(self) -> bool:
+        return not self.awake
+
     def links(self) -> list[tuple[Body, Body]]:
         return [(joint.end_a, joint.end_b) for joint in self.awake]
 
@@ -154,4 +158,7 @@ class Joints(Effect, Generic[AnyJoint]):
         return []
 
     def awake_changed(self) -> None:
+        was_idle = self.is_idle()
         self.awake = [joint for joint in self.joints if not (joint.end_a.idle and joint.end_b.idle)]
+        if self.is_idle() != was_idle:
+            self.world.update_hooks()

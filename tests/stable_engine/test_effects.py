@@ -3,6 +3,8 @@
 import os
 import subprocess
 import sys
+from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -64,15 +66,21 @@ def opcodes_without(*arguments):
 
 @pytest.mark.parametrize("effect", ["Springs", "Rods", "Friction", "Bounce", "Bullets"])
 def test_a_declared_effect_without_users_costs_a_constant(effect):
-    few, many = (price_of(effect, flying(count)) for count in (10, 100))
-    assert few == many < 600
+    """Without gravity nothing else changes a velocity."""
+    for scene, base in product((flying, floating), ("Contacts", "Damping")):
+        if base == "Contacts" or effect in ("Springs", "Rods"):
+            few, many = (price_of(effect, scene(count), base) for count in (10, 100))
+            assert few == many < 600
 
 
-def price_of(effect, scene):
-    """Return the additional opcodes of a step when the effect is declared."""
-    base = ["Contacts"]
-    with_it = build(scene, *base, effect)
-    without = build(scene, *base)
+def floating(count):
+    return replace(flying(count), gravity=(0, 0))
+
+
+def price_of(effect, scene, base):
+    """Return the additional opcodes of a step when the effect is declared beside another."""
+    with_it = build(scene, base, effect)
+    without = build(scene, base)
     return opcodes_of_a_step(with_it) - opcodes_of_a_step(without)
 
 

@@ -1,6 +1,7 @@
 """Test rods and springs by energy and equilibrium."""
 
 import math
+import random
 from itertools import product
 
 import pytest
@@ -117,6 +118,54 @@ def test_a_star_of_springs_never_gains_energy(stiffness, damping, substeps):
     engine = Stable(scene, substeps)
     (ball,) = balls(engine.world)
     assert max(watch(engine, 5, lambda: math.hypot(ball.x, ball.y))) < 1.5 * math.hypot(5, 3)
+
+
+@pytest.mark.parametrize("effects", [("Springs",), ("Contacts", "Bounce", "Springs")])
+@pytest.mark.parametrize("seed", sample(range(12), 4))
+def test_springs_between_free_balls_keep_momentum(seed, effects):
+    """The centre of mass goes straight on, even where some springs are stiff and some soft."""
+    rng = random.Random(seed)
+    row = [
+        Ball((30 * i, 0), 6, 10 ** rng.uniform(-0.5, 0.5), vel=(0, rng.uniform(-1000, 1000)))
+        for i in range(rng.randint(3, 7))
+    ]
+    springs = [Spring(i, i + 1, 10 ** rng.uniform(1, 6), length=30) for i in range(len(row) - 1)]
+    engine = Stable(Scene(row, effects, springs=springs, gravity=(0, 0)))
+    mass = sum(ball.mass for ball in row)
+    start = sum(ball.mass * ball.pos[0] for ball in row) / mass
+    speed = sum(ball.mass * ball.vel[1] for ball in row) / mass
+    moving = balls(engine.world)
+    for step in range(1, 240):
+        engine.step(DT)
+        assert sum(b.m * b.x for b in moving) / mass == pytest.approx(start, abs=1e-6)
+        assert sum(b.m * b.y for b in moving) / mass == pytest.approx(speed * step * DT, abs=1e-6)
+
+
+LIGHT_AND_HEAVY = [
+    ((0.01, 0.2, 98), 3.8e6, 0, 4),
+    ((0.01, 1, 50), 1e6, 0, 4),
+    ((0.01, 0.1, 100), 1e6, 1, 1),
+    ((0.02, 13, 59, 0.33, 0.59), 7.8e6, 1e3, 4),
+]
+
+
+@pytest.mark.parametrize(("masses", "stiffness", "damping", "substeps"), LIGHT_AND_HEAVY)
+def test_light_balls_between_tight_springs_never_gain_energy(masses, stiffness, damping, substeps):
+    """A chain hangs at rest, where its energy is least. So it keeps at most what it is given."""
+    rng, y = random.Random(3), 0.0
+    row = [Ball((0, 0), 2, 0)]
+    for i, mass in enumerate(masses):
+        y += 30 + sum(masses[i:]) * G / stiffness
+        vel = rng.uniform(-30, 30), rng.uniform(-30, 30)
+        row.append(Ball((0, y), 4, mass, vel=vel))
+    springs = [Spring(i, i + 1, stiffness, damping, 30) for i in range(len(masses))]
+    engine = Stable(Scene(row, ("Springs",), springs=springs), substeps)
+    given = sum(ball.mass * math.hypot(*ball.vel) ** 2 / 2 for ball in row)
+
+    def kinetic():
+        return sum(ball.m * ball.vel.length_squared() / 2 for ball in balls(engine.world))
+
+    assert max(watch(engine, 5, kinetic)) <= 1.02 * given
 
 
 def path_of_a_pull(stiffness, damping):

@@ -7,7 +7,7 @@ import pytest
 from worlds_for_tests import make
 
 from experiments.scenes import DT, G
-from stable_engine import Body, Box, Circle, Rod, World
+from stable_engine import Body, Box, Circle, Rod, Segment, World
 
 RADIUS = 10.0  # px
 
@@ -177,3 +177,59 @@ def test_a_tower_does_not_sink(count):
     for _ in steps(world, 3):
         pass
     assert -2 * RADIUS * count + RADIUS == pytest.approx(tower[-1].y, abs=0.5)
+
+
+ANGLES = [2, 5, 10, 45, 80, 85, 88]
+
+
+def v_of_segments(degrees, names, **surface):
+    """Make a V, its sides so many degrees from level, and a ball above. Mirrored about x = 0."""
+    world = World((0, G), effects=make(names))
+    across, down = (800 * f(math.radians(degrees)) for f in (math.cos, math.sin))
+    for side in (-1, 1):
+        world.add(Body(Segment((side * across, -down), (0, 0)), **surface))
+    height = 100 + 20 / math.cos(math.radians(degrees))
+    return world, world.add(Body(Circle(20), (0, -height), 1.0, **surface))
+
+
+@pytest.mark.parametrize("degrees", ANGLES)
+@pytest.mark.parametrize(("restitution", "friction"), [(0, 0), (0.5, 0), (0.5, 0.5)])
+def test_a_ball_comes_to_rest_in_the_middle_of_any_v(degrees, restitution, friction):
+    """Its weight presses the faces of a narrow V hard; nothing pushes it to one side.
+
+    Friction is solved by passes, and in a flat V a few are left.
+    """
+    names = ("Contacts", "Bounce", "Friction")
+    world, ball = v_of_segments(degrees, names, restitution=restitution, friction=friction)
+    dropped = G * -ball.y
+    for _ in steps(world, 10):
+        energy = (ball.vel.length_squared() + 200 * ball.omega**2) / 2 - G * ball.y
+        assert energy <= dropped * (1 + 1e-9)
+        assert abs(ball.vel.x) <= (1e-6 if friction else 1e-9) * math.sqrt(2 * G * 100)
+    assert ball.vel.length() < 0.1
+
+
+@pytest.mark.parametrize("degrees", ANGLES[2:5])
+@pytest.mark.parametrize("names", [("Contacts",), ("Contacts", "Bounce", "Friction")])
+def test_a_ball_thrown_into_a_v_leaves_along_the_middle(degrees, names):
+    """Without Bounce both faces stop its core; with it, both impacts are one."""
+    surface = {"restitution": 0.8, "friction": 0.3} if "Bounce" in names else {}
+    world, ball = v_of_segments(degrees, names, **surface)
+    ball.vel = (0, 3000)
+    for _ in steps(world, 1):
+        assert abs(ball.vel.x) <= 1e-9 * 3000
+
+
+@pytest.mark.parametrize("mass", [1.0, 8.124])
+def test_a_ball_squeezed_by_a_press_stays_where_it_is(mass):
+    """Its two contacts ask for opposite speeds, so no impulses satisfy both."""
+    world = world_with_floor(("Contacts", "Bounce", "Friction", "Kinematics"))
+    ball = add_ball(world, 0, -RADIUS, mass)
+    press = world.add(Body(Box((40, 8)), (0, -50), kinematic=True))
+    press.vel = (0, 50)
+    for _ in steps(world, 3):
+        if press.y > -24:
+            press.vel = (0, 0)
+    assert ball.x == pytest.approx(0, abs=1e-6)
+    assert -RADIUS <= ball.y < RADIUS
+    assert ball.vel.length() < 0.1

@@ -1,5 +1,7 @@
 """Test the same scene in other units of length, and the speeds at which bodies sleep."""
 
+from itertools import pairwise
+
 import pytest
 
 from experiments.measures import watch
@@ -51,6 +53,30 @@ def test_a_scene_in_another_unit_moves_the_same(length, names):
         for a, b in zip(pixels.bodies, other.bodies, strict=True):
             assert (b.x / length, b.y / length) == pytest.approx((a.x, a.y), abs=1e-7, rel=1e-9)
             assert a.asleep == b.asleep
+
+
+@pytest.mark.parametrize("length", [1 / 128, 16.0])
+@pytest.mark.parametrize("speed", [200.0, 2000.0])
+def test_powers_of_two_change_no_bit(length, speed):
+    """In such units every number has the same digits, so nothing may depend on the unit."""
+
+    def thrown(unit):
+        world = World((0, G * unit), 4, [Contacts(), Friction(), Bounce(), Rods()], unit=unit)
+        world.add(Body(Box((400 * unit, 20 * unit)), (0, 120 * unit), 0, 0.6, 0.4))
+        spots = [(25 * i * unit, -10 * i * i * unit) for i in range(6)]
+        row = [world.add(Body(Circle(6 * unit), spot, 1.0, 0.6, 0.4)) for spot in spots]
+        for i, ball in enumerate(row):
+            ball.vel = (speed * unit * (-1) ** i, speed * unit / (i + 1))
+        for a, b in pairwise(row):
+            world.add(Rod(a, b))
+        return world
+
+    pixels, other = thrown(1.0), thrown(length)
+    for _ in range(240):
+        pixels.step(DT)
+        other.step(DT)
+        for a, b in zip(pixels.bodies, other.bodies, strict=True):
+            assert (b.x / length, b.y / length, b.w) == (a.x, a.y, a.w)
 
 
 # ---------------------------------------------------------------- sleep
