@@ -15,6 +15,7 @@ from .loads import (
     LEANING,
     SUNK,
     TALL,
+    TIED,
     Pile,
     Stage,
     find_piles,
@@ -361,7 +362,8 @@ class Contacts(Effect):
                 is_upright = abs(nx * gy - ny * gx) * h < LEANING * weight
                 is_tall = is_tall or (is_upright and a.touches <= 2 and b.touches <= 2)
             else:
-                is_deep = is_deep or c.gap < -DEEP * c.reach
+                is_tied = a.joint_count > 0 or b.joint_count > 0
+                is_deep = is_deep or c.gap < -(TIED if is_tied else DEEP) * (a.r + b.r)
         self.piles = self.find_piles(is_heavy, is_deep)
         if is_tall:
             self.piles += find_towers(self.touching, self.piles, tall, weight, self.world.unit)
@@ -379,7 +381,7 @@ class Contacts(Effect):
                 loads[body] = hypot(fx, fy) / pull
         is_heavy = is_heavy or bool(loads)
         frames = []
-        if isinstance(rods, Joints) and (is_heavy or rods.any_heavy()):
+        if isinstance(rods, Joints) and (is_heavy or is_deep or rods.any_heavy()):
             is_heavy, frames = True, rods.frame_loads()
             for frame, load in frames:
                 loads.update({body: load for rod in frame for body in (rod.end_a, rod.end_b)})

@@ -16,6 +16,7 @@ LEANING = 0.1  # a sine; a tower leans less
 SUNK = 0.01  # in units of the world; a contact that gives way by less sinks too little to be seen
 BEARING = 0.05  # weights of its effective mass; a contact with less bears nothing
 DEEP = 0.05  # of both radii; balls that overlap by more were thrown at each other
+TIED = 0.005  # the same for balls on rods: these take over what a push leaves
 RESTING = 30.0  # 1/s, in units of the world; a ball that bounces faster is left to impacts
 CALM = 0.5  # 1/s, in units of the world, by the square of that ratio: passes may leave this speed
 STEEPEST = 1000.0  # a larger ratio counts as this, or rounding would decide what presses
@@ -159,7 +160,7 @@ def find_piles(
     that of the world.
     """
     ratios = [ratio_of(c, loads) if loads else c.ratio for c in contacts]
-    firsts = find_firsts(contacts, ratios, unit)
+    firsts = find_firsts(contacts, ratios, loads, unit)
     if not firsts:
         return []
     count = len(contacts)
@@ -201,14 +202,19 @@ def find_wedged(contacts: list[Contact]) -> dict[Body, float]:
     return wedged
 
 
-def find_firsts(contacts: list[Contact], ratios: list[float], unit: float) -> list[tuple[int, int]]:
+def find_firsts(
+    contacts: list[Contact], ratios: list[float], loads: dict[Body, float], unit: float
+) -> list[tuple[int, int]]:
     """Return the places of contacts that make a pile, each with the most rows it may have."""
     heavy: list[tuple[int, int]] = []
     deep: list[tuple[int, int]] = []
     for place, (c, ratio) in enumerate(zip(contacts, ratios, strict=True)):
-        if ratio > HEAVY and (not c.e or abs(c.closing_speed()) < RESTING * unit):
+        is_deep = c.gap < -DEEP * (c.a.r + c.b.r)
+        is_tied = (c.a in loads or c.b in loads) and c.gap < -TIED * (c.a.r + c.b.r)
+        is_slow = not c.e or abs(c.closing_speed()) < RESTING * unit
+        if (ratio > HEAVY or is_tied) and is_slow:
             heavy.append((place, MOST_ROWS))
-        elif c.gap < -DEEP * c.reach and c.b.inv_mass and not c.e:
+        elif is_deep and c.b.inv_mass and not c.e:
             deep.append((place, FEW_ROWS))
     return heavy + deep
 
