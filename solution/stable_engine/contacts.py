@@ -657,7 +657,8 @@ class Contacts(Effect):
             statics = [s for s in statics if pair_number(body, s) not in self.ignored]
         x, y = start
         dx, dy = body.x - x, body.y - y
-        fraction = first_hit(statics, radius, x, y, dx, dy)
+        # smaller by a little, or rounding would decide whether a ball that slides along is stopped
+        fraction = first_hit(statics, radius - self.touching_gap, x, y, dx, dy)
         if fraction < NO_HIT:
             fraction += overlap / hypot(dx, dy)
         if fraction < 1:

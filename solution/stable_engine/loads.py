@@ -30,6 +30,7 @@ HARDEST = 1e-6  # the least of both, and all in a tower, where firm ones do have
 RELAXED = 1e-3  # of that share, what is left after the move
 WEDGED = 0.9  # cosine; a ball between faces that turn less is pressed as by a heavier one
 PARALLEL = 1 - 1e-9  # cosine, of faces that are one
+OPPOSITE = -0.5  # cosine; faces that turn further apart clamp what is between them
 LEVEL = 1e-6  # a sine; contacts that rise by less do not bear what is above
 
 
@@ -183,7 +184,8 @@ def find_piles(
             if most == MOST_ROWS or not any([body.joint_count for body in bodies]):
                 rows = [Load(contacts[at], ratios[at]) for at in places if at < count]
                 held = [rods[at - count] for at in places if at >= count]
-                piles.append(Pile(rows, held, unit, SOFTEST))
+                if not is_clamped(rows):
+                    piles.append(Pile(rows, held, unit, SOFTEST))
     return piles
 
 
@@ -248,8 +250,19 @@ def find_towers(
                     for c in rows
                     if c.jn > BEARING * weight * c.mn
                 ]
-                towers.append(Pile(loads, [], unit, HARDEST))
+                if not is_clamped(loads):
+                    towers.append(Pile(loads, [], unit, HARDEST))
     return towers
+
+
+def is_clamped(loads: list[Load]) -> bool:
+    """Return whether a kinematic body presses balls against another body that does not give way.
+
+    Then no impulses can stop the balls: a solution of all at once would grow without end.
+    """
+    firm = [load.c for load in loads if not load.c.b.inv_mass]
+    presses = [c for c in firm if c.b.is_kinematic]
+    return any([p.nx * c.nx + p.ny * c.ny < OPPOSITE for p in presses for c in firm])
 
 
 def ratio_of(c: Contact, loads: dict[Body, float]) -> float:

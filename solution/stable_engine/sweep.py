@@ -127,6 +127,6 @@ def hit_point(reach: float, x: float, y: float, dx: float, dy: float) -> float:
     """Return the time at which a ball at (x, y) from a point comes within reach (px)."""
     length2, ahead, outside = dx * dx + dy * dy, x * dx + y * dy, x * x + y * y - reach * reach
     root2 = ahead * ahead - length2 * outside
-    if outside <= 0 or ahead >= 0 or root2 < 0:
+    if outside <= 0 or ahead >= 0 or root2 < 0 or length2 == 0:
         return NO_HIT
     return (-ahead - sqrt(root2)) / length2
