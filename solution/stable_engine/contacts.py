@@ -657,9 +657,10 @@ class Contacts(Effect):
             statics = [s for s in statics if pair_number(body, s) not in self.ignored]
         x, y = start
         dx, dy = body.x - x, body.y - y
-        # smaller by a little, or rounding would decide whether a ball that slides along is stopped
+        # a little smaller, or rounding would decide whether a ball that slides along is stopped
         fraction = first_hit(statics, radius - self.touching_gap, x, y, dx, dy)
         if fraction < NO_HIT:
+            fraction = min(fraction, first_hit(statics, radius, x, y, dx, dy))
             fraction += overlap / hypot(dx, dy)
         if fraction < 1:
             end = state_of(body)
