@@ -71,6 +71,7 @@ class Impacts:
         self.counts: dict[Contact, int] = {}  # of impacts so far
         self.fastest = 0.0  # px/s, of all impacts
         self.stops: dict[Body, State] = {}  # where walls stopped balls that `passes` let fly on
+        self.beside: dict[Body, list[Contact]] = {}  # the contacts of each ball
         self.near: dict[Body, list[Pair]] = {}  # of balls that were hit
         self.flight = Flight(contacts, rods, springs, h)
         self.frame_of = self.flight.frame_of
@@ -90,7 +91,7 @@ class Impacts:
 
         They are moved back to the touch from there, so no time is lost.
         """
-        self.link()
+        self.link(self.touching)
         contacts = self.contacts
         for body, (stop, end) in contacts.ends.items():
             if state_of(body) == stop:
@@ -213,7 +214,8 @@ class Impacts:
 
     def resolve_all(self) -> None:
         """Resolve all impacts, and those that they cause, until no pair closes in fast."""
-        self.link()
+        if not self.beside:
+            self.link(self.touching)
         while self.due:
             self.resolve_first()
         self.put_back(list(self.stops))
@@ -355,16 +357,14 @@ class Impacts:
                 nx, ny, gap = face_x, face_y, below
         c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
 
-    def link(self) -> None:
-        """Find the contacts of each ball, and the balls that static bodies hold."""
-        self.beside: dict[Body, list[Contact]] = {}
-        for c in self.touching:
+    def link(self, contacts: list[Contact]) -> None:
+        """Add to the contacts of each ball, and to the balls that static bodies hold."""
+        for c in contacts:
             self.beside.setdefault(c.a, []).append(c)
             if not c.b.is_static:
                 self.beside.setdefault(c.b, []).append(c)
-        self.flight.held = {
-            c.a for c in self.touching if c.b.is_static and (c not in self.faces or c.a.is_bullet)
-        }
+            elif c not in self.faces or c.a.is_bullet:
+                self.flight.held.add(c.a)
 
     def follow(self, moved: list[Body]) -> None:
         """Find the near pairs of bodies that impacts have moved, if out of their rooms."""
@@ -398,7 +398,7 @@ class Impacts:
         self.begun.update(met)
         for c in met:
             self.note_face(c, 0.0)
-        self.link()
+        self.link(met)
         for body in hit:
             end = self.flight.cut_short.get(body)
             if end and any([c.a is body and c.b.is_static for c in met]):

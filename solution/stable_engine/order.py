@@ -10,6 +10,7 @@ from .body import Body
 from .contact import Contact
 
 PLACE = attrgetter("place")
+FEW = 0.1  # share of the contacts in order; so many new ones are put in one by one
 LEFT = 1e-9  # share of an impulse that is nothing but rounding
 
 
@@ -128,13 +129,15 @@ def put_in_order(group: Group, grain: float, is_mirrored: bool) -> bool:
         return group.is_mirrored
     turn, group.turn = group.turn, group.turn + 1
     new = [c for c in group.contacts if c.turn != turn]
-    new.sort(key=PLACE)
     for c in group.contacts:
         c.turn = group.turn
     kept = [c for c in group.sorted if c.turn == group.turn]
-    for c in new if kept else []:
-        insort(kept, c, key=PLACE)
-    group.sorted = kept or new
+    if len(new) <= FEW * len(kept):
+        for c in new:
+            insort(kept, c, key=PLACE)
+    else:
+        kept = sorted(kept + new, key=PLACE)
+    group.sorted = kept
     group.ordered, group.in_turn, group.ties = group.contacts, group.sorted, []
     group.is_mirrored = False
     if is_mirrored:
