@@ -82,7 +82,10 @@ class Pile:
     ball below has mass m. So what a pass leaves is solved exactly, for the contacts that press.
     """
 
-    __slots__ = ("bodies", "calm", "is_wild", "kept", "loads", "network", "rods", "rows", "stage")
+    __slots__ = (
+        *("bodies", "calm", "is_light", "is_wild", "kept", "loads", "network", "rods", "rows"),
+        "stage",
+    )
 
     def __init__(self, loads: list[Load], rods: list[Joint], unit: float, softest: float) -> None:
         self.loads = loads
@@ -96,6 +99,7 @@ class Pile:
             load.give = max(min(given, softest), HARDEST)
         self.calm = CALM * unit / min(ratio, STEEPEST) ** 2  # px/s
         self.kept = [0.0] * len(self.rods)  # px/s
+        self.is_light = bool(rods) and ratio <= HEAVY  # then passes push apart, calmly
         self.is_wild = False  # whether its balls move far in this substep
         self.network: Network[Joint] | None = None  # of all rows, once it was needed
 
@@ -122,7 +126,7 @@ class Pile:
 
     def settle(self, stage: Stage) -> None:
         """Solve for all impulses, if a pass has left more than a calm speed."""
-        if self.is_wild:
+        if self.is_wild or (self.is_light and not stage.has_moved):
             return
         self.stage = stage
         if stage.has_moved:
