@@ -1,5 +1,6 @@
 """Impacts: their order, those at one moment, and the positions afterwards."""
 
+from bisect import insort
 from collections.abc import Sequence
 from heapq import heappop, heappush
 from math import hypot, inf, sqrt
@@ -68,6 +69,7 @@ class Impacts:
         self.slow = slow  # px/s, slower impacts are ignored
         self.due: dict[Contact, Impact] = {}
         self.queue: list[Entry] = []  # of those due, the earliest first
+        self.early: list[Entry] = []  # of those due, at the moment that was taken last
         self.counts: dict[Contact, int] = {}  # of impacts so far
         self.fastest = 0.0  # px/s, of all impacts
         self.stops: dict[Body, State] = {}  # where walls stopped balls that `passes` let fly on
@@ -438,22 +440,17 @@ class Impacts:
 
     def take_first(self) -> tuple[list[Contact], float]:
         """Return the hardest of the earliest impacts, and how long (s) ago they touched."""
-        due, queue = self.due, self.queue
-        early: list[Entry] = []
-        while not early:
-            self.take(early)
+        due = self.due
+        early = self.find_early()
         earliest = early[0][0]
-        while queue and (queue[0][0] - earliest) * self.fastest <= self.touching_gap:
-            self.take(early)
         group = [early[0][2]]
+        self.early = []
         if len(early) > 1:
             # touching_gap in px/s as well: rounding would decide between slow ones
             hard = max([due[c].speed for _, _, c in early])
             hard -= max(SAME * self.fastest, self.touching_gap)
             group = [c for _, _, c in early if due[c].speed >= hard]
-            for entry in early:
-                if due[entry[2]].speed < hard:
-                    heappush(queue, entry)
+            self.early = [entry for entry in early if due[entry[2]].speed < hard]
         for c in group:
             if self.contacts.crowd:
                 self.contacts.crowd.pop(c, None)  # they overlapped because they met
@@ -461,12 +458,22 @@ class Impacts:
             self.counts[c] = self.counts.get(c, 0) + 1
         return group, -earliest
 
-    def take(self, early: list[Entry]) -> None:
-        """Move the first entry of the queue to these, unless it is over or was found anew."""
-        entry = heappop(self.queue)
+    def find_early(self) -> list[Entry]:
+        """Return the earliest impacts, in order: first those left of the moment before."""
+        queue, fastest, gap = self.queue, self.fastest, self.touching_gap
+        early = [entry for entry in self.early if self.is_due(entry)]
+        while queue and (not early or (queue[0][0] - early[0][0]) * fastest <= gap):
+            entry = heappop(queue)
+            if self.is_due(entry):
+                insort(early, entry)
+        while (early[-1][0] - early[0][0]) * fastest > gap:
+            heappush(queue, early.pop())
+        return early
+
+    def is_due(self, entry: Entry) -> bool:
+        """Return whether an entry of the queue is neither over nor found anew."""
         impact = self.due.get(entry[2])
-        if impact and impact.number == entry[1]:
-            early.append(entry)
+        return impact is not None and impact.number == entry[1]
 
     def frames_of(self, group: list[Contact]) -> list[Frame]:
         """Return each frame of rods that a ball of these contacts is in."""
