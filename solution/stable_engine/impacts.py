@@ -574,12 +574,12 @@ class Moment:
 
 def resolve_at_once(rows: Sequence[Hit], rods: list[Joint], least: float) -> None:
     """Give the rows the impulses that they need together."""
-    moment = Moment(rows, rods)
     if len(rows) == 1 and not rods:
-        [row] = rows
+        row = rows[0]
         row.aim()
         row.take(max(row.low, min(row.rhs * row.m, row.high)), True)
     elif rows:
+        moment = Moment(rows, rods)
         network: Network[Joint] = Network([*rows, *rods])
         for _ in range(2):  # the second takes back what firmness has left
             solve_within(network, rows, moment.aim, least, True)

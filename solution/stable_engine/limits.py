@@ -27,7 +27,8 @@ class Limited(Joint):
     def __init__(self, c: Contact) -> None:
         self.c = c
         self.end_a, self.end_b, self.nx, self.ny = c.a, c.b, c.nx, c.ny
-        if c.b.inv_mass and (c.b.x, c.b.y) < (c.a.x, c.a.y):
+        a, b = c.a, c.b
+        if b.inv_mass and (b.x < a.x or (b.x == a.x and b.y < a.y)):
             self.end_a, self.end_b, self.nx, self.ny = c.b, c.a, -c.nx, -c.ny
         self.arm_a = self.arm_b = 0.0
         self.pivot = self.rhs = 0.0
