@@ -17,7 +17,7 @@ from unittest import mock
 from mini_engine import contacts as lesson_contacts
 from mini_engine import joints, solver, world
 from mini_engine.bonus.world import with_bonus
-from stable_engine import contact, contacts, friction, rods, springs, sweep
+from stable_engine import contact, contacts, friction, rods, sleep, springs, sweep
 
 from . import effects_report
 from .engines import Lesson, Stable, State
@@ -32,6 +32,7 @@ HEAPS = (40, 200, 400)  # balls, for the two bonus tasks that save work
 LULL = 1.25  # s, after which a pile at rest is asleep
 USERS = 10  # rods, springs, bullets
 WARM_UP = 40  # steps before counting: rooms adapt to motion
+COUNTED = sleep.TWO_LOOKS  # steps: Sleep looks at two of them
 DAMPING = (0.05, 0.3)  # 1/s
 OUT = Path("build/effects")
 
@@ -217,15 +218,16 @@ LESSON_WORK = [
 ]
 
 
-def count(repeated, work):
-    """Count the opcodes of one step, by file, and the work that it did."""
-    engine = repeated.engine
-    repeated.reset()
-    by_file = count_opcodes(lambda: engine.world.step(DT))
+def count(repeated, work, steps=1):
+    """Return the opcodes of a step, the mean of so many, and the work that one more step does."""
+    engine, opcodes = repeated.engine, 0
+    for _ in range(steps):
+        repeated.reset()
+        opcodes += sum(count_opcodes(lambda: engine.world.step(DT)).values())
     repeated.reset()
     done = count_calls(lambda: engine.world.step(DT), work)
     done = {"contacts": engine.contacts() if done["contact solves"] else 0, **done}
-    return {"opcodes": sum(by_file.values()), "by_file": dict(by_file), "done": done}
+    return {"opcodes": round(opcodes / steps), "done": done}
 
 
 # ---------------------------------------------------------------- the lists
@@ -235,14 +237,11 @@ def list_prices(balls):
     """Return the rows of the price list for a pile of so many balls."""
     heap = settled(balls)
     scenes = {"pile": heap, "still": heap, "asleep": heap, "flying": with_fliers(heap)}
-    cases = {}
-    for row in ROWS:
-        for effects in (row.effects, row.base):
-            if effects is not None and (row.scene, effects) not in cases:
-                scene = replace(scenes[row.scene], effects=effects)
-                cases[row.scene, effects] = RepeatedStep(Stable(scene), row.scene)
-    counted = {key: count(repeated, STABLE_WORK) for key, repeated in cases.items()}
-    listed = []
+    counted, listed = {}, []
+    for kind, effects in {(row.scene, each) for row in ROWS for each in (row.effects, row.base)}:
+        if effects is not None:
+            engine = Stable(replace(scenes[kind], effects=effects))
+            counted[kind, effects] = count(RepeatedStep(engine, kind), STABLE_WORK, COUNTED)
     for row in ROWS:
         key, base = (row.scene, row.effects), (row.scene, row.base)
         less = counted[base]["opcodes"] if row.base is not None else 0
@@ -306,6 +305,7 @@ def measure(sizes=SIZES, heaps=HEAPS):
     progress.end()
     return {
         "python": platform.python_version(),
+        "steps": COUNTED,
         "middle": str(middle),
         "stacked": STACKED,
         "prices": prices,

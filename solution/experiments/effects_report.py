@@ -6,7 +6,7 @@ from .table import Table, number
 def make_tables(results):
     middle = results["middle"]
     return [
-        tabulate_prices(results["prices"]),
+        tabulate_prices(results["prices"], results["steps"]),
         tabulate_lesson(results["lesson"], middle),
         tabulate_bonus(results["bonus"]),
     ]
@@ -16,14 +16,15 @@ def in_thousands(opcodes):
     return number(opcodes / 1000) if opcodes < 1e6 else f"{opcodes / 1000:,.0f}"
 
 
-def tabulate_prices(prices):
+def tabulate_prices(prices, steps):
     heads = ["effect", "on top of", *(f"{balls} balls" for balls in prices)]
     rows = []
     for lines in zip(*prices.values(), strict=True):
         base = lines[0]["base"]
         below = "" if base is None else " and ".join(base).lower() or "move only"
         rows.append([lines[0]["title"], below, *(in_thousands(line["price"]) for line in lines)])
-    return Table("The price of each effect, in thousands of opcodes a step", heads, rows)
+    note = f"Each number is the mean of {steps} steps: Sleep looks at the balls in two of them."
+    return Table("The price of each effect, in thousands of opcodes a step", heads, rows, note)
 
 
 def tabulate_lesson(lines, middle):
@@ -34,10 +35,8 @@ def tabulate_lesson(lines, middle):
 
 def tabulate_bonus(sizes):
     """Show the price of a step before and after each bonus task, a row per pile."""
-    heads, rows = ["balls"], []
-    for balls, lines in sizes.items():
-        rows.append([balls, *(in_thousands(line["opcodes"]) for line in lines)])
-    heads += [line["title"] for line in lines]
+    heads = ["balls", *(line["title"] for line in next(iter(sizes.values())))]
+    rows = [[n, *(in_thousands(line["opcodes"]) for line in lines)] for n, lines in sizes.items()]
     return Table("Your engine with bonus tasks, in thousands of opcodes a step", heads, rows)
 
 

@@ -1,14 +1,15 @@
 """The leaderboard: every engine on every row, at equal substeps and at equal time.
 
     python -m experiments.leaderboard [--quick] [--only WORDS] [--markdown FILE]
-    python -m experiments.leaderboard --renew stable compiled --markdown FILE
+    python -m experiments.leaderboard --renew [ENGINE ...] --markdown FILE
 
 At equal substeps each engine makes four substeps of 1/480 s in each step of 1/120 s. At equal time
 each makes as many as fit into a millisecond of processor time per frame of 1/60 s: at least one,
 at most 64. All engines run a row before the next one begins, so a slow minute hits them alike.
 The exit status is 1 when the stable engine loses a row, at equal substeps, for no known reason.
 
-After a change of one engine, --renew asks that engine alone, and the others keep their results.
+Rows that every engine holds show nothing, so they are not counted. After a change of one engine,
+--renew asks that engine alone, and the others keep their results.
 """
 
 import argparse
@@ -30,6 +31,7 @@ TRIES = 2  # tries to find how many substeps fit
 FRAMES = 60  # per second
 MODES = {"substeps": "at equal substeps", "time": "at equal time"}
 PAGE = "hard-cases.md"  # the handout, and the name of its lines in results.json
+HELD = "rows that every engine holds"  # kept apart in results.json
 
 
 class Trial:
@@ -125,7 +127,7 @@ def renew(rows, contestants, recorded):
     An engine is asked in the modes in which it was recorded. Other engines have no cell in new
     rows. Return the cells of all rows, and the engines, recorded ones included.
     """
-    cells = recorded["rows"]
+    cells = recorded["rows"] | recorded.get(HELD, {})
     asked = run(rows, contestants, cells)
     found = {title: {**read_cells(cells.get(title, {})), **new} for title, new in asked.items()}
     words = {key.removesuffix(": name"): words for key, words in recorded[PAGE].items()
@@ -154,25 +156,26 @@ def read_number(text):
 # ---------------------------------------------------------------- what comes of it
 
 
-def count_held(rows, found, name, mode):
+def find_losers(row, found, mode="substeps"):
+    """Return the errors of the engines that lose a row."""
+    errors = {name: cell[mode] for name, cell in found[row.title].items() if mode in cell}
+    return {name: error for name, error in errors.items() if not holds(row, error)}
+
+
+def count_held(rows, found, name, mode="substeps"):
     """Return how many of its rows an engine holds, and how many rows it has."""
-    mine = [(row, found[row.title][name]) for row in rows if name in found[row.title]]
-    mine = [(row, cell[mode]) for row, cell in mine if mode in cell]
-    return sum(holds(row, error) for row, error in mine), len(mine)
+    mine = [row for row in rows if mode in found[row.title].get(name, {})]
+    return sum(name not in find_losers(row, found, mode) for row in mine), len(mine)
 
 
-def tell_count(rows, found, name, mode):
+def tell_count(rows, found, name, mode="substeps"):
     held, asked = count_held(rows, found, name, mode)
     return f"{held} of {asked}" if asked else "-"
 
 
-def find_lost(rows, found, name="stable", mode="substeps"):
-    """Return the rows that an engine loses."""
-    return [
-        row
-        for row in rows
-        if name in found[row.title] and not holds(row, found[row.title][name][mode])
-    ]
+def find_lost(rows, found):
+    """Return the rows that the stable engine loses at equal substeps."""
+    return [row for row in rows if "stable" in find_losers(row, found)]
 
 
 def make_tables(subjects, found, contestants):
@@ -183,10 +186,7 @@ def make_tables(subjects, found, contestants):
     held = [[words[name], *(tell_count(rows, found, name, mode) for mode in MODES)]
             for name in ranked]  # fmt: skip
     by_subject = [
-        [
-            f"{subject} ({len(some)})",
-            *(tell_count(some, found, name, "substeps") for name in ranked),
-        ]
+        [f"{subject} ({len(some)})", *(tell_count(some, found, name) for name in ranked)]
         for subject, some in subjects.items()
         if some
     ]
@@ -202,7 +202,7 @@ def make_tables(subjects, found, contestants):
 
 
 def share_held(rows, found, name):
-    held, asked = count_held(rows, found, name, "substeps")
+    held, asked = count_held(rows, found, name)
     return held / asked if asked else 0.0
 
 
@@ -229,11 +229,13 @@ def tell_loss(row, cells):
 
 def list_lines(rows, found, contestants):
     """Return the counts by name, for results.json and the claims of the page."""
-    held = [[holds(row, cell["substeps"]) for cell in found[row.title].values()] for row in rows]
+    timed = [row for row in rows if any("time" in cell for cell in found[row.title].values())]
+    hopeless = [r for r in rows if len(find_losers(r, found)) == len(found[r.title])]
     lines = {
         "rows": len(rows),
-        "rows that every engine holds at equal substeps": sum(map(all, held)),
-        "rows that no engine holds at equal substeps": sum(not any(each) for each in held),
+        "rows at equal time": len(timed),
+        "rows that no engine holds at equal substeps": len(hopeless),
+        HELD: len(found) - len(rows),
     }
     for one in contestants:
         lines[f"{one.name}: name"] = one.words
@@ -241,6 +243,15 @@ def list_lines(rows, found, contestants):
             held, asked = count_held(rows, found, one.name, mode)
             lines |= {f"{one.name}: rows held {words}": held, f"{one.name}: rows {words}": asked}
     return lines
+
+
+def say_counts(lines):
+    """Return a sentence for each of the counts."""
+    return (
+        f"{lines['rows']} rows count: some engine loses each. {lines['rows at equal time']} of "
+        f"them were asked at equal time too. Every engine holds {lines[HELD]} more rows. Those "
+        "show nothing, so they do not count; tests still ask them of the stable engine."
+    )
 
 
 def list_cells(rows, found):
@@ -257,13 +268,14 @@ def list_cells(rows, found):
 
 
 def print_rows(rows, found):
-    """Print every row that some engine loses: its physics, its bound, and the losing engines."""
+    """Print rows with their physics, their bounds, and the engines that lose them."""
     for row in rows:
-        errors = {name: cell["substeps"] for name, cell in found[row.title].items()}
-        losers = [f"{name} {number(off)}" for name, off in errors.items() if not holds(row, off)]
-        if losers:
-            print(f"{row.title}\n    {row.physics}")
-            print(f"    more than {number(row.bound.limit)} off: {', '.join(losers)}")
+        print(f"{row.title}\n    {row.physics}")
+        for mode, words in MODES.items():
+            losers = find_losers(row, found, mode).items()
+            told = ", ".join(f"{name} {number(error)}" for name, error in losers)
+            if told:
+                print(f"    more than {number(row.bound.limit)} off {words}: {told}")
 
 
 def main(arguments=None):
@@ -272,9 +284,9 @@ def main(arguments=None):
     parser.add_argument("--quick", action="store_true", help="only some rows of each subject")
     parser.add_argument("--only", default="", metavar="WORDS", help="rows with this in the title")
     parser.add_argument("--markdown", type=Path, metavar="FILE", help="put the tables into FILE")
-    parser.add_argument("--renew", nargs="+", metavar="ENGINE", help="ask these engines alone")
+    parser.add_argument("--renew", nargs="*", metavar="ENGINE", help="ask these engines alone")
     options = parser.parse_args(arguments)
-    if options.renew and not options.markdown:
+    if options.renew is not None and not options.markdown:
         parser.error("--renew needs --markdown FILE: results.json beside it has the other engines.")
     if options.markdown and (options.only or options.quick):
         parser.error("--markdown needs all rows: leave out --only and --quick.")
@@ -284,7 +296,7 @@ def main(arguments=None):
     }
     rows = [row for some in subjects.values() for row in some]
     contestants, missing = list_contestants()
-    if options.renew:
+    if options.renew is not None:
         contestants = [one for one in contestants if one.name in options.renew]
         results = options.markdown.with_name("results.json")
         recorded = json.loads(results.read_text(encoding="utf-8"))
@@ -293,18 +305,21 @@ def main(arguments=None):
 
 
 def report(subjects, found, contestants, missing, markdown=None):
-    rows = [row for some in subjects.values() for row in some]
-    tables = make_tables(subjects, found, contestants)
+    """Print the results, or write them too. Count the rows that some engine loses."""
+    counted = {
+        subject: [row for row in some if any(find_losers(row, found, mode) for mode in MODES)]
+        for subject, some in subjects.items()
+    }
+    rows = [row for some in counted.values() for row in some]
+    held = [row for some in subjects.values() for row in some if row not in rows]
+    lines = list_lines(rows, found, contestants)
+    tables = make_tables(counted, found, contestants)
+    tables[1].note = " ".join([say_counts(lines), *(f"Not installed: {one}." for one in missing)])
     print_rows(rows, found)
-    for table in tables:
-        print(table.text())
-    for one in missing:
-        print(f"Not installed: {one}.")
+    print("\n".join(table.text() for table in tables))
     if markdown:
-        lines = list_lines(rows, found, contestants)
-        if missing:
-            tables[1].note = "Not installed for this run: " + "; ".join(missing) + "."
-        write_markdown(markdown, [tables[1]], lines, rows=list_cells(rows, found))
+        cells = {"rows": list_cells(rows, found), HELD: list_cells(held, found)}
+        write_markdown(markdown, [tables[1]], lines, **cells)
     return 1 if any(not find_reason(row.title) for row in find_lost(rows, found)) else 0
 
 

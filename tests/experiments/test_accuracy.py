@@ -53,6 +53,8 @@ def test_an_order_is_said_with_what_a_digit_costs(order, said):
 
 def test_after_whole_swings_the_errors_of_semi_implicit_euler_cancel():
     """As the handout says: there it is as accurate as Verlet, but not during its last swing."""
+    says = "After exactly ten swings, semi-implicit Euler is as close as Verlet"
+    assert says in " ".join(HANDOUT.read_text("utf-8").split())
     last, worst = {}, {}
     for method in smooth.METHODS[1:3]:
         x, v = integrators.X0, 0.0

@@ -16,7 +16,7 @@ from conftest import KIT
 from experiments import leaderboard, scenes
 from experiments.engines import Lesson, Stable
 from experiments.engines.contestants import Contestant, list_contestants
-from experiments.leaderboard import ask, ask_at_equal_time, count_held, holds, report
+from experiments.leaderboard import HELD, ask, ask_at_equal_time, count_held, holds, report
 from experiments.measures import GaveUp
 from experiments.reference import reference
 from experiments.rows import list_rows, make_rows
@@ -199,20 +199,37 @@ def test_the_tables_go_between_the_marks_of_a_file(tmp_path, capsys):
     text = path.read_text(encoding="utf-8")
     assert text.startswith("before\n") and text.endswith("after\n") and "earlier" not in text
     assert "| a fall | 5 | 3 | lesson 9 |" in text
-    assert "Not installed for this run: Rapier: npm." in text
+    assert "Not installed: Rapier: npm." in text
     results = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))
     assert results["hard-cases.md"]["lesson: rows held at equal substeps"] == 0
     assert results["rows"]["a fall"]["lesson"] == "9 / 9 / 4"
+    assert results[HELD] == {}
+
+
+@pytest.mark.parametrize(("late", "count"), [(9.0, 1), (3.0, 0)])
+def test_a_row_counts_if_an_engine_loses_it_at_equal_substeps_or_at_equal_time(
+    late, count, tmp_path
+):
+    found = found_for(1.0, 2.0)
+    found["a fall"]["lesson"]["time"] = late
+    report({"falls": [FALL]}, found, [STABLE, LESSON], [], tmp_path / "hard-cases.md")
+    results = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))
+    assert (len(results["rows"]), len(results[HELD])) == (count, 1 - count)
+    lines = results["hard-cases.md"]
+    assert (lines["rows"], lines["lesson: rows at equal substeps"], lines[HELD]) == (
+        *(count, count),
+        1 - count,
+    )
 
 
 def test_the_program_asks_the_rows_that_are_named(capsys):
     assert leaderboard.main(["--only", "hit: head on, 1:10, e = 0.5"]) == 0
-    assert "of 1" in capsys.readouterr().out
+    assert "Every engine holds 1 more" in capsys.readouterr().out
 
 
 # ---------------------------------------------------------------- the page
 
-CELLS = RESULTS["rows"]
+CELLS = RESULTS["rows"] | RESULTS[HELD]
 
 
 def errors_of(name):
@@ -228,6 +245,29 @@ def test_the_handout_has_every_row_and_a_reason_for_each_that_is_lost():
     assert lost and all(f"| {title} |" in PAGE for title in lost)
     assert [title for title in lost if not find_reason(title)] == []
     assert all(any(title.startswith(start) for title in lost) for start in REASONS)
+
+
+def test_the_page_is_what_the_results_give(tmp_path, capsys):
+    """All its counts follow from the errors in results.json."""
+    for name, text in (("hard-cases.md", PAGE), ("results.json", json.dumps(RESULTS))):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    leaderboard.main(["--renew", "--markdown", str(tmp_path / "hard-cases.md")])
+    assert (tmp_path / "hard-cases.md").read_text(encoding="utf-8") == PAGE
+    assert json.loads((tmp_path / "results.json").read_text(encoding="utf-8")) == RESULTS
+
+
+def test_only_rows_that_some_engine_loses_count():
+    bounds = {row.title: row.bound.limit for row in ROWS}
+    for held, rows in ((False, RESULTS["rows"]), (True, RESULTS[HELD])):
+        for title, row in rows.items():
+            errors = [
+                error
+                for name, cell in row.items()
+                if name not in ("physics", "may be off by")
+                for error in cell.split(" / ")[:2]
+            ]
+            good = [re.match(r"[\d.]", e) and float(e) <= bounds[title] for e in errors]
+            assert all(good) == held, title
 
 
 def test_the_page_is_short():

@@ -19,8 +19,12 @@ from experiments.accuracy.questions import (
     dials,
     families,
     measure_overlap,
+    measure_stretch,
 )
 from experiments.accuracy.runs import EXACT, Effort, run_setting
+from experiments.engines import Lesson
+from experiments.measures import run
+from experiments.scenes import DT, pendulum, slide
 
 HANDOUTS = Path(__file__).parents[2] / "handouts"
 LINES: dict[str, Any] = json.loads((HANDOUTS / "results.json").read_text("utf-8"))["accuracy.md"]
@@ -88,3 +92,26 @@ def test_every_cell_of_the_table_is_the_error_of_a_line() -> None:
             if name.startswith(f"{title}, {engine}") and name.endswith(f": {what}")
         ]
         assert error in runs, found[0]
+
+
+# ---------------------------------------------------------------- the lesson's engine in hard cases
+
+
+def is_on_page(says: str) -> bool:
+    return says in " ".join((HANDOUTS / "hard-cases.md").read_text("utf-8").split())
+
+
+def test_half_the_step_makes_the_stretch_of_a_rod_four_times_smaller() -> None:
+    def stretch(**dials: int) -> float:
+        return measure_stretch(Lesson(pendulum(140, 90), **dials), 2, DT)
+
+    assert is_on_page("Half the step makes that four times smaller; more passes do nothing.")
+    assert stretch() == pytest.approx(4 * stretch(substeps=2), rel=0.02)
+    assert stretch() == stretch(passes=64)
+
+
+def test_rolling_is_half_a_per_cent_slow() -> None:
+    engine = Lesson(slide())
+    run(engine, 3)
+    assert is_on_page("**Rolling is half a per cent slow.**")
+    assert 1 - engine.read(1).vx / 200 == pytest.approx(0.005, abs=0.0005)

@@ -86,12 +86,10 @@ def oblique_off(trial, scene, offset, fast, frame=(0.0, 0.0), turn=0.0):
 
 def moments(scene, now):
     """Return momentum along x and y, and angular momentum about the origin, spins included."""
-    px = sum(b.mass * s.vx for b, s in zip(scene.bodies, now, strict=True))
-    py = sum(b.mass * s.vy for b, s in zip(scene.bodies, now, strict=True))
-    spin = sum(
-        b.mass * (s.x * s.vy - s.y * s.vx + b.radius**2 / 2 * s.omega)
-        for b, s in zip(scene.bodies, now, strict=True)
-    )
+    pairs = list(zip(scene.bodies, now, strict=True))
+    px = sum(b.mass * s.vx for b, s in pairs)
+    py = sum(b.mass * s.vy for b, s in pairs)
+    spin = sum(b.mass * (s.x * s.vy - s.y * s.vx + b.radius**2 / 2 * s.omega) for b, s in pairs)
     return px, py, spin
 
 
@@ -176,11 +174,8 @@ def comes_back(trial, scene):
     """Return the largest distance (px/s) of any ball from its reversed velocity."""
     engine = run_for(trial, scene, 0.8)
     first = len(scene.bodies) % 2  # with a ball in the middle
-    return max(
-        velocity_off(engine.read(i), [-v for v in body.vel])
-        for i, body in enumerate(scene.bodies)
-        if i >= first
-    )
+    flying = list(enumerate(scene.bodies))[first:]
+    return max(velocity_off(engine.read(i), [-v for v in body.vel]) for i, body in flying)
 
 
 def rack(rows, fast):
@@ -282,18 +277,15 @@ def make_many_rows():
                   law(300), quick=count == 5)
     for degrees in (30, 45, 60):
         valley = partial(into_valley, degrees)
-        yield Row(f"two at once: valley of {degrees}°, sideways",
-                  mirror, valley, sideways, law(300),
-                  quick=degrees == 30)
+        yield Row(f"two at once: valley of {degrees}°, sideways", mirror, valley, sideways,
+                  law(300), quick=degrees == 30)
         yield Row(f"two at once: valley of {degrees}°, speed back",
                   "By symmetry and energy it leaves as it came.", valley,
                   partial(off_after, seconds=0.8, vy=-300.0), law(300))
-    yield Row("two at once: valley of 30°, e = 0.5, sideways",
-              mirror,
+    yield Row("two at once: valley of 30°, e = 0.5, sideways", mirror,
               partial(into_valley, 30, 0.5), sideways, law(300))
     pair = partial(into_valley, 30, free_balls=True)
-    yield Row("two at once: on two balls that touch, sideways",
-              mirror, pair, sideways, law(300),
+    yield Row("two at once: on two balls that touch, sideways", mirror, pair, sideways, law(300),
               quick=True)
     yield Row("two at once: on two balls that touch, speed back",
               "Symmetry, momentum and energy leave one answer: it bounces back at v/5.", pair,
@@ -305,9 +297,9 @@ def make_many_rows():
                   "By symmetry and energy each goes back as it came.", partial(around, count),
                   comes_back, law(300), quick=count == 3)
     for rows, fast in ((2, 300.0), (3, 300.0), (5, 300.0), (5, 1500.0)):
-        yield Row(f"rack: {rows} rows at {fast:g} px/s, mirror image",
-                  mirror, partial(rack, rows, fast),
-                  partial(mirror_off, rows=rows, fast=fast), seen(), quick=rows == 3)
+        yield Row(f"rack: {rows} rows at {fast:g} px/s, mirror image", mirror,
+                  partial(rack, rows, fast), partial(mirror_off, rows=rows, fast=fast), seen(),
+                  quick=rows == 3)
         yield Row(f"rack: {rows} rows at {fast:g} px/s, energy", "With e = 1 energy is kept.",
                   partial(rack, rows, fast), partial(energy_off, seconds=300 / fast), energy())
     yield Row("rack: 5 rows, added in another order",

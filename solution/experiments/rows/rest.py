@@ -6,7 +6,7 @@ from functools import partial
 
 from .. import scenes
 from ..measures import deepest_overlap, run, states, top_speed, watch
-from ..scenes import TOUCH, Ball, Block, G, Scene, floor, pile, resting, stack, tower
+from ..scenes import BOUNCE, TOUCH, Ball, Block, G, Scene, floor, pile, resting, stack, tower
 from ..steps import PATTERNS, lasting
 from .row import Row, late, never, off, off_after, run_for, seen, still
 from .ties import centre_off, stays
@@ -85,8 +85,7 @@ def alone(vel=(0.0, 0.0), gravity=(0.0, 0.0)):
 
 
 def slow_slope(degrees):
-    scene = scenes.incline(degrees)
-    return replace(scene, effects=ASLEEP)
+    return replace(scenes.incline(degrees), effects=ASLEEP)
 
 
 def wakes(trial, scene, fast, seconds, **exact):
@@ -102,10 +101,8 @@ def two_high():
 
 
 def two_apart():
-    return Scene(
-        [floor(friction=0.0), *(Ball((x, -10), friction=0.0, restitution=1.0) for x in (0, 100))],
-        ("Contacts", "Friction", "Bounce", "Sleep"),
-    )
+    balls = [Ball((x, -10), friction=0.0, restitution=1.0) for x in (0, 100)]
+    return Scene([floor(friction=0.0), *balls], (*BOUNCE, "Sleep"))
 
 
 # ---------------------------------------------------------------- bad starts

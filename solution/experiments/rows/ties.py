@@ -140,11 +140,8 @@ def bridge(links, weight):
 
 def roof(mass):
     """Make a weight that two rods hold up between two static feet."""
-    return Scene(
-        [Ball((-60, 0), mass=0), Ball((60, 0), mass=0), Ball((0, -80), mass=mass)],
-        RODS,
-        [(0, 2), (1, 2)],
-    )
+    feet = [Ball((x, 0), mass=0) for x in (-60, 60)]
+    return Scene([*feet, Ball((0, -80), mass=mass)], RODS, [(0, 2), (1, 2)])
 
 
 def struck(degrees):
