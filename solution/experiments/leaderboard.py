@@ -147,10 +147,8 @@ def read_cells(row):
 
 
 def read_number(text):
-    try:
-        return float(text)
-    except ValueError:
-        return text
+    """Return a number, or a word as it is, such as NaN."""
+    return float(text) if text[0].isdigit() else text
 
 
 # ---------------------------------------------------------------- what comes of it
