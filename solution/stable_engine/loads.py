@@ -27,6 +27,7 @@ PUSHED = 0.1  # share by which a contact gives way, per ratio: many firm ones ha
 FRAMED = 1.0  # the same where frames of rods press
 SOFTEST = 1e-2  # the most of both
 HARDEST = 1e-6  # the least of both, and all in a tower, where firm ones do have a solution
+GENTLE = 0.1  # share of the highest push, for balls on rods of equal masses that overlap
 RELAXED = 1e-3  # of that share, what is left after the move
 WEDGED = 0.9  # cosine; a ball between faces that turn less is pressed as by a heavier one
 PARALLEL = 1 - 1e-9  # cosine, of faces that are one
@@ -50,12 +51,13 @@ class Stage:
 class Load(Limited):
     """A contact in a pile."""
 
-    __slots__ = ("give", "ratio")
+    __slots__ = ("give", "haste", "ratio")
 
     def __init__(self, c: Contact, ratio: float) -> None:
         super().__init__(c)
         self.ratio = ratio  # of the heavier body, or its frame, to the lighter ball
         self.give = 0.0  # the share that it gives way
+        self.haste = 1.0  # the share of the highest speed at which overlap is pushed out
 
     def aim(self, stage: Stage) -> None:
         """Set rhs to the speed (px/s) that the bodies lack, and the pivot."""
@@ -68,7 +70,8 @@ class Load(Limited):
         if gap > stage.least and not (stage.has_moved and c.jn):
             self.rhs = -speed - gap / stage.h
         else:
-            self.rhs = -speed - max(rate * gap, -stage.most) - give * c.jn / c.mn
+            push = max(rate * gap, -stage.most * self.haste)
+            self.rhs = -speed - push - give * c.jn / c.mn
 
     def take(self, j: float, has_moved: bool) -> None:
         super().take(j, has_moved)
@@ -82,10 +85,7 @@ class Pile:
     ball below has mass m. So what a pass leaves is solved exactly, for the contacts that press.
     """
 
-    __slots__ = (
-        *("bodies", "calm", "is_light", "is_wild", "kept", "loads", "network", "rods", "rows"),
-        "stage",
-    )
+    __slots__ = ("bodies", "calm", "is_wild", "kept", "loads", "network", "rods", "rows", "stage")
 
     def __init__(self, loads: list[Load], rods: list[Joint], unit: float, softest: float) -> None:
         self.loads = loads
@@ -97,9 +97,9 @@ class Pile:
         for load in self.loads:
             given = (FRAMED if self.rods else PUSHED) / ratio
             load.give = max(min(given, softest), HARDEST)
+            load.haste = GENTLE if self.rods and ratio <= HEAVY else 1.0
         self.calm = CALM * unit / min(ratio, STEEPEST) ** 2  # px/s
         self.kept = [0.0] * len(self.rods)  # px/s
-        self.is_light = bool(rods) and ratio <= HEAVY  # then passes push apart, calmly
         self.is_wild = False  # whether its balls move far in this substep
         self.network: Network[Joint] | None = None  # of all rows, once it was needed
 
@@ -117,7 +117,7 @@ class Pile:
         begin with none: where a ball sits between balls of a frame, impulses can be so large that
         the least turn of the frame would throw it.
         """
-        for load in [] if self.is_light else self.loads:
+        for load in self.loads:
             c, before = load.c, load.c.jn
             c.jn = 0.0 if self.rods else min(before, c.last)
             c.last = before
@@ -126,7 +126,7 @@ class Pile:
 
     def settle(self, stage: Stage) -> None:
         """Solve for all impulses, if a pass has left more than a calm speed."""
-        if self.is_wild or (self.is_light and not stage.has_moved):
+        if self.is_wild:
             return
         self.stage = stage
         if stage.has_moved:
