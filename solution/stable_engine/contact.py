@@ -99,22 +99,6 @@ class Contact:
         b.vx += px * b.inv_mass
         b.vy += py * b.inv_mass
 
-    def slip(self) -> float:
-        """Return the speed (px/s) along the tangent of B's rim relative to A's."""
-        a, b = self.a, self.b
-        rims = b.w * b.r + a.w * a.r
-        return (b.vy - a.vy) * self.nx - (b.vx - a.vx) * self.ny - rims
-
-    def drag(self, jt: float) -> None:
-        """Apply an impulse jt (kg px/s) along the tangent, at the rims."""
-        a, b, tx, ty = self.a, self.b, -self.ny, self.nx
-        a.vx -= tx * jt * a.inv_mass
-        a.vy -= ty * jt * a.inv_mass
-        a.w -= a.r * jt * a.inv_inertia
-        b.vx += tx * jt * b.inv_mass
-        b.vy += ty * jt * b.inv_mass
-        b.w -= b.r * jt * b.inv_inertia
-
 
 def collide(a: Body, b: Body) -> tuple[float, float, float]:
     """Return the unit normal from circle a to body b, in two numbers, and the gap in px.
