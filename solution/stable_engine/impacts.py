@@ -22,8 +22,8 @@ from .sweep import NO_HIT, first_stop, moment_of_touch
 MOVED = 0.01  # radii; a ball that was hit and moved by less meets nothing new
 MOST_IMPACTS = 100  # of a contact in one step
 ARC = 1.1  # ratio by which the touch may lie further back for flights on an arc
-SAME = 1e-6  # share of the highest speed by which those of mirrored impacts may differ
-LEAST = 1e-9  # share of the highest speed; an impact leaves less
+SAME = 1e-6  # share by which the speeds of mirrored impacts may differ
+LEAST = 1e-9  # share of the speed of the hardest impact of a moment; less may be left
 
 Entry = tuple[float, int, Contact]  # in a queue: s from now, so below 0, and an impact's number
 
@@ -448,7 +448,7 @@ class Impacts:
         if len(early) > 1:
             # touching_gap in px/s as well: rounding would decide between slow ones
             hard = max([due[c].speed for _, _, c in early])
-            hard -= max(SAME * self.fastest, self.touching_gap)
+            hard -= max(SAME * hard, self.touching_gap)
             group = [c for _, _, c in early if due[c].speed >= hard]
             self.early = [entry for entry in early if due[entry[2]].speed < hard]
         for c in group:
@@ -513,7 +513,7 @@ class Impacts:
             frame.hold()
         hits = [Hit(c, self.law(c)) for c in group]
         rods = [Joint(rod.end_a, rod.end_b) for frame in frames for rod in frame.rods]
-        least = LEAST * self.fastest
+        least = LEAST * max([hit.wanted - hit.speed() for hit in hits])
         resolve_at_once(hits, rods, least)
         resolve_at_once([Rub(hit) for hit in hits if hit.mu * hit.total], rods, least)
 
