@@ -9,6 +9,7 @@ from .validate import not_negative
 
 NUMEROV = 1 / 12  # of how the stretch curves in a substep: see Springs
 STIFF = 0.25  # a spring is stiff if (omega h)² and its damping in a substep are more than this
+MOST_SWAY = 1e9  # rad²; no more counts, as its sixth power might be no number
 SWAYS = 0.5  # rad², of a light ball between tight springs in a substep; less is left alone
 SMALL = 1e-3  # below it, a series is more exact than the quotient
 LEAST_DRAG = 1e-12  # share of the mass: a spring without drag would have no row in the network
@@ -83,7 +84,8 @@ class Spring(Joint):
         """
         tight = -self.j * h / self.distance if self.distance else 0.0  # kg
         turn2 = 2 * tight / self.m  # rad², of that swing in a substep of h seconds, squared
-        return tight * (1 - 1 / (1 + (turn2 / 2) ** 6)) if turn2 > SWAYS else 0.0
+        share = 1 - 1 / (1 + min(turn2 / 2, MOST_SWAY) ** 6)
+        return tight * share if turn2 > SWAYS else 0.0
 
     def pull_between(self, here: State, there: State, ago: float = 0.0) -> tuple[float, float]:
         """Return the force (kg px/s²) on an end with the state `here`, the other being `there`.
