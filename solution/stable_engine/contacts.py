@@ -59,9 +59,10 @@ class Contacts(Effect):
     touches. `a` is a ball with mass, `b` any body. Both functions may add and remove
     bodies, and can be set later on. Bodies that are removed do not part.
 
-    Each stage solves contacts of static bodies last, so that these hold best. Where a body is more
-    than 2.5 times as heavy as a ball that it touches, or kinematic, all that balls connect to them
-    is then solved together: see Pile.
+    Each stage solves contacts of static bodies last, so that these hold best. Where passes would
+    leave much, all that balls connect is then solved together, see Pile: where a body is more than
+    2.5 times as heavy as a ball that it touches, or kinematic, in a narrow or flat V, in a tall
+    tower, and where balls on rods overlap, or balls that were thrown at each other.
     """
 
     __slots__ = (

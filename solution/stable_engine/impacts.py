@@ -54,7 +54,7 @@ class Impacts:
     or in another ball, from which a push would lift it for nothing, and angular momentum is kept.
     If they meet others on the way, these impacts join the queue. Where the way back is not known,
     on stiff springs, hanging chains and static corners, balls stay; energy gives their speeds. Rods
-    pass an impact on at once, so a ball weighs as much as all that hangs on it along the normal.
+    pass an impact on at once: they are rows beside the contacts, and all are solved together.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""Loads: where heavy bodies press on light ones, contacts and rods are solved together."""
+"""Loads: where much presses on little, contacts and rods are solved together."""
 
 from math import hypot, inf
 
