@@ -251,6 +251,7 @@ class Impacts:
                         c.nx, c.ny, c.gap = collide(c.a, c.b)
                         c.found = c.gap
                     stopped.append(body)
+                    self.contacts.note_impact(body, 0.0)  # so the next step stops it there as well
                 body.last_x, body.last_y = body.x, body.y
         if stopped:
             self.follow(stopped)
