@@ -11,7 +11,7 @@ from .contact import Contact, collide, is_at_face, the_way_it_came
 from .contacts import CORE, FAR, Contacts
 from .flight import BEFORE, DEEPEST, Flight
 from .joint import Joint
-from .limits import FIRM, Limited, solve_within
+from .limits import Limited, solve_within
 from .network import Network
 from .order import balls_of
 from .rods import Frame, Rods
@@ -530,10 +530,6 @@ class Hit(Limited):
         self.wanted, share = law  # px/s, the speed at which to separate
         self.mu = c.mu * share
 
-    def aim(self) -> None:
-        """Set rhs to the speed (px/s) that it lacks, and the pivot."""
-        self.pivot, self.rhs = FIRM / self.m, self.wanted - self.speed()
-
 
 class Rub(Hit):
     """The friction of a contact after its impact: it slows the slip, as far as a limit."""
@@ -568,16 +564,16 @@ class Moment:
     def aim(self) -> None:
         """Set each row's pivot and rhs. Rods are to keep their lengths."""
         for row in self.rows:
-            row.aim()
+            row.ask(row.wanted)
         for rod in self.rods:
-            rod.pivot, rod.rhs = FIRM / rod.m, -rod.speed()
+            rod.ask(0.0)
 
 
 def resolve_at_once(rows: Sequence[Hit], rods: list[Joint], least: float) -> None:
     """Give the rows the impulses that they need together."""
     if len(rows) == 1 and not rods:
         row = rows[0]
-        row.aim()
+        row.ask(row.wanted)
         row.take(max(row.low, min(row.rhs * row.m, row.high)), True)
     elif rows:
         moment = Moment(rows, rods)

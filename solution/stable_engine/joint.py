@@ -7,6 +7,8 @@ from .body import Body
 from .effect import Effect
 from .validate import not_negative, refuse, require
 
+FIRM = 1 + 1e-9  # times a pivot: with more rows than needed, a matrix has no inverse
+
 
 class Joint:
     """A constraint along the line between the centres of a and b, which turns neither.
@@ -90,6 +92,10 @@ class Joint:
     def speed(self) -> float:
         """Return how fast B moves away from A, in px/s."""
         return (self.end_b.vx - self.end_a.vx) * self.nx + (self.end_b.vy - self.end_a.vy) * self.ny
+
+    def ask(self, speed: float) -> None:
+        """Ask for a speed (px/s) along it: set pivot and rhs for Network.solve."""
+        self.pivot, self.rhs = FIRM / self.m, speed - self.speed()
 
     def apply_impulse(self, j: float) -> None:
         """Push B away from A by impulse j (kg px/s), and A by the opposite."""

@@ -11,7 +11,6 @@ from .network import Network, bodies_of
 
 TURNS = 16  # of changing all rows that are wrong, without fewer; then one is changed at a time
 MOST_TURNS = 200
-FIRM = 1 + 1e-9  # times a pivot: with more rows than needed, the matrix has no inverse
 FREE = 1e30  # 1/kg, the pivot of a row that takes no impulse
 
 

@@ -6,7 +6,7 @@ from .body import Body
 from .contact import Contact
 from .effect import Direction
 from .joint import Joint
-from .limits import FIRM, Limited, solve_within
+from .limits import Limited, solve_within
 from .network import Network, bodies_of
 
 HEAVY = 2.5  # times the lightest ball at a contact
@@ -152,7 +152,7 @@ class Pile:
         for load in self.loads:
             load.aim(self.stage)
         for rod, speed in zip(self.rods, self.kept, strict=True):
-            rod.pivot, rod.rhs = FIRM / rod.m, speed - rod.speed()
+            rod.ask(speed)
 
 
 def find_piles(

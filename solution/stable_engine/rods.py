@@ -10,8 +10,7 @@ from math import hypot, sqrt
 from .body import Body
 from .contacts import Contacts
 from .effect import WorldState
-from .joint import Joint, Joints
-from .limits import FIRM
+from .joint import FIRM, Joint, Joints
 from .loads import HEAVY
 from .network import Network, connect
 from .soft import SAME_DIRECTION, Pace, softness
@@ -466,7 +465,7 @@ class Frame:
         """Remove all speed along the rods, at this instant."""
         for rod in self.rods:
             rod.measure()
-            rod.pivot, rod.rhs = FIRM / rod.m, -rod.speed()
+            rod.ask(0.0)
         self.apply()
 
     def hold_lags(self) -> None:
@@ -491,7 +490,7 @@ class Frame:
             rod.measure()
             if nx * rod.nx + ny * rod.ny < SAME_DIRECTION:
                 rod.j = 0.0
-            rod.pivot, rod.rhs = FIRM / rod.m, -rod.speed()
+            rod.ask(0.0)
         if self.most < 0:
             self.apply()
             self.lost = 0.0
