@@ -70,12 +70,12 @@ def solve_within(
     aim: Callable[[], None],
     least: float,
     has_moved: bool,
-) -> bool:
+) -> None:
     """Find the impulses of all rows together: those of `limited` stay within their limits.
 
     aim sets each row's pivot and rhs, see Network.solve. Each turn solves for some rows, then lets
     go of those beyond their limits, and takes those that still lack more than `least` px/s (block
-    pivoting, Júdice and Pires 1994). If that does not end, nothing changes. Return whether it did.
+    pivoting, Júdice and Pires 1994). If that does not end, nothing changes.
     """
     before = [(body, body.vx, body.vy, body.w) for body in bodies_of(network.joints)]
     taken = dict.fromkeys(network.joints, 0.0)  # kg px/s
@@ -103,7 +103,7 @@ def solve_within(
         aim()
         wrong = [row for row in limited if row.is_wrong(least)]
         if not wrong:
-            return True
+            return
         patience -= 1
         if len(wrong) < fewest:
             fewest, patience = len(wrong), TURNS
@@ -113,4 +113,3 @@ def solve_within(
         one.take(-j, has_moved)
     for body, vx, vy, w in before:
         body.vx, body.vy, body.w = vx, vy, w
-    return False
