@@ -381,8 +381,7 @@ class World(WorldState):
         """Take velocities on to the time of the positions, except those of pressed bodies."""
         self.change_velocities(h / 2)
         self.pushed = self.forces
-        if self.forces:
-            self.clear_forces()
+        self.clear_forces()
 
     def change_velocities(self, seconds: float) -> None:
         """Change velocities as so many seconds would (below 0: back) where bodies are now."""

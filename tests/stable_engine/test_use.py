@@ -280,6 +280,17 @@ def test_a_force_acts_for_one_step_and_adds_up():
     assert ball.vx == pytest.approx(100 * 121 * DT, rel=1e-12)
 
 
+def test_a_force_that_begins_in_a_fall_acts_for_one_step_as_well():
+    world = World(gravity=(0, G))
+    ball = world.add(Body(Circle(10), (5, 5), mass=4))
+    world.step(DT)
+    ball.apply_force((400, 0))
+    world.step(DT)
+    assert ball.vx == pytest.approx(100 * DT, rel=1e-12)
+    run(world, 0.1)
+    assert ball.vx == pytest.approx(100 * DT, rel=1e-12)
+
+
 def test_a_pull_that_follows_the_position_keeps_an_orbit_in_single_short_substeps():
     """As the page of effects says: within 1 px of a circle of 200 px, for ten rounds."""
     world = World((0, 0), substeps=1)
