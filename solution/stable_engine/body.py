@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from math import hypot, inf
-from typing import Any
+from typing import TYPE_CHECKING
 
 from pygame import Vector2
 
@@ -12,36 +12,12 @@ from .reading import read
 from .shapes import Box, Circle, Segment
 from .validate import finite, not_negative, number, pair, refuse, require
 
+if TYPE_CHECKING:
+    from .world import World
+
 RESTITUTION, FRICTION = 0.3, 0.6  # where none is given
 State = tuple[float, float, float, float]  # position (px) and velocity (px/s) of a body
 LEAST = 1e-100  # kg and kg px²: far below, and far above its inverse, floats run out of range
-
-
-class Listeners:
-    """The part of a world that a body calls when one of its values is set."""
-
-    __slots__ = ("has_changed",)
-
-    has_changed: bool  # whether contacts must be found anew before the next step
-    static_moved_hooks: list[Callable[..., Any]]
-    body_moved_hooks: list[Callable[..., Any]]
-    body_changed_hooks: list[Callable[..., Any]]
-
-    def set_bullet(self, body: Body, value: bool) -> None:
-        """Make a body a bullet, or not."""
-        raise NotImplementedError
-
-    def look_again(self, body: Body) -> None:
-        """Check the new values of this body in the next step."""
-        raise NotImplementedError
-
-    def relieve(self, lost: dict[Body, float]) -> None:
-        """Tell effects of masses (kg) that bodies have lost: infinity if they leave."""
-        raise NotImplementedError
-
-    def push(self, body: Body, fx: float, fy: float, torque: float) -> None:
-        """Add to the force and the torque that act on a body in the next step."""
-        raise NotImplementedError
 
 
 class Island:
@@ -130,7 +106,7 @@ class Body:
         self.last_x, self.last_y = self.x, self.y  # px, for Contacts: at the start of the step
         self.e, self.mu = RESTITUTION, FRICTION
         self.restitution_given = self.friction_given = False
-        self.world: Listeners | None = None
+        self.world: World | None = None
         self.island: Island | None = None  # the bodies it sleeps with
         self.joint_count = 0  # of the world's joints that are tied to it
         self.is_bullet = bullet
@@ -193,7 +169,11 @@ class Body:
     def bullet(self, value: bool) -> None:
         require(not (value and self.is_static), "Body.mass", 0, "above 0 for a bullet")
         if self.world and bool(value) != self.is_bullet:
-            self.world.set_bullet(self, bool(value))
+            bullets = self.world.need("Bullets", self)
+            if value:
+                bullets.add(self)
+            else:
+                bullets.forget(self)
         self.is_bullet = bool(value)
         self.moved()
 
@@ -256,8 +236,7 @@ class Body:
     def pos(self, value: Iterable[float]) -> None:
         self.x, self.y = pair("Body.pos", value)
         if self.world:
-            for body_moved in self.world.body_moved_hooks:
-                body_moved(self)
+            self.world.call("body_moved", self)
         self.moved()
 
     @property
@@ -368,16 +347,14 @@ class Body:
             return
         self.world.look_again(self)
         if self.is_static:
-            for static_moved in self.world.static_moved_hooks:
-                static_moved(self)
+            self.world.call("static_moved", self)
 
     def changed(self) -> None:
         """Wake this body, and tell the effects of its new values."""
         self.wake()
         if self.world:
             self.world.look_again(self)
-            for body_changed in self.world.body_changed_hooks:
-                body_changed(self)
+            self.world.call("body_changed", self)
 
     def check(self) -> None:
         """Raise ValueError naming the first number that is NaN or infinite."""

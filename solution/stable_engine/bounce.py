@@ -4,7 +4,7 @@ from math import hypot
 
 from .contact import Contact
 from .contacts import RESTING_SPEED, Contacts
-from .effect import Effect, WorldState
+from .effect import Effect
 from .impacts import Impacts
 from .rods import Rods
 from .springs import Springs
@@ -24,11 +24,10 @@ class Bounce(Effect):
     __slots__ = ("contacts", "rods", "slow", "springs")
     rank = 6
 
-    def attach(self, world: WorldState) -> None:
-        super().attach(world)
-        self.contacts: Contacts = world.need("Contacts", self)
+    def attach(self) -> None:
+        self.contacts: Contacts = self.world.need("Contacts", self)
         self.contacts.lets_none_pass = True
-        rods, springs = world.effects.get("Rods"), world.effects.get("Springs")
+        rods, springs = self.world.effects.get("Rods"), self.world.effects.get("Springs")
         self.rods = rods if isinstance(rods, Rods) else None
         self.springs = springs if isinstance(springs, Springs) else None
 

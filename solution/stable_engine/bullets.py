@@ -4,7 +4,7 @@ from math import hypot
 
 from .body import Body
 from .contacts import RESTING_SPEED, Contacts
-from .effect import Effect, WorldState
+from .effect import Effect
 
 SWEEP_FROM = 0.5  # radii, a bullet that moves further in one step is swept
 OVERLAP = 0.05  # radii, the overlap of a stopped bullet, so that the next step finds the contact
@@ -24,10 +24,9 @@ class Bullets(Effect):
     def __init__(self) -> None:
         self.bullets: list[Body] = []
 
-    def attach(self, world: WorldState) -> None:
-        super().attach(world)
-        self.contacts: Contacts = world.need("Contacts", self)
-        self.resting_speed = RESTING_SPEED * world.unit
+    def attach(self) -> None:
+        self.contacts: Contacts = self.world.need("Contacts", self)
+        self.resting_speed = RESTING_SPEED * self.world.unit
 
     def add(self, body: Body) -> None:
         self.bullets.append(body)

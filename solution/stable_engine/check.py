@@ -1,12 +1,17 @@
 """Name the effects that a scene needs and does not declare, or declares and does not use."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from itertools import islice
 from math import hypot
+from typing import TYPE_CHECKING
 
 from .body import Body
-from .effect import WorldState
 from .joint import Joint
+
+if TYPE_CHECKING:
+    from .world import World
 
 FRAME = 1 / 60  # s
 FAST = 20.0  # radii in a frame
@@ -16,13 +21,13 @@ WEAK = 20.0  # units/s²
 SHAKY = 0.15  # under a load of 3 g a ball turns by more than 1 rad in a substep
 
 
-def complaints(world: WorldState) -> list[str]:
+def complaints(world: World) -> list[str]:
     """Return one sentence for each effect that is missing, or declared and not used."""
     told = [*missing(world, world.bodies).values(), *unused(world)]
     return [*told, *odd_gravity(world), *overloaded_rods(world)]
 
 
-def missing(world: WorldState, looked_at: list[Body]) -> dict[str, str]:
+def missing(world: World, looked_at: list[Body]) -> dict[str, str]:
     """Return a sentence for each missing effect that these bodies need, by its name.
 
     A given friction above 0 needs Friction, and so does a body that turns or is a belt. A given
@@ -40,7 +45,7 @@ def missing(world: WorldState, looked_at: list[Body]) -> dict[str, str]:
             reasons.setdefault("Friction", f"{body!r} {words} and would drag nothing along")
         if body.restitution_given and body.e > 0:
             reasons.setdefault("Bounce", f"{body!r} was given a restitution of {body.e:g}")
-        if body.is_static and not tied(body, world):
+        if body.is_static and not body.joint_count:
             reasons.setdefault("Contacts", f"{body!r} is static, and bodies would pass through it")
         if world.statics and is_too_fast(body):
             fast = f"more than {FAST:g} radii in {FRAME:.4f} s"
@@ -70,7 +75,7 @@ def is_too_fast(body: Body) -> bool:
     return not body.is_static and hypot(body.vx, body.vy) * FRAME > FAST * body.r
 
 
-def meetings(world: WorldState, bodies: list[Body]) -> Iterator[tuple[Body, Body]]:
+def meetings(world: World, bodies: list[Body]) -> Iterator[tuple[Body, Body]]:
     """Yield pairs of free balls that overlap or fly at each other, of the first MOST in the world.
 
     Gravity accelerates both alike, so each flies straight as seen from the other. Balls on joints
@@ -93,7 +98,7 @@ def will_meet(a: Body, b: Body) -> bool:
     return hypot(x + vx * nearest, y + vy * nearest) < a.r + b.r
 
 
-def odd_gravity(world: WorldState) -> list[str]:
+def odd_gravity(world: World) -> list[str]:
     """Return a sentence if the gravity is so weak for the unit that the scene may be in metres."""
     g = hypot(*world.g)
     if not 0 < g < WEAK * world.unit:
@@ -104,15 +109,7 @@ def odd_gravity(world: WorldState) -> list[str]:
     ]
 
 
-def tied(body: Body, world: WorldState) -> bool:
-    """Return whether a rod or spring is tied to the body."""
-    joints: list[Joint] = []
-    for effect in world.effects.values():
-        joints += getattr(effect, "joints", [])
-    return any(body in (joint.a, joint.b) for joint in joints)
-
-
-def unused(world: WorldState) -> list[str]:
+def unused(world: World) -> list[str]:
     """Return a sentence for each declared effect that the scene does not use."""
     return [
         f"This scene declares {name}(), but has no use for it. Leave it out, or add what it is for."
@@ -121,7 +118,7 @@ def unused(world: WorldState) -> list[str]:
     ]
 
 
-def overloaded_rods(world: WorldState) -> list[str]:
+def overloaded_rods(world: World) -> list[str]:
     """Return a sentence if a light ball on rods carries more than the substeps can follow.
 
     Its load is the heaviest ball that rods connect to it, directly or through other balls. Rods

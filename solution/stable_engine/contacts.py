@@ -6,7 +6,7 @@ from math import hypot, inf, sqrt
 from .body import Body, State, state_of
 from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, the_way_it_came
-from .effect import Direction, Effect, WorldState
+from .effect import Direction, Effect
 from .joint import Joints
 from .loads import (
     BEARING,
@@ -105,13 +105,12 @@ class Contacts(Effect):
         self.pace = Pace(STIFFENING)
         self.h = 0.0  # s, the substep of the kept impulses
 
-    def attach(self, world: WorldState) -> None:
-        super().attach(world)
-        self.touching_gap = TOUCHING * world.unit  # px
-        self.slow = SPECULATIVE_SPEED * world.unit  # px/s
-        self.max_push_speed = MAX_PUSH_SPEED * world.unit  # px/s
-        self.begin_contact_hooks = world.hooks("begin_contact")
-        springs = world.effects.get("Springs")
+    def attach(self) -> None:
+        self.touching_gap = TOUCHING * self.world.unit  # px
+        self.slow = SPECULATIVE_SPEED * self.world.unit  # px/s
+        self.max_push_speed = MAX_PUSH_SPEED * self.world.unit  # px/s
+        self.begin_contact_hooks = self.world.hooks["begin_contact"]
+        springs = self.world.effects.get("Springs")
         self.springs = springs if isinstance(springs, Springs) else None
 
     def detect(self, h: float) -> None:

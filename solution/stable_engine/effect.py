@@ -1,76 +1,17 @@
-"""The base of all effects, and the world as effects know it."""
+"""The base of all effects: the hooks that they may override."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from .body import Body, Listeners
-from .validate import require
+from .body import Body
 
 if TYPE_CHECKING:
     from .contact import Contact
-
+    from .world import World
 
 Direction = tuple[float, float]
 Push = tuple[float, float, float]  # kg px/s² along x and y, and kg px²/s²
-
-
-class WorldState(Listeners):
-    """The world as effects know it: its bodies, and the effects that the scene declares."""
-
-    __slots__ = ("awake", "bodies", "effects", "forces", "g", "statics", "substep_count")
-
-    g: tuple[float, float]  # px/s²
-    substep_count: int
-    bodies: list[Body]
-    awake: list[Body]  # the balls that can move now
-    statics: list[Body]
-    effects: dict[str, Effect]
-    forces: dict[Body, Push]
-
-    @property
-    def unit(self) -> float:
-        """Return the length of a pixel in the lengths of the scene."""
-        raise NotImplementedError
-
-    def acceleration(self, body: Body) -> tuple[float, float]:
-        """Return the acceleration (px/s²) of a ball by gravity and by forces on it alone."""
-        x, y = self.g
-        if body in self.forces:
-            fx, fy, _ = self.forces[body]
-            x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
-        return x, y
-
-    def remove(self, thing: Any) -> None:
-        """Take a body or joint out: see World.remove."""
-        raise NotImplementedError
-
-    def hooks(self, name: str, busy: bool = False) -> list[Callable[..., Any]]:
-        """Return the hooks of this name that the scene's effects override, lowest rank first.
-
-        If `busy`, leave out idle effects.
-        """
-        effects = sorted(self.effects.values(), key=lambda effect: effect.rank)
-        base = getattr(Effect, name)
-        return [
-            getattr(e, name)
-            for e in effects
-            if getattr(type(e), name) is not base and not (busy and e.is_idle())
-        ]
-
-    def update_hooks(self) -> None:
-        """Leave idle effects out of the substeps."""
-        raise NotImplementedError
-
-    def need(self, name: str, user: object) -> Any:
-        """Return the effect of that name. Raises ValueError when the scene does not declare it."""
-        if name not in self.effects:
-            raise ValueError(
-                f"{type(user).__name__} needs {name}(), which this scene does not declare. "
-                f"Declare it: World(effects=[..., {name}()])."
-            )
-        return self.effects[name]
 
 
 class Effect:
@@ -82,16 +23,13 @@ class Effect:
 
     __slots__ = ("world",)
     rank: ClassVar[int]
-    world: WorldState
+    world: World  # set when it joins one
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}()"
 
-    def attach(self, world: WorldState) -> None:
-        """Join a world, once. Look up the other effects that this one needs here."""
-        name, found = f"World.effects' {self!r}", "in another world already"
-        require(not hasattr(self, "world"), name, found, "a new one: each world has its own")
-        self.world = world
+    def attach(self) -> None:
+        """Look up the other effects that this one needs: its world knows all of them by now."""
 
     def add(self, thing: Any) -> None:
         """Add a body or joint to this effect's own list."""

@@ -4,7 +4,7 @@ from math import sqrt
 
 from .contact import Contact
 from .contacts import Contacts
-from .effect import Effect, WorldState
+from .effect import Effect
 from .order import Group
 
 CALM = 1e-7  # share of the limit; smaller changes are skipped
@@ -19,9 +19,8 @@ class Friction(Effect):
     __slots__ = ("contacts",)
     rank = 5
 
-    def attach(self, world: WorldState) -> None:
-        super().attach(world)
-        self.contacts: Contacts = world.need("Contacts", self)
+    def attach(self) -> None:
+        self.contacts: Contacts = self.world.need("Contacts", self)
 
     def is_used(self) -> bool:
         return any(body.mu > 0 for body in self.world.bodies)

@@ -34,8 +34,7 @@ class Kinematics(Effect):
         if len(world.awake) + len(world.statics) < len(world.bodies):
             for body in self.bodies:
                 if body.vx or body.vy:
-                    for static_moved in world.static_moved_hooks:
-                        static_moved(body)
+                    world.call("static_moved", body)
 
     def relax(self, h: float) -> None:
         """Move kinematic bodies, at the same time as the balls."""

@@ -9,7 +9,6 @@ from math import hypot, sqrt
 
 from .body import Body
 from .contacts import Contacts
-from .effect import WorldState
 from .joint import FIRM, Joint, Joints
 from .loads import HEAVY
 from .network import Network, connect
@@ -132,7 +131,7 @@ class Rods(Joints[Rod]):
         """Find the frames again, if rods were added or removed."""
         if self.is_stale:
             self.is_stale = False
-            self.frames = [Frame(network, self.world) for network in connect(self.awake)]
+            self.frames = [Frame(network, self) for network in connect(self.awake)]
             self.frame_of = {ball: frame for frame in self.frames for ball in frame.balls}
 
     def lag(self, seconds: float) -> None:
@@ -172,8 +171,8 @@ class Rods(Joints[Rod]):
 class Frame:
     """Rods that balls connect."""
 
-    def __init__(self, network: Network[Rod], world: WorldState) -> None:
-        self.world = world
+    def __init__(self, network: Network[Rod], effect: Rods) -> None:
+        self.world = effect.world
         self.network = network
         self.rods = network.joints
         ends = dict.fromkeys([body for rod in self.rods for body in (rod.end_a, rod.end_b)])

@@ -4,7 +4,7 @@ from math import hypot
 
 from .body import Body, Island
 from .contacts import Contacts
-from .effect import Effect, WorldState
+from .effect import Effect
 
 # lengths are in units of the world, see World.unit
 STILL_TIME, STILL_SPEED = 0.5, 0.5  # s; 1/s, of the centre and of the rim
@@ -31,21 +31,12 @@ class Sleep(Effect):
     its balls or joints, a static body that it touches or hangs on, or the gravity.
     """
 
-    __slots__ = (
-        *("awake_changed_hooks", "drag_hooks", "link_hooks", "rates", "shaken", "since", "steps"),
-        *("supported", "wait"),
-    )
+    __slots__ = ("rates", "shaken", "since", "steps", "supported", "wait")
     rank = 4
 
     def __init__(self) -> None:
         self.since, self.steps = 0.0, 0  # s and steps since the last check
         self.wait = FIRST_LOOK  # steps from there to the next one
-
-    def attach(self, world: WorldState) -> None:
-        super().attach(world)
-        self.link_hooks = world.hooks("links")
-        self.drag_hooks = world.hooks("drag")
-        self.awake_changed_hooks = world.hooks("awake_changed")
 
     def detect(self, h: float) -> None:
         """Wake islands that an awake ball touches or may reach through others in this step."""
@@ -112,8 +103,7 @@ class Sleep(Effect):
     def put_to_sleep(self) -> None:
         """Put islands to sleep that lie still."""
         self.rates: dict[Body, float] = {}
-        for drag in self.drag_hooks:
-            drag(self.rates)
+        self.world.call("drag", self.rates)
         contacts = self.world.effects.get("Contacts")
         pile = contacts.balls.contacts if isinstance(contacts, Contacts) else []
         self.shaken = {body for c in pile for body in (c.a, c.b)}
@@ -154,7 +144,7 @@ class Sleep(Effect):
                 body = parent[body]
             return body
 
-        for links in self.link_hooks:
+        for links in self.world.hooks["links"]:
             for a, b in links():
                 if not (a.idle or b.idle):
                     parent[root(a)] = root(b)
@@ -172,5 +162,4 @@ class Sleep(Effect):
         """Update the world's list of awake bodies, and tell the effects."""
         self.world.awake = [body for body in self.world.bodies if not body.idle]
         self.world.has_changed = True
-        for awake_changed in self.awake_changed_hooks:
-            awake_changed()
+        self.world.call("awake_changed")

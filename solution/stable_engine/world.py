@@ -4,20 +4,28 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterable
-from typing import TypeVar
+from collections.abc import Callable, Iterable
+from typing import Any, TypeVar
 
 from .body import Body
 from .check import complaints, missing
-from .effect import Direction, Effect, Push, WorldState
+from .effect import Direction, Effect, Push
 from .joint import Joint
 from .rays import RayHit, cast_ray
 from .validate import pair, positive, refuse, require, whole
 
+# the names of hooks: of a step, of each substep, and between effects
+STEP = ("detect", "impact", "prepare", "finish", "coast", "tell")
+SUBSTEP = ("force", "warm_start", "solve", "press", "lag", "relax")
+BETWEEN = (
+    *("begin_contact", "body_changed", "body_moved", "static_moved", "unload", "forget"),
+    *("links", "drag", "awake_changed"),
+)
+
 Thing = TypeVar("Thing", bound=Body | Joint)
 
 
-class World(WorldState):
+class World:
     """Bodies, and the effects that the scene declares. No other effect runs a line of code.
 
     `gravity` is in px/s²; `substeps` make up a step. Both can be set later on; effects cannot.
@@ -28,11 +36,8 @@ class World(WorldState):
     """
 
     __slots__ = (
-        *("lengths", "added", "unchecked", "warned", "lag_h", "pushed"),
-        *("detect_hooks", "impact_hooks", "prepare_hooks"),
-        *("force_hooks", "warm_start_hooks", "solve_hooks", "relax_hooks", "finish_hooks"),
-        *("tell_hooks", "coast_hooks", "press_hooks", "lag_hooks", "static_moved_hooks"),
-        *("body_moved_hooks", "body_changed_hooks", "unload_hooks", "forget_hooks"),
+        *("lengths", "substep_count", "g", "bodies", "awake", "statics", "added", "effects"),
+        *("ranked", "hooks", "has_changed", "lag_h", "unchecked", "warned", "forces", "pushed"),
     )
 
     def __init__(
@@ -45,17 +50,17 @@ class World(WorldState):
         self.lengths = positive("World.unit", unit)
         self.substep_count = whole("World.substeps", substeps)
         self.g = pair("World.gravity", gravity)  # px/s²
-        self.bodies = []
-        self.awake = []
-        self.statics = []
+        self.bodies: list[Body] = []
+        self.awake: list[Body] = []  # the balls that can move now
+        self.statics: list[Body] = []
         self.added = 0  # bodies added so far
+        self.has_changed = True  # whether contacts must be found anew before the next step
         self.lag_h = 0.0  # s, the substep for which lags are known; 0 if anything has changed
         self.unchecked: list[Body] = []  # bodies and ends of joints that are new or changed
         self.warned: set[str] = set()  # the effects that a step has warned of
-        self.has_changed = True
-        self.forces = {}
+        self.forces: dict[Body, Push] = {}  # of the next step
         self.pushed: dict[Body, Push] = {}  # the forces of the step before
-        self.effects = {}
+        self.effects: dict[str, Effect] = {}
         if not isinstance(effects, Iterable):
             refuse("World.effects", effects, "a list of effects")
         for effect in effects:
@@ -64,31 +69,34 @@ class World(WorldState):
                 refuse("World.effects", effect, "a list of effects, as in [Contacts()]")
             require(name not in self.effects, "World.effects", f"with {name}() twice", "without")
             self.effects[name] = effect
+        self.ranked = sorted(self.effects.values(), key=lambda effect: effect.rank)
+        self.hooks = {name: find_hooks(name, self.ranked) for name in (*STEP, *BETWEEN)}
         for effect in self.effects.values():
-            effect.attach(self)
-
-        self.detect_hooks = self.hooks("detect")
-        self.impact_hooks = self.hooks("impact")
-        self.prepare_hooks = self.hooks("prepare")
-        self.finish_hooks = self.hooks("finish")
-        self.tell_hooks = self.hooks("tell")
-        self.coast_hooks = self.hooks("coast")
-        self.static_moved_hooks = self.hooks("static_moved")
-        self.body_moved_hooks = self.hooks("body_moved")
-        self.body_changed_hooks = self.hooks("body_changed")
-        self.unload_hooks = self.hooks("unload")
-        self.forget_hooks = self.hooks("forget")
+            name, found = f"World.effects' {effect!r}", "in another world already"
+            require(not hasattr(effect, "world"), name, found, "a new one: each world has its own")
+            effect.world = self
+            effect.attach()
         self.update_hooks()
 
     def update_hooks(self) -> None:
-        pushes = [self.apply_forces] if self.forces else []
-        self.force_hooks = [*self.hooks("force", busy=True), *pushes]
-        self.warm_start_hooks = self.hooks("warm_start", busy=True)
-        self.solve_hooks = self.hooks("solve", busy=True)
-        self.relax_hooks = self.hooks("relax", busy=True)
-        self.press_hooks = self.hooks("press", busy=True)
-        self.lag_hooks = self.hooks("lag", busy=True)
+        """Leave idle effects out of the substeps."""
+        busy = [effect for effect in self.ranked if not effect.is_idle()]
+        self.hooks |= {name: find_hooks(name, busy) for name in SUBSTEP}
         self.lag_h = 0.0
+
+    def call(self, name: str, *arguments: Any) -> None:
+        """Call the hooks of this name."""
+        for hook in self.hooks[name]:
+            hook(*arguments)
+
+    def need(self, name: str, user: object) -> Any:
+        """Return the effect of that name. Raises ValueError when the scene does not declare it."""
+        if name not in self.effects:
+            raise ValueError(
+                f"{type(user).__name__} needs {name}(), which this scene does not declare. "
+                f"Declare it: World(effects=[..., {name}()])."
+            )
+        return self.effects[name]
 
     def __repr__(self) -> str:
         names = ", ".join(f"{name}()" for name in self.effects)
@@ -165,19 +173,9 @@ class World(WorldState):
         effect.add(joint)
         self.has_changed = True
 
-    def set_bullet(self, body: Body, value: bool) -> None:
-        """Make a body a bullet, or not."""
-        bullets = self.need("Bullets", body)
-        if value:
-            bullets.add(body)
-        else:
-            bullets.forget(body)
-
     def look_again(self, body: Body) -> None:
         """Check this new or changed body in the next step."""
         self.has_changed = True
-        if not self.unchecked:
-            self.detect_hooks = [self.warn, *self.hooks("detect")]
         self.unchecked.append(body)
         self.lag_h = 0.0
 
@@ -200,8 +198,7 @@ class World(WorldState):
         self.lag_h = 0.0
         self.forces.pop(body, None)
         self.relieve({body: math.inf})
-        for forget in self.forget_hooks:
-            forget(body)
+        self.call("forget", body)
         # new lists, so that a program may remove bodies while it loops over world.bodies
         self.bodies = [other for other in self.bodies if other is not body]
         self.awake = [other for other in self.awake if other is not body]
@@ -236,17 +233,16 @@ class World(WorldState):
 
     def push(self, body: Body, fx: float, fy: float, torque: float) -> None:
         """Add to the force and the torque that act on a body in the next step."""
-        if not self.forces:
-            self.force_hooks = [*self.hooks("force", busy=True), self.apply_forces]
         before_x, before_y, before = self.forces.get(body, (0.0, 0.0, 0.0))
         self.forces[body] = before_x + fx, before_y + fy, before + torque
 
-    def apply_forces(self, h: float) -> None:
-        """Accelerate the bodies that were pushed, for h seconds."""
-        for body, (fx, fy, torque) in self.forces.items():
-            body.vx += fx * body.inv_mass * h
-            body.vy += fy * body.inv_mass * h
-            body.w += torque * body.inv_inertia * h
+    def acceleration(self, body: Body) -> tuple[float, float]:
+        """Return the acceleration (px/s²) of a ball by gravity and by forces on it alone."""
+        x, y = self.g
+        if body in self.forces:
+            fx, fy, _ = self.forces[body]
+            x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
+        return x, y
 
     def relieve(self, lost: dict[Body, float]) -> None:
         """Tell effects of masses (kg) that bodies have lost: infinity if they leave."""
@@ -263,13 +259,7 @@ class World(WorldState):
 
     def unload(self, lost: dict[Body, float], direction: Direction) -> None:
         """Tell effects by how much (kg px/s²) bodies press less."""
-        for unload in self.unload_hooks:
-            unload(lost, direction)
-
-    def clear_forces(self) -> None:
-        """End all forces at the end of their step."""
-        self.forces = {}
-        self.force_hooks = self.hooks("force", busy=True)
+        self.call("unload", lost, direction)
 
     def check(self) -> list[str]:
         """Return a sentence for each effect that is needed but undeclared, or declared but unused.
@@ -284,16 +274,15 @@ class World(WorldState):
     def seen(self) -> list[Body]:
         """Return the bodies to check, each once, and clear the list."""
         bodies, self.unchecked = list(dict.fromkeys(self.unchecked)), []
-        self.detect_hooks = self.hooks("detect")
         return bodies
 
-    def warn(self, h: float) -> None:
+    def warn(self) -> None:
         """Warn once of each undeclared effect that new or changed bodies need."""
         bodies = [body for body in self.seen() if body.world is self]
         for name, sentence in missing(self, bodies).items():
             if name not in self.warned:
                 self.warned.add(name)
-                warnings.warn(sentence, stacklevel=4)
+                warnings.warn(sentence, stacklevel=3)
 
     def step(self, dt: float) -> None:
         """Advance by dt seconds. Raises ValueError on a bad dt or a body with NaN or infinity."""
@@ -305,12 +294,12 @@ class World(WorldState):
         for body in self.awake:
             body.check()
         if not self.awake:
-            for coast in self.coast_hooks:
-                coast(dt)
+            self.call("coast", dt)
             return
+        hooks = self.hooks
 
         # 1 detect: the step before has, unless the program has changed anything since
-        lags = bool(self.lag_hooks or self.forces) or self.g != (0.0, 0.0)
+        lags = bool(hooks["lag"] or self.forces) or self.g != (0.0, 0.0)
         is_known = h == self.lag_h and self.forces.keys() == self.pushed.keys()
         if self.pushed and self.forces != self.pushed:
             self.end_pushes()
@@ -318,54 +307,55 @@ class World(WorldState):
             self.lag_behind()
         has_changed = self.has_changed
         if has_changed:
+            if self.unchecked:
+                self.warn()
             self.detect(h)
         if lags and not is_known:
             self.change_velocities(-h / 2)
             for body in self.awake:
                 body.is_pressed = body.is_fresh = False
-        for impact in self.impact_hooks if has_changed else []:
+        for impact in hooks["impact"] if has_changed else []:
             impact(h)
 
         # 2 prepare
-        for prepare in self.prepare_hooks:
+        for prepare in hooks["prepare"]:
             prepare(h)
 
         for _ in range(self.substep_count):
             # 3 forces
-            for force in self.force_hooks:
+            for force in hooks["force"]:
                 force(h)
-            self.apply_gravity(h)
+            self.accelerate(h)
 
             # 4 solve
-            for warm_start in self.warm_start_hooks:
+            for warm_start in hooks["warm_start"]:
                 warm_start(h)
-            for solve in self.solve_hooks:
+            for solve in hooks["solve"]:
                 solve(h)
 
             # 5 move
             self.move(h)
 
             # 6 relax
-            for relax in self.relax_hooks:
+            for relax in hooks["relax"]:
                 relax(h)
 
-        for finish in self.finish_hooks:
+        for finish in hooks["finish"]:
             finish(h)
         if self.awake:
             self.detect(h)
-            for impact in self.impact_hooks:
+            for impact in hooks["impact"]:
                 impact(h)
         self.lag_h = h if lags else 0.0
         if lags:
             self.catch_up(h)
-        for tell in self.tell_hooks:
+        for tell in hooks["tell"]:
             tell(h)
 
     def detect(self, h: float) -> None:
         """Find out which bodies touch."""
         self.has_changed = False
-        for detect in self.detect_hooks:
-            detect(h)
+        self.call("detect", h)
 
     def lag_behind(self) -> None:
         """Take velocities back by half a substep, as in a leapfrog: they are those of the moves.
@@ -380,8 +370,7 @@ class World(WorldState):
     def catch_up(self, h: float) -> None:
         """Take velocities on to the time of the positions, except those of pressed bodies."""
         self.change_velocities(h / 2)
-        self.pushed = self.forces
-        self.clear_forces()
+        self.pushed, self.forces = self.forces, {}
 
     def change_velocities(self, seconds: float) -> None:
         """Change velocities as so many seconds would (below 0: back) where bodies are now."""
@@ -391,10 +380,8 @@ class World(WorldState):
         for body, (fx, fy, _) in self.forces.items():
             body.lag_x += fx * body.inv_mass * seconds
             body.lag_y += fy * body.inv_mass * seconds
-        for press in self.press_hooks:
-            press(2 * abs(seconds))
-        for lag in self.lag_hooks:
-            lag(seconds)
+        self.call("press", 2 * abs(seconds))
+        self.call("lag", seconds)
         for body in self.awake:
             if body.is_pressed:
                 body.lag_x = body.lag_y = 0.0
@@ -402,8 +389,12 @@ class World(WorldState):
                 body.vx += body.lag_x
                 body.vy += body.lag_y
 
-    def apply_gravity(self, h: float) -> None:
-        """Accelerate every awake ball for h seconds."""
+    def accelerate(self, h: float) -> None:
+        """Accelerate balls for h seconds, by forces on them and by gravity."""
+        for body, (fx, fy, torque) in self.forces.items():
+            body.vx += fx * body.inv_mass * h
+            body.vy += fy * body.inv_mass * h
+            body.w += torque * body.inv_inertia * h
         gx, gy = self.g[0] * h, self.g[1] * h
         for body in self.awake if gx or gy else []:
             body.vx += gx
@@ -415,3 +406,9 @@ class World(WorldState):
             body.x += body.vx * h
             body.y += body.vy * h
             body.turn += body.w * h
+
+
+def find_hooks(name: str, effects: list[Effect]) -> list[Callable[..., Any]]:
+    """Return the hooks of this name that these effects override."""
+    base = getattr(Effect, name)
+    return [getattr(effect, name) for effect in effects if getattr(type(effect), name) is not base]
