@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from math import hypot, inf
 from typing import TYPE_CHECKING
 
@@ -18,26 +18,6 @@ if TYPE_CHECKING:
 RESTITUTION, FRICTION = 0.3, 0.6  # where none is given
 State = tuple[float, float, float, float]  # position (px) and velocity (px/s) of a body
 LEAST = 1e-100  # kg and kg px²: far below, and far above its inverse, floats run out of range
-
-
-class Island:
-    """Bodies that sleep and wake together. Waking calls on_wake."""
-
-    def __init__(self, bodies: list[Body], on_wake: Callable[[], None]) -> None:
-        self.bodies = bodies
-        self.on_wake = on_wake
-        for body in bodies:
-            body.island = self
-            body.sleeps = body.idle = True
-            body.vx = body.vy = body.w = body.lag_x = body.lag_y = 0.0
-
-    def wake(self) -> None:
-        """Wake all its bodies."""
-        for body in self.bodies:
-            body.island = None
-            body.sleeps = body.idle = False
-            body.still = body.kept = 0.0
-        self.on_wake()
 
 
 class Body:
@@ -86,20 +66,16 @@ class Body:
         self.m = self.inv_mass = self.inv_inertia = 0.0  # see weigh
         self.id = 0  # from 1 up for a ball in a world, from -1 down for a static body
         self.idle = mass == 0  # static or asleep
-        self.segment: Segment | None = None
-        if isinstance(shape, (Box, Segment)):
-            name = type(shape).__name__
-            require(mass == 0, "Body.mass", mass, f"0 for a {name}, which is always static")
-            self.r = 0.0
-            self.hx, self.hy = shape.half  # px, half extents of the bounding box
-            if isinstance(shape, Segment):
-                self.segment = shape
-                pos = shape.middle if pos is None else pos
-        elif isinstance(shape, Circle):
-            self.r = self.hx = self.hy = shape.radius  # px
-        else:
+        if not isinstance(shape, (Circle, Box, Segment)):
             refuse("Body.shape", shape, "a Circle, a Box or a Segment")
         self.outline = shape
+        self.segment = shape if isinstance(shape, Segment) else None
+        self.r = shape.radius if isinstance(shape, Circle) else 0.0  # px
+        self.hx, self.hy = shape.half  # px, half extents of the bounding box
+        rule = f"0 for a {type(shape).__name__}, which is always static"
+        require(self.r > 0 or mass == 0, "Body.mass", mass, rule)
+        if self.segment and pos is None:
+            pos = self.segment.middle
         if pos is None:
             refuse("Body.pos", pos, "a pair of numbers, except for a Segment")
         self.x, self.y = pair("Body.pos", pos)  # px
@@ -107,7 +83,7 @@ class Body:
         self.e, self.mu = RESTITUTION, FRICTION
         self.restitution_given = self.friction_given = False
         self.world: World | None = None
-        self.island: Island | None = None  # the bodies it sleeps with
+        self.island: list[Body] = []  # the bodies it sleeps with
         self.joint_count = 0  # of the world's joints that are tied to it
         self.is_bullet = bullet
         self.is_kinematic = kinematic
@@ -336,8 +312,8 @@ class Body:
 
     def wake(self) -> None:
         """Wake this body and those that sleep with it."""
-        if self.island:
-            self.island.wake()
+        if self.island and self.world:
+            self.world.call("wake", self.island)
 
     def moved(self) -> None:
         """Wake this body; if it is static, also wake bodies that rested on it or touch it now."""

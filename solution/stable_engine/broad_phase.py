@@ -154,22 +154,14 @@ class BroadPhase:
         late, doubtful = self.age > self.end, self.moving
         if not (late or self.falls):
             self.list_near()
-            doubtful = self.near + self.find_pushed()
-        self.leavers = leavers = []
-        for one in doubtful:
-            if not one.holds():
-                leavers.append(one)
+            # of bodies with nobody near, only those can leave whose velocity has changed
+            far = [b for b in self.far if b.body.vx != b.vx or b.body.vy != b.vy]
+            doubtful = self.near + far
+        self.leavers = leavers = [one for one in doubtful if not one.holds()]
         many = MANY if self.falls else max(MANY, SHARE * len(self.moving))
         if (leavers and (late or len(leavers) > many)) or (doubtful and self.is_quiet):
             self.is_stale = True
         return leavers
-
-    def find_pushed(self) -> list[Bounds]:
-        """Return the bounds of bodies with nobody near whose velocity has changed.
-
-        The others of these cannot leave their rooms before the `end`.
-        """
-        return [one for one in self.far if one.body.vx != one.vx or one.body.vy != one.vy]
 
     def renew(
         self, g: tuple[float, float], held: set[Body], dt: float, back: float, margin: float
@@ -197,18 +189,16 @@ class BroadPhase:
             if steady and not self.falls:
                 self.skip_pairs(ahead + 2 * dt, margin)
         else:
-            self.search(margin)
+            self.search(self.leavers, margin)
         self.leavers, self.is_stale = [], False
         return self.pairs[count:]
 
     def follow(self, bodies: list[Body], dt: float, margin: float) -> list[Pair]:
         """Make room for bodies that were thrown out of theirs. Return the new near pairs."""
-        count = len(self.pairs)
-        self.leavers = [self.rooms[body] for body in bodies]
-        for one in self.leavers:
+        leavers, count = [self.rooms[body] for body in bodies], len(self.pairs)
+        for one in leavers:
             one.make_room(0.0, max(self.ahead - self.age, dt))
-        self.search(margin)
-        self.leavers = []
+        self.search(leavers, margin)
         return self.pairs[count:]
 
     def list_near(self) -> None:
@@ -256,17 +246,17 @@ class BroadPhase:
         """Return whether checks of pairs that did not touch cost more than a sweep."""
         return self.looks > SWEEP * len(self.moving)
 
-    def search(self, margin: float) -> None:
+    def search(self, leavers: list[Bounds], margin: float) -> None:
         """Add the pairs of leavers that are newly near. Those no longer near stay on the list."""
-        for one in self.leavers:
+        for one in leavers:
             one.update_box(self.upright, margin)
             before, last_before = one.first_lane, one.last_lane
             self.find_lanes(one)
             for index in range(one.first_lane, one.last_lane + 1):
                 if not before <= index <= last_before:
                     self.lanes[index].append(one)
-        near, count = self.pairs_of([one.body for one in self.leavers]), len(self.pairs)
-        for one in self.leavers:
+        near, count = self.pairs_of([one.body for one in leavers]), len(self.pairs)
+        for one in leavers:
             a = one.body
             pairs = near[a] + self.pairs[count:]
             known = [a] + [p.b if p.a is a else p.a for p in pairs if p.a is a or p.b is a]

@@ -2,15 +2,14 @@
 
 from math import hypot
 
-from .body import Body
 from .contacts import RESTING_SPEED, Contacts
-from .effect import Effect
+from .effect import Users
 
 SWEEP_FROM = 0.5  # radii, a bullet that moves further in one step is swept
 OVERLAP = 0.05  # radii, the overlap of a stopped bullet, so that the next step finds the contact
 
 
-class Bullets(Effect):
+class Bullets(Users):
     """Continuous collision detection: a bullet's step is swept, and ends at its first hit.
 
     Contacts stop any fast ball, but only once its core is in the static body, and softly: a ball
@@ -18,35 +17,21 @@ class Bullets(Effect):
     each other on their way, bullets or not.
     """
 
-    __slots__ = ("bullets", "contacts", "resting_speed", "starts")
+    __slots__ = ("contacts", "starts")
     rank = 7
-
-    def __init__(self) -> None:
-        self.bullets: list[Body] = []
 
     def attach(self) -> None:
         self.contacts: Contacts = self.world.need("Contacts", self)
-        self.resting_speed = RESTING_SPEED * self.world.unit
-
-    def add(self, body: Body) -> None:
-        self.bullets.append(body)
-
-    def forget(self, body: Body) -> None:
-        if body.is_bullet:
-            self.bullets.remove(body)
-
-    def is_used(self) -> bool:
-        return bool(self.bullets)
 
     def impact(self, h: float) -> None:
         """Stop a bullet that did not bounce: a soft contact would give way too far."""
-        if self.bullets:
-            for c in self.contacts.touching:
-                if (c.a.is_bullet or c.b.is_bullet) and c.closing_speed() > self.resting_speed:
-                    c.push_apart(c.mn * c.closing_speed())
+        fast = RESTING_SPEED * self.world.unit
+        for c in self.contacts.touching if self.bodies else []:
+            if (c.a.is_bullet or c.b.is_bullet) and c.closing_speed() > fast:
+                c.push_apart(c.mn * c.closing_speed())
 
     def prepare(self, h: float) -> None:
-        self.starts = [(bullet, bullet.x, bullet.y) for bullet in self.bullets]
+        self.starts = [(bullet, bullet.x, bullet.y) for bullet in self.bodies]
 
     def finish(self, h: float) -> None:
         for bullet, x, y in self.starts:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from .body import Body
 from .joint import Joint
+from .network import bodies_of, connect
 
 if TYPE_CHECKING:
     from .world import World
@@ -126,20 +127,12 @@ def overloaded_rods(world: World) -> list[str]:
     """
     rods: list[Joint] = getattr(world.effects.get("Rods"), "joints", [])
     h, pull = FRAME / 2 / world.substep_count, hypot(*world.g) + whirl(rods)
-    load: dict[Body, float] = {}
-    for _ in rods:  # after so many rounds at most, each ball knows the heaviest
-        before = dict(load)
-        for rod in rods:
-            ends = [body for body in (rod.a, rod.b) if not body.is_static]
-            heaviest = max([load.get(body, body.m) for body in ends])
-            load |= dict.fromkeys(ends, heaviest)
-        if load == before:
-            break
-    for rod in rods:
-        for body in (rod.a, rod.b):
-            if not body.is_static and h * h * pull * load[body] > SHAKY * body.m * rod.rest:
+    for frame in connect(rods):
+        load = max([body.m for body in bodies_of(frame.joints)])
+        for body, length in [(end, rod.rest) for rod in frame.joints for end in (rod.a, rod.b)]:
+            if not body.is_static and h * h * pull * load > SHAKY * body.m * length:
                 return [
-                    f"{body!r} is on a rod with up to {load[body]:g} kg: it may shake faster than "
+                    f"{body!r} is on a rod with up to {load:g} kg: it may shake faster than "
                     "the substeps can follow. Take more substeps, or masses closer to each other."
                 ]
     return []

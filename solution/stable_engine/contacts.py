@@ -7,7 +7,6 @@ from .body import Body, State, state_of
 from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, the_way_it_came
 from .effect import Direction, Effect
-from .joint import Joints
 from .loads import (
     BEARING,
     DEEP,
@@ -24,6 +23,7 @@ from .loads import (
     take_off,
 )
 from .order import PLACE, Group, give_places, in_same_place, put_in_order
+from .rods import Rods
 from .soft import SAME_DIRECTION, Pace, softness
 from .springs import Springs
 from .sweep import NO_HIT, first_hit, moment_of_touch, put_back
@@ -316,15 +316,13 @@ class Contacts(Effect):
         """Return whether a bullet met something static in the step before."""
         return body.is_bullet and body in self.stopped
 
-    def ignore_pair(self, a: Body, b: Body) -> None:
-        """Let A and B pass through each other: a joint may hold them overlapping."""
-        self.ignored.add(pair_number(a, b))
-        self.drop(a, b)
-
-    def heed_pair(self, a: Body, b: Body) -> None:
-        """Let A and B touch again."""
-        self.ignored.discard(pair_number(a, b))
-        self.broad_phase.bounds = []
+    def let_touch(self, a: Body, b: Body, may: bool) -> None:
+        if may:
+            self.ignored.discard(pair_number(a, b))
+            self.broad_phase.bounds = []
+        else:
+            self.ignored.add(pair_number(a, b))
+            self.drop(a, b)
 
     def prepare(self, h: float) -> None:
         """Set the stiffness of contacts by the substep, their damping by the number of substeps.
@@ -381,7 +379,7 @@ class Contacts(Effect):
                 loads[body] = hypot(fx, fy) / pull
         is_heavy = is_heavy or bool(loads)
         frames = []
-        if isinstance(rods, Joints) and (is_heavy or is_deep or rods.any_heavy()):
+        if isinstance(rods, Rods) and (is_heavy or is_deep or rods.any_heavy()):
             is_heavy, frames = True, rods.frame_loads()
             for frame, load in frames:
                 loads.update({body: load for rod in frame for body in (rod.end_a, rod.end_b)})

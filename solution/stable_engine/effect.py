@@ -124,5 +124,30 @@ class Effect:
     def drag(self, rates: dict[Body, float]) -> None:
         """Add the rate (1/s) at which this effect alone slows each awake body."""
 
+    def let_touch(self, a: Body, b: Body, may: bool) -> None:
+        """Let two bodies touch, or pass through each other: a joint may hold them overlapping."""
+
+    def wake(self, island: list[Body]) -> None:
+        """Wake the bodies of an island, which sleep together."""
+
     def awake_changed(self) -> None:
         """Update lists of awake bodies, after some fell asleep or woke."""
+
+
+class Users(Effect):
+    """An effect with a list of the bodies that use it."""
+
+    __slots__ = ("bodies",)
+
+    def __init__(self) -> None:
+        self.bodies: list[Body] = []
+
+    def add(self, body: Body) -> None:
+        self.bodies.append(body)
+
+    def forget(self, body: Body) -> None:
+        if body in self.bodies:
+            self.bodies.remove(body)
+
+    def is_used(self) -> bool:
+        return bool(self.bodies)

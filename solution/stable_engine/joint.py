@@ -71,11 +71,6 @@ class Joint:
         self.end_b.wake()
         self.end_a.changed()
 
-    def wake(self) -> None:
-        """Wake both ends."""
-        self.end_a.wake()
-        self.end_b.wake()
-
     def weigh(self) -> None:
         """Take over the masses of a and b."""
         self.m = 1 / (self.end_a.inv_mass + self.end_b.inv_mass)  # kg, effective mass
@@ -117,15 +112,17 @@ AnyJoint = TypeVar("AnyJoint", bound=Joint)
 class Joints(Effect, Generic[AnyJoint]):
     """An effect with a list of joints. Those between sleeping bodies are skipped."""
 
-    __slots__ = ("awake", "joints")
+    __slots__ = ("awake", "is_stale", "joints")
 
     def __init__(self) -> None:
         self.joints: list[AnyJoint] = []
         self.awake: list[AnyJoint] = []
+        self.is_stale = False  # whether what was found out about them must be found anew
 
     def add(self, joint: AnyJoint) -> None:
         self.joints.append(joint)
         self.awake.append(joint)
+        self.is_stale = True
         self.world.update_hooks()
 
     def remove(self, joint: AnyJoint) -> None:
@@ -140,11 +137,13 @@ class Joints(Effect, Generic[AnyJoint]):
         for joint in self.joints:
             if body in (joint.end_a, joint.end_b):
                 joint.weigh()
+        self.is_stale = True
 
     def static_moved(self, body: Body) -> None:
         for joint in self.joints:
             if body in (joint.end_a, joint.end_b):
-                joint.wake()
+                joint.end_a.wake()
+                joint.end_b.wake()
 
     def is_used(self) -> bool:
         return bool(self.joints)
@@ -155,16 +154,8 @@ class Joints(Effect, Generic[AnyJoint]):
     def links(self) -> list[tuple[Body, Body]]:
         return [(joint.end_a, joint.end_b) for joint in self.awake]
 
-    def any_heavy(self) -> bool:
-        """Return whether any rigid joints press like a heavy body."""
-        return False
-
-    def frame_loads(self) -> list[tuple[list[Joint], float]]:
-        """Return the rigid joints that are connected and can move, and the mass (kg) they press."""
-        return []
-
     def awake_changed(self) -> None:
-        was_idle = self.is_idle()
+        was_idle, self.is_stale = self.is_idle(), True
         self.awake = [joint for joint in self.joints if not (joint.end_a.idle and joint.end_b.idle)]
         if self.is_idle() != was_idle:
             self.world.update_hooks()

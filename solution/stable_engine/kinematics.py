@@ -1,10 +1,9 @@
 """Kinematic bodies: they move by their own velocity, and push whatever is in their way."""
 
-from .body import Body
-from .effect import Effect
+from .effect import Users
 
 
-class Kinematics(Effect):
+class Kinematics(Users):
     """Move bodies that are kinematic=True by their velocity and spin, which nothing else changes.
 
     They carry and push balls with any force, as lifts, paddles and pistons do. They pass through
@@ -12,21 +11,8 @@ class Kinematics(Effect):
     pass through the ball.
     """
 
-    __slots__ = ("bodies",)
+    __slots__ = ()
     rank = -1  # moves bodies before any other effect relaxes
-
-    def __init__(self) -> None:
-        self.bodies: list[Body] = []
-
-    def add(self, body: Body) -> None:
-        self.bodies.append(body)
-
-    def forget(self, body: Body) -> None:
-        if body.is_kinematic:
-            self.bodies.remove(body)
-
-    def is_used(self) -> bool:
-        return bool(self.bodies)
 
     def detect(self, h: float) -> None:
         """Wake sleepers near moving kinematic bodies."""

@@ -30,15 +30,8 @@ class Coupling:
 Fill = tuple[Coupling, Coupling, Coupling]
 
 
-class Row:
-    """A joint, its couplings to later ones, and the changes that eliminating it makes to those."""
-
-    __slots__ = ("couplings", "fills", "joint")
-
-    def __init__(self, joint: Joint, couplings: list[Coupling], fills: list[Fill]) -> None:
-        self.joint = joint
-        self.couplings = couplings
-        self.fills = fills
+# a joint, its couplings to later ones, and the changes that eliminating it makes to those
+Row = tuple[Joint, list[Coupling], list[Fill]]
 
 
 class Network(Generic[AnyJoint]):
@@ -73,7 +66,7 @@ class Network(Generic[AnyJoint]):
                     self.filled.append(there)
                 fills.append((before, c, there))
             couplings.append(c)
-        return Row(joint, couplings, fills)
+        return joint, couplings, fills
 
     def solve(self) -> None:
         """Find the impulses that together give each joint its speed.
@@ -86,21 +79,19 @@ class Network(Generic[AnyJoint]):
             c.value = c.weight * (one.nx * other.nx + one.ny * other.ny) + c.spin
         for c in self.filled:
             c.value = 0.0
-        for row in self.rows:
-            if row.couplings:
-                joint = row.joint
+        for joint, couplings, fills in self.rows:
+            if couplings:
                 pivot, rhs = joint.pivot, joint.rhs
-                for c in row.couplings:
+                for c in couplings:
                     share = c.share = c.value / pivot
                     other = c.other
                     other.pivot -= share * c.value
                     other.rhs -= share * rhs
-                for c, d, filled in row.fills:
+                for c, d, filled in fills:
                     filled.value -= c.share * d.value
-        for row in self.backwards:
-            joint = row.joint
+        for joint, couplings, _ in self.backwards:
             rhs = joint.rhs / joint.pivot
-            for c in row.couplings:
+            for c in couplings:
                 rhs -= c.share * c.other.rhs
             joint.rhs = rhs
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from pygame import Vector2
 
 from .body import Body
-from .sweep import NO_HIT, hit_body
+from .sweep import NO_HIT, hit_body, stay_in_box
 
 ROUNDING = 1e-12  # share of the way, and of a box, by which a ray may miss an edge
 
@@ -50,15 +50,7 @@ def meet_body(body: Body, x: float, y: float, dx: float, dy: float) -> float:
     """Return the share of the way at which a ray from (x, y) enters a body, or NO_HIT."""
     if body.r or body.segment is not None:
         return hit_body(body, 0.0, x, y, dx, dy)
-    enter, leave = 0.0, NO_HIT
-    for start, move, half in ((x, dx, body.hx), (y, dy, body.hy)):
-        if move == 0:
-            if abs(start) > half * (1 + ROUNDING):
-                return NO_HIT
-        else:
-            side = copysign(half, move)
-            enter = max(enter, (-side - start) / move)
-            leave = min(leave, (side - start) / move)
+    enter, leave = stay_in_box(x, y, dx, dy, body.hx, body.hy, ROUNDING * (body.hx + body.hy))
     return enter if 0 < enter <= leave else NO_HIT
 
 

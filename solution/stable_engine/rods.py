@@ -8,7 +8,6 @@ on bodies that move apart, Frame.give_way makes them soft: the parts alone would
 from math import hypot, sqrt
 
 from .body import Body
-from .contacts import Contacts
 from .joint import FIRM, Joint, Joints
 from .loads import HEAVY
 from .network import Network, connect
@@ -82,7 +81,7 @@ class Rods(Joints[Rod]):
     along the present axis counts, as the axis after the move would drive them on.
     """
 
-    __slots__ = ("frame_of", "frames", "is_stale", "pace", "spring")
+    __slots__ = ("frame_of", "frames", "pace", "spring")
     rank = 2
 
     def __init__(self) -> None:
@@ -90,37 +89,23 @@ class Rods(Joints[Rod]):
         self.pace = Pace(STIFFENING)
         self.frames: list[Frame] = []
         self.frame_of: dict[Body, Frame] = {}
-        self.is_stale = False
 
     def add(self, rod: Rod) -> None:
         super().add(rod)
-        self.is_stale = True
-        self.let_touch(rod, may_touch(rod))
+        self.world.call("let_touch", rod.a, rod.b, may_touch(rod))
 
     def remove(self, rod: Rod) -> None:
         super().remove(rod)
-        self.let_touch(rod, True)
+        self.world.call("let_touch", rod.a, rod.b, True)
 
     def body_changed(self, body: Body) -> None:
         super().body_changed(body)
-        self.is_stale = True
         for rod in self.joints:
             if body in (rod.a, rod.b):
-                self.let_touch(rod, may_touch(rod))
-
-    def let_touch(self, rod: Rod, may: bool) -> None:
-        """Let the ends of a rod touch or not."""
-        contacts = self.world.effects.get("Contacts")
-        if not isinstance(contacts, Contacts):
-            return
-        if may:
-            contacts.heed_pair(rod.a, rod.b)
-        else:
-            contacts.ignore_pair(rod.a, rod.b)
+                self.world.call("let_touch", rod.a, rod.b, may_touch(rod))
 
     def awake_changed(self) -> None:
         super().awake_changed()
-        self.is_stale = True
         self.pace.awake_changed(len(self.awake) < len(self.joints))
 
     def prepare(self, h: float) -> None:
@@ -145,6 +130,7 @@ class Rods(Joints[Rod]):
                 frame.hold_lags()
 
     def any_heavy(self) -> bool:
+        """Return whether any frame presses like a heavy body."""
         self.find_frames()
         return any([frame.load > HEAVY * frame.lightest for frame in self.frames])
 

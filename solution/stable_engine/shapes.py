@@ -11,6 +11,7 @@ class Circle:
 
     def __init__(self, radius: float) -> None:
         self.size = positive("Circle.radius", radius)
+        self.half = self.size, self.size  # px, of its bounding box
 
     @property
     def radius(self) -> float:

@@ -2,7 +2,7 @@
 
 from math import hypot
 
-from .body import Body, Island
+from .body import Body
 from .contacts import Contacts
 from .effect import Effect
 
@@ -109,9 +109,17 @@ class Sleep(Effect):
         self.shaken = {body for c in pile for body in (c.a, c.b)}
         still = [i for i in self.find_islands() if self.is_still(i)]
         for island in still:
-            Island(island, self.update_awake)
+            for body in island:
+                body.island, body.sleeps, body.idle = island, True, True
+                body.vx = body.vy = body.w = body.lag_x = body.lag_y = 0.0
         if still:
             self.update_awake()
+
+    def wake(self, island: list[Body]) -> None:
+        for body in island:
+            body.island, body.sleeps, body.idle = [], False, False
+            body.still = body.kept = 0.0
+        self.update_awake()
 
     def is_still(self, island: list[Body]) -> bool:
         """Return whether all balls of an island lie still, and nothing sets them in motion."""

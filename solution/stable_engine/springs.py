@@ -126,26 +126,13 @@ class Springs(Joints[Spring]):
     partly by the speed before the substep and partly by that after it, see part_after.
     """
 
-    __slots__ = ("is_stale", "networks", "springs_of")
+    __slots__ = ("networks", "springs_of")
     rank = 1
 
     def __init__(self) -> None:
         super().__init__()
         self.networks: list[Network[Spring]] = []
         self.springs_of: dict[Body, list[Spring]] = {}
-        self.is_stale = False
-
-    def add(self, spring: Spring) -> None:
-        super().add(spring)
-        self.is_stale = True
-
-    def awake_changed(self) -> None:
-        super().awake_changed()
-        self.is_stale = True
-
-    def body_changed(self, body: Body) -> None:
-        super().body_changed(body)
-        self.is_stale = True
 
     def prepare(self, h: float) -> None:
         """Take impacts out of the swing."""

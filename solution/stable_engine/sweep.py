@@ -90,21 +90,31 @@ def hit_body(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -
 
 def hit_box(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -> float:
     """Return the time of impact of a point with a box grown by the ball's radius."""
-    enter, leave = 0.0, NO_HIT
-    for start, move, half in ((x, dx, s.hx + radius), (y, dy, s.hy + radius)):
-        if move == 0:
-            if abs(start) >= half:
-                return NO_HIT
-        else:
-            side = copysign(half, move)
-            enter = max(enter, (-side - start) / move)
-            leave = min(leave, (side - start) / move)
+    enter, leave = stay_in_box(x, y, dx, dy, s.hx + radius, s.hy + radius)
     if enter >= leave:
         return NO_HIT
     at_x, at_y = x + dx * enter, y + dy * enter
     if abs(at_x) > s.hx and abs(at_y) > s.hy:
         return hit_point(radius, x - copysign(s.hx, at_x), y - copysign(s.hy, at_y), dx, dy)
     return enter or NO_HIT
+
+
+def stay_in_box(
+    x: float, y: float, dx: float, dy: float, hx: float, hy: float, edge: float = 0.0
+) -> tuple[float, float]:
+    """Return when a point enters and leaves a box of these half sizes, as fractions of the step.
+
+    It never does where both are NO_HIT. Along an edge, it is in the box up to `edge` px outside.
+    """
+    enter, leave = 0.0, NO_HIT
+    for start, move, half in ((x, dx, hx), (y, dy, hy)):
+        if move:
+            side = copysign(half, move)
+            enter = max(enter, (-side - start) / move)
+            leave = min(leave, (side - start) / move)
+        elif abs(start) >= half + edge:
+            return NO_HIT, NO_HIT
+    return enter, leave
 
 
 def hit_segment(wall: Segment, radius: float, x: float, y: float, dx: float, dy: float) -> float:

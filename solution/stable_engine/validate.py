@@ -43,10 +43,7 @@ def not_negative(field: str, value: float) -> float:
 
 def positive(field: str, value: float) -> float:
     """Return value as a float. Raises ValueError when it is 0 or below, NaN or infinite."""
-    rule = "a finite number above 0"
-    found = number(field, value, 0, math.inf, rule)
-    require(found > 0, field, value, rule)
-    return found
+    return number(field, value, math.ulp(0), math.inf, "a finite number above 0")
 
 
 def whole(field: str, value: int) -> int:

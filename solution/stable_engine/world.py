@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from .body import Body
 from .check import complaints, missing
-from .effect import Direction, Effect, Push
+from .effect import Effect, Push
 from .joint import Joint
 from .rays import RayHit, cast_ray
 from .validate import pair, positive, refuse, require, whole
@@ -19,7 +19,7 @@ STEP = ("detect", "impact", "prepare", "finish", "coast", "tell")
 SUBSTEP = ("force", "warm_start", "solve", "press", "lag", "relax")
 BETWEEN = (
     *("begin_contact", "body_changed", "body_moved", "static_moved", "unload", "forget"),
-    *("links", "drag", "awake_changed"),
+    *("let_touch", "links", "drag", "wake", "awake_changed"),
 )
 
 Thing = TypeVar("Thing", bound=Body | Joint)
@@ -114,7 +114,7 @@ class World:
         lost = gx - self.g[0], gy - self.g[1]
         if lost != (0.0, 0.0):
             size = math.hypot(*lost)
-            self.unload({body: body.m * size for body in self.bodies if body.m}, lost)
+            self.call("unload", {body: body.m * size for body in self.bodies if body.m}, lost)
             for body in self.bodies:
                 body.wake()
 
@@ -247,7 +247,7 @@ class World:
     def relieve(self, lost: dict[Body, float]) -> None:
         """Tell effects of masses (kg) that bodies have lost: infinity if they leave."""
         pull = math.hypot(*self.g) or 1.0
-        self.unload({body: mass * pull for body, mass in lost.items()}, self.g)
+        self.call("unload", {body: mass * pull for body, mass in lost.items()}, self.g)
 
     def end_pushes(self) -> None:
         """Tell effects of forces that are less than in the step before."""
@@ -255,11 +255,7 @@ class World:
             fx, fy, _ = self.forces.get(body, (0.0, 0.0, 0.0))
             lost = before_x - fx, before_y - fy
             if body.world is self and lost[0] * before_x + lost[1] * before_y > 0:
-                self.unload({body: math.hypot(*lost)}, lost)
-
-    def unload(self, lost: dict[Body, float], direction: Direction) -> None:
-        """Tell effects by how much (kg px/s²) bodies press less."""
-        self.call("unload", lost, direction)
+                self.call("unload", {body: math.hypot(*lost)}, lost)
 
     def check(self) -> list[str]:
         """Return a sentence for each effect that is needed but undeclared, or declared but unused.
@@ -267,18 +263,14 @@ class World:
         Other sentences name a gravity too weak for the unit, and rods that shake. Without this
         call, a step warns of undeclared effects after bodies were added or changed.
         """
-        self.seen()
+        self.unchecked = []
         self.warned |= missing(self, self.bodies).keys()
         return complaints(self)
 
-    def seen(self) -> list[Body]:
-        """Return the bodies to check, each once, and clear the list."""
-        bodies, self.unchecked = list(dict.fromkeys(self.unchecked)), []
-        return bodies
-
     def warn(self) -> None:
         """Warn once of each undeclared effect that new or changed bodies need."""
-        bodies = [body for body in self.seen() if body.world is self]
+        bodies = [body for body in dict.fromkeys(self.unchecked) if body.world is self]
+        self.unchecked = []
         for name, sentence in missing(self, bodies).items():
             if name not in self.warned:
                 self.warned.add(name)
@@ -294,7 +286,8 @@ class World:
         for body in self.awake:
             body.check()
         if not self.awake:
-            self.call("coast", dt)
+            for coast in self.hooks["coast"]:
+                coast(dt)
             return
         hooks = self.hooks
 
@@ -355,7 +348,8 @@ class World:
     def detect(self, h: float) -> None:
         """Find out which bodies touch."""
         self.has_changed = False
-        self.call("detect", h)
+        for detect in self.hooks["detect"]:
+            detect(h)
 
     def lag_behind(self) -> None:
         """Take velocities back by half a substep, as in a leapfrog: they are those of the moves.
@@ -380,8 +374,10 @@ class World:
         for body, (fx, fy, _) in self.forces.items():
             body.lag_x += fx * body.inv_mass * seconds
             body.lag_y += fy * body.inv_mass * seconds
-        self.call("press", 2 * abs(seconds))
-        self.call("lag", seconds)
+        for press in self.hooks["press"]:
+            press(2 * abs(seconds))
+        for lag in self.hooks["lag"]:
+            lag(seconds)
         for body in self.awake:
             if body.is_pressed:
                 body.lag_x = body.lag_y = 0.0

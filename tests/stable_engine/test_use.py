@@ -138,7 +138,7 @@ def test_a_lift_carries_a_ball_through_drag():
 # Each attribute, and whether setting it has an effect. Other attributes cannot be set.
 SETTABLE = {
     "Body.angle": (1.0, lambda body: body.angle > 0.9),
-    "Body.bullet": (True, lambda body: body.world.effects["Bullets"].bullets == [body]),
+    "Body.bullet": (True, lambda body: body.world.effects["Bullets"].bodies == [body]),
     "Body.friction": (0.1, lambda body: contact_of(body).mu == pytest.approx(math.sqrt(0.06))),
     "Body.mass": (3.0, lambda body: contact_of(body).mn == pytest.approx(3)),
     "Body.omega": (5.0, lambda body: body.angle > 0.03),
@@ -236,10 +236,10 @@ def test_a_ball_made_a_bullet_later_is_stopped_and_one_made_none_is_swept_no_mor
     run(world, 0.1)
     assert ball.y < 0
     ball.bullet = False
-    assert world.effects["Bullets"].bullets == []
+    assert world.effects["Bullets"].bodies == []
     ball.bullet = True
     world.remove(ball)
-    assert world.effects["Bullets"].bullets == []
+    assert world.effects["Bullets"].bodies == []
 
 
 def test_a_bullet_in_a_world_without_bullets_is_refused_later_too():
