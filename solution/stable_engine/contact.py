@@ -55,6 +55,32 @@ class Contact:
         self.mn = 1 / (a.inv_mass + b.inv_mass)
         self.ratio = max(a.m, b.m) / min(a.m, b.m) if b.m else PUSHER if b.is_kinematic else 1.0
 
+    def spread(self) -> None:
+        """Set what a unit of impulse along the normal changes."""
+        a, b = self.a, self.b
+        self.ax, self.ay = self.nx * a.inv_mass, self.ny * a.inv_mass
+        self.bx, self.by = self.nx * b.inv_mass, self.ny * b.inv_mass
+
+    def spread_tangent(self, gap: float) -> None:
+        """Set what a unit of impulse along the tangent changes, at a gap (px).
+
+        Both arms end at one point, or friction would make spin from nothing.
+        """
+        a, b, tx, ty = self.a, self.b, -self.ny, self.nx
+        half = gap / 2 if b.inv_mass else 0.0
+        self.arm_a, self.arm_b = a.r + half, b.r + half
+        self.tax, self.tay, self.aw = tx * a.inv_mass, ty * a.inv_mass, self.arm_a * a.inv_inertia
+        self.tbx, self.tby, self.bw = tx * b.inv_mass, ty * b.inv_mass, self.arm_b * b.inv_inertia
+
+    def turn_to(self, nx: float, ny: float, gap: float) -> None:
+        """Take over a normal and a gap (px) after a move."""
+        a, b = self.a, self.b
+        self.nx, self.ny = nx, ny
+        self.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - gap + self.found - self.gap
+        self.spread()
+        if self.mu:
+            self.spread_tangent(gap)
+
     def __repr__(self) -> str:
         return f"Contact({self.a!r}, {self.b!r})"
 

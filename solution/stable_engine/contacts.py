@@ -5,7 +5,7 @@ from math import hypot, inf, sqrt
 
 from .body import Body, State, state_of
 from .broad_phase import BroadPhase, Pair
-from .contact import Contact, collide, the_way_it_came
+from .contact import Contact, collide, is_at_face, the_way_it_came
 from .effect import Direction, Effect
 from .loads import (
     BEARING,
@@ -38,6 +38,7 @@ RESTING_SPEED = 30.0  # 1/s, a slower impact does not bounce
 SPECULATIVE_SPEED = 10.0  # 1/s, slower pairs get a contact before they touch
 CORE = 0.5  # radii
 FAR = 0.125  # of both radii; balls that approach by more in a step may have passed each other
+TURNED = 1e-9  # a sine; normals that turn by less stay
 SEAM = 1e-9  # a squared sine; faces that turn less are one
 CORNER_PASSES = 4  # of keeping cores out: a ball put back may meet another static body
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
@@ -68,7 +69,7 @@ class Contacts(Effect):
     __slots__ = (
         *("on_hit", "on_part", "hits", "parted", "touching", "begun", "changed", "lets_none_pass"),
         *("last_dt", "flying", "hit_ago", "stopped", "broad_phase", "crowd"),
-        *("beside_static", "ends", "springs"),
+        *("beside_static", "corners", "ends", "springs"),
         *("balls", "statics", "groups", "beginnings", "is_mirrored", "unpaired", "ignored", "pace"),
         *("h", "touching_gap", "slow", "max_push_speed", "begin_contact_hooks", "piles"),
     )
@@ -97,6 +98,7 @@ class Contacts(Effect):
         self.beside_static: dict[Body, None] = {}  # balls that are near static bodies
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
         self.groups: list[Group] = []  # of these two, those with any contact
+        self.corners: list[Contact] = []  # of static bodies, where a ball may roll round
         self.beginnings = 0.0  # in how many steps any contact has begun
         self.is_mirrored = False  # whether contacts may have the same place in the order
         self.unpaired: dict[int, Contact] = {}  # of sleeping bodies, by their pair's number
@@ -173,9 +175,7 @@ class Contacts(Effect):
 
         Bodies that touch are in contact, and so are slow ones that may touch within dt seconds: a
         speculative contact lets them close the gap and no more. Fast ones get none, as they may
-        still miss each other. A ball that rolls over a round one gets the normal of the middle of
-        the step, or it would hop. Elastic balls do not: a turned normal makes balls that pass each
-        other seem to collide.
+        still miss each other.
         """
         touching: list[Contact] = []
         balls: list[Contact] = []
@@ -215,8 +215,6 @@ class Contacts(Effect):
                 nx, ny, gap = the_way_it_came(c, nx, ny, gap)
             if nx * c.nx + ny * c.ny < SAME_DIRECTION:
                 c.jn = c.jt = 0.0
-            elif dvx * dvx + dvy * dvy > slow2 and is_rolling(c, abs(dvx * nx + dvy * ny), slow):
-                nx, ny = turned(nx, ny, (dvy * nx - dvx * ny) * dt / (2 * (a.r + b.r)))
             c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
             touching.append(c)
             if b.inv_mass:
@@ -343,6 +341,7 @@ class Contacts(Effect):
         if self.crowd:
             self.gather_crowd()
         self.find_order()
+        self.corners = [c for c in self.statics.contacts if not is_at_face(c)]
         is_heavy = is_deep = is_tall = False
         gx, gy = self.world.g
         weight = hypot(gx, gy) * h  # px/s, of 1 kg in a substep
@@ -352,8 +351,7 @@ class Contacts(Effect):
             tall = max(TALL * weight, SUNK * self.world.unit / sinks)
         for c in self.touching:
             a, b, nx, ny = c.a, c.b, c.nx, c.ny
-            c.ax, c.ay = nx * a.inv_mass, ny * a.inv_mass
-            c.bx, c.by = nx * b.inv_mass, ny * b.inv_mass
+            c.spread()
             c.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - c.gap
             is_heavy = is_heavy or c.ratio > HEAVY
             if c.jn > tall * c.mn:
@@ -478,6 +476,7 @@ class Contacts(Effect):
                 b.vy += c.by * jn
 
     def relax(self, h: float) -> None:
+        self.turn_normals()
         for group in self.groups:
             self.stop(group, group.in_turn, h)
             for tie in group.ties:
@@ -486,6 +485,17 @@ class Contacts(Effect):
             stage = Stage(h, self.max_push_speed, self.touching_gap / 2)
             for pile in self.piles:
                 pile.settle(stage)
+
+    def turn_normals(self) -> None:
+        """Take over the normals after the move: else angular momentum would not be kept."""
+        for c in self.balls.contacts:
+            dx, dy = c.b.x - c.a.x, c.b.y - c.a.y
+            if abs(dx * c.ny - dy * c.nx) > TURNED * c.reach:
+                c.turn_to(*collide(c.a, c.b))
+        for c in self.corners:
+            nx, ny, gap = the_way_it_came(c, *collide(c.a, c.b))
+            if nx * c.nx + ny * c.ny > SAME_DIRECTION:
+                c.turn_to(nx, ny, gap)
 
     def stop(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Stop bodies that still come together, and take back the speed of a push."""
@@ -572,18 +582,22 @@ class Contacts(Effect):
         """Separate balls whose centre was in another ball, and balls that they meet by that.
 
         They are moved and get no speed: impulses between many balls at one position would leave
-        some speed, which is energy from nothing.
+        some speed, which is energy from nothing. So they turn about each other more slowly.
         """
         deepest = 0.0
         for same in in_same_place(sorted(self.crowd, key=PLACE)):
             for c, (nx, ny, gap) in [(c, collide(c.a, c.b)) for c in same]:
                 a, b = c.a, c.b
                 deepest = max(deepest, -gap)
-                way = c.mn * min(max(-PARTED * gap, 0.0), self.max_push_speed * dt)
-                a.x -= nx * way * a.inv_mass
-                a.y -= ny * way * a.inv_mass
-                b.x += nx * way * b.inv_mass
-                b.y += ny * way * b.inv_mass
+                way = min(max(-PARTED * gap, 0.0), self.max_push_speed * dt)
+                slip = (b.vy - a.vy) * nx - (b.vx - a.vx) * ny
+                slower = 0.0 if c.e else -slip * way / (gap + a.r + b.r + way)
+                dx, dy = nx * way * c.mn, ny * way * c.mn
+                dvx, dvy = -ny * slower * c.mn, nx * slower * c.mn
+                a.x, a.y = a.x - dx * a.inv_mass, a.y - dy * a.inv_mass
+                b.x, b.y = b.x + dx * b.inv_mass, b.y + dy * b.inv_mass
+                a.vx, a.vy = a.vx - dvx * a.inv_mass, a.vy - dvy * a.inv_mass
+                b.vx, b.vy = b.vx + dvx * b.inv_mass, b.vy + dvy * b.inv_mass
                 a.still = b.still = 0.0
         if deepest < REDETECT_DISTANCE * self.world.unit:
             self.crowd = {}
@@ -757,17 +771,6 @@ class Contacts(Effect):
     def awake_changed(self) -> None:
         self.broad_phase.bounds = []
         self.pace.awake_changed(any([c.a.sleeps for c in self.all_contacts()]))
-
-
-def is_rolling(c: Contact, speed: float, slow: float) -> bool:
-    """Return whether an inelastic ball moves over a round body, at this speed along the normal."""
-    return c.b.r > 0 and c.e == 0 and speed <= slow
-
-
-def turned(x: float, y: float, angle: float) -> tuple[float, float]:
-    """Return a unit vector turned by a small angle (rad)."""
-    length = sqrt(1 + angle * angle)
-    return (x - angle * y) / length, (y + angle * x) / length
 
 
 def push(body: Body, nx: float, ny: float, back: float, closing: float) -> None:

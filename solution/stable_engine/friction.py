@@ -39,12 +39,7 @@ class Friction(Effect):
     def prepare(self, h: float) -> None:
         for group in self.contacts.groups if self.contacts.changed else []:
             for c in group.contacts:
-                a, b, tx, ty = c.a, c.b, -c.ny, c.nx
-                # both arms end at one point, or friction would make spin from nothing
-                half = (c.reach + c.gap - a.r - b.r) / 2 if group.moves_b else 0.0
-                c.arm_a, c.arm_b = a.r + half, b.r + half
-                c.tax, c.tay, c.aw = tx * a.inv_mass, ty * a.inv_mass, c.arm_a * a.inv_inertia
-                c.tbx, c.tby, c.bw = tx * b.inv_mass, ty * b.inv_mass, c.arm_b * b.inv_inertia
+                c.spread_tangent(c.reach + c.gap - c.a.r - c.b.r)
 
     def solve(self, h: float) -> None:
         """Apply friction to contacts that press now; in relax alone, a pile would never rest."""

@@ -78,6 +78,7 @@ class Impacts:
         self.flight = Flight(contacts, rods, springs, h)
         self.frame_of = self.flight.frame_of
         self.number = 0  # of impacts found so far
+        self.turned: list[Contact] = []  # contacts with the normal of their touch
         self.met: list[Contact] = []  # contacts that began through an impact
 
     def find(self) -> None:
@@ -180,6 +181,7 @@ class Impacts:
         if ago > 0 and (nx, ny) != (c.nx, c.ny):
             c.nx, c.ny = nx, ny
             c.gap = -c.closing_speed() * ago
+            self.turned.append(c)
         return ago
 
     def time_below(self, c: Contact, since: float) -> float:
@@ -221,7 +223,7 @@ class Impacts:
         while self.due:
             self.resolve_first()
         self.put_back(list(self.stops))
-        for c in self.faces:
+        for c in [*self.turned, *self.faces]:
             self.look_where(c)
         deep = [c for c in self.faces if c.gap < 0]
         for c in sorted(deep, key=lambda c: c.gap) if deep else []:
@@ -289,6 +291,7 @@ class Impacts:
                 ago = 0.0
             if ago == 0:
                 self.put_back(hit)
+                self.see_from_here(group)
             frames = self.frames_of(group)
             for frame in frames:
                 hit += [ball for ball in frame.balls if ball in self.beside and ball not in hit]
@@ -298,6 +301,18 @@ class Impacts:
                 self.resolve(group, frames)
             self.look_around(hit, ago)
         self.meet_others(hit)
+
+    def see_from_here(self, group: list[Contact]) -> None:
+        """Take over present normals of balls on joints that stay here: spin would not be kept.
+
+        Balls that part along these have passed each other: there the normal of the touch counts.
+        """
+        for c in group:
+            if c.b.inv_mass and (c.a.joint_count or c.b.joint_count):
+                touch = c.nx, c.ny
+                self.look_where(c)
+                if c.closing_speed() <= self.slow:
+                    c.nx, c.ny = touch
 
     def resolve_at_touch(
         self,
@@ -540,7 +555,8 @@ class Rub(Hit):
         super().__init__(hit.c, (0.0, 0.0))
         self.m = hit.c.mt
         self.nx, self.ny = -self.ny, self.nx
-        self.arm_a, self.arm_b = self.end_a.r, self.end_b.r
+        half = hit.c.gap / 2 if self.end_b.inv_mass else 0.0  # both arms end at one point
+        self.arm_a, self.arm_b = self.end_a.r + half, self.end_b.r + half
         self.high = hit.mu * hit.total
         self.low = -self.high
 

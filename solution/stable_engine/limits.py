@@ -35,6 +35,11 @@ class Limited(Joint):
         self.total = 0.0  # kg px/s, its impulse so far
         self.at = 0.0  # -1 at the lower limit, 1 at the upper one, 0 between them
 
+    def follow(self) -> None:
+        """Take over the normal of the contact."""
+        sign = 1.0 if self.end_a is self.c.a else -1.0
+        self.nx, self.ny = sign * self.c.nx, sign * self.c.ny
+
     def take(self, j: float, has_moved: bool) -> None:
         super().take(j, has_moved)
         self.total += j

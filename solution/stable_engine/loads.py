@@ -132,6 +132,8 @@ class Pile:
         if stage.has_moved:
             self.kept = [0.0] * len(self.rods)
         for load in self.loads:
+            load.follow()
+        for load in self.loads:
             load.aim(stage)
             if load.rhs > self.calm or (load.rhs < -self.calm and load.c.jn > 0):
                 return self.press()

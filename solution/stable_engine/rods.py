@@ -298,10 +298,10 @@ class Frame:
                 self.later.append((ball, velocity, (ball.vx, ball.vy)))
             ball.x, ball.y = x, y
             ball.vx, ball.vy = velocity
-        if count > most:
-            for rod, j in zip(self.rods, impulses, strict=True):
+        for rod, j in zip(self.rods, impulses, strict=True):
+            rod.measure()
+            if count > most:
                 rod.j = j
-                rod.measure()
         self.parts = count if self.is_uneven else 1
         return count <= most
 
@@ -465,9 +465,8 @@ class Frame:
 
     def take_back_stretching(self) -> None:
         """Remove all speed along the rods, in their present directions (RATTLE)."""
-        if self.later and all([(b.vx, b.vy) == way for b, way, _ in self.later]):
-            for body, _, velocity in self.later:
-                body.vx, body.vy = velocity
+        for body, (way_x, way_y), (vx, vy) in self.later:
+            body.vx, body.vy = body.vx - way_x + vx, body.vy - way_y + vy
         self.later = []
         for rod in self.rods:
             nx, ny, rod.given = rod.nx, rod.ny, rod.j + rod.pushed
