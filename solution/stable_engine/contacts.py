@@ -38,7 +38,7 @@ RESTING_SPEED = 30.0  # 1/s, a slower impact does not bounce
 SPECULATIVE_SPEED = 10.0  # 1/s, slower pairs get a contact before they touch
 CORE = 0.5  # radii
 FAR = 0.125  # of both radii; balls that approach by more in a step may have passed each other
-TURNED = 1e-9  # a sine; normals that turn by less stay
+TURNED = 1e-7  # a sine; normals that turn by less stay
 SEAM = 1e-9  # a squared sine; faces that turn less are one
 CORNER_PASSES = 4  # of keeping cores out: a ball put back may meet another static body
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
@@ -476,7 +476,8 @@ class Contacts(Effect):
                 b.vy += c.by * jn
 
     def relax(self, h: float) -> None:
-        self.turn_normals()
+        if self.changed:
+            self.turn_normals()
         for group in self.groups:
             self.stop(group, group.in_turn, h)
             for tie in group.ties:
