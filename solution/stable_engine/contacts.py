@@ -38,7 +38,6 @@ RESTING_SPEED = 30.0  # 1/s, a slower impact does not bounce
 SPECULATIVE_SPEED = 10.0  # 1/s, slower pairs get a contact before they touch
 CORE = 0.5  # radii
 FAR = 0.125  # of both radii; balls that approach by more in a step may have passed each other
-TURNED = 1e-7  # a sine; normals that turn by less stay
 SEAM = 1e-9  # a squared sine; faces that turn less are one
 CORNER_PASSES = 4  # of keeping cores out: a ball put back may meet another static body
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
@@ -490,9 +489,7 @@ class Contacts(Effect):
     def turn_normals(self) -> None:
         """Take over the normals after the move: else angular momentum would not be kept."""
         for c in self.balls.contacts:
-            dx, dy = c.b.x - c.a.x, c.b.y - c.a.y
-            if abs(dx * c.ny - dy * c.nx) > TURNED * c.reach:
-                c.turn_to(*collide(c.a, c.b))
+            c.turn_to(*collide(c.a, c.b))
         for c in self.corners:
             nx, ny, gap = the_way_it_came(c, *collide(c.a, c.b))
             if nx * c.nx + ny * c.ny > SAME_DIRECTION:
