@@ -223,7 +223,9 @@ class Impacts:
         while self.due:
             self.resolve_first()
         self.put_back(list(self.stops))
-        for c in [*self.turned, *self.faces]:
+        for c in self.turned:
+            self.turn_on(c)
+        for c in self.faces:
             self.look_where(c)
         deep = [c for c in self.faces if c.gap < 0]
         for c in sorted(deep, key=lambda c: c.gap) if deep else []:
@@ -310,9 +312,15 @@ class Impacts:
         for c in group:
             if c.b.inv_mass and (c.a.joint_count or c.b.joint_count):
                 touch = c.nx, c.ny
-                self.look_where(c)
+                self.turn_on(c)
                 if c.closing_speed() <= self.slow:
                     c.nx, c.ny = touch
+
+    def turn_on(self, c: Contact) -> None:
+        """Take over the present normal of a contact, unless the two have passed each other."""
+        nx, ny, gap = collide(c.a, c.b)
+        if nx * c.nx + ny * c.ny > 0:
+            c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
 
     def resolve_at_touch(
         self,

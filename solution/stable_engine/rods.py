@@ -298,9 +298,11 @@ class Frame:
                 self.later.append((ball, velocity, (ball.vx, ball.vy)))
             ball.x, ball.y = x, y
             ball.vx, ball.vy = velocity
-        for rod, j in zip(self.rods, impulses, strict=True):
-            rod.measure()
-            if count > most:
+        if count > most or not self.hangs:  # for angular momentum, axes are those of the impulses
+            for rod in self.rods:
+                rod.measure()
+        if count > most:
+            for rod, j in zip(self.rods, impulses, strict=True):
                 rod.j = j
         self.parts = count if self.is_uneven else 1
         return count <= most
