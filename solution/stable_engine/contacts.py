@@ -489,7 +489,11 @@ class Contacts(Effect):
     def turn_normals(self) -> None:
         """Take over the normals after the move: else angular momentum would not be kept."""
         for c in self.balls.contacts:
-            c.turn_to(*collide(c.a, c.b))
+            a, b = c.a, c.b
+            dx, dy = b.x - a.x, b.y - a.y
+            distance = sqrt(dx * dx + dy * dy)
+            if distance > 0:
+                c.turn_to(dx / distance, dy / distance, distance - (a.r + b.r))
         for c in self.corners:
             nx, ny, gap = the_way_it_came(c, *collide(c.a, c.b))
             if nx * c.nx + ny * c.ny > SAME_DIRECTION:

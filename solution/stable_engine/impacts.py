@@ -224,7 +224,7 @@ class Impacts:
             self.resolve_first()
         self.put_back(list(self.stops))
         for c in self.turned:
-            self.turn_on(c)
+            self.turn_on(c, 0.0)
         for c in self.faces:
             self.look_where(c)
         deep = [c for c in self.faces if c.gap < 0]
@@ -305,21 +305,18 @@ class Impacts:
         self.meet_others(hit)
 
     def see_from_here(self, group: list[Contact]) -> None:
-        """Take over present normals of balls on joints that stay here: spin would not be kept.
+        """Take over present normals of balls on joints that stay here, but not if they differ much.
 
-        Balls that part along these have passed each other: there the normal of the touch counts.
+        With others, angular momentum is not kept, but balls do not pass each other.
         """
         for c in group:
             if c.b.inv_mass and (c.a.joint_count or c.b.joint_count):
-                touch = c.nx, c.ny
-                self.turn_on(c)
-                if c.closing_speed() <= self.slow:
-                    c.nx, c.ny = touch
+                self.turn_on(c, SAME_DIRECTION)
 
-    def turn_on(self, c: Contact) -> None:
-        """Take over the present normal of a contact, unless the two have passed each other."""
+    def turn_on(self, c: Contact, cosine: float) -> None:
+        """Take over the present normal of a contact, unless it has turned further than this."""
         nx, ny, gap = collide(c.a, c.b)
-        if nx * c.nx + ny * c.ny > 0:
+        if nx * c.nx + ny * c.ny > cosine:
             c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
 
     def resolve_at_touch(

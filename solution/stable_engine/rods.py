@@ -151,7 +151,7 @@ class Rods(Joints[Rod]):
 
     def relax(self, h: float) -> None:
         for frame in self.frames:
-            frame.take_back_stretching()
+            frame.take_back_stretching(h)
 
 
 class Frame:
@@ -465,11 +465,28 @@ class Frame:
             body.lag_x, body.lag_y = body.vx, body.vy
             body.vx, body.vy = vx, vy
 
-    def take_back_stretching(self) -> None:
-        """Remove all speed along the rods, in their present directions (RATTLE)."""
-        for body, (way_x, way_y), (vx, vy) in self.later:
-            body.vx, body.vy = body.vx - way_x + vx, body.vy - way_y + vy
+    def end_parts(self, h: float) -> None:
+        """Give balls their velocities after all parts, and what contacts have added.
+
+        The way in a straight line took that from other places: this turn is given back.
+        """
+        lost = 0.0  # kg px²/s, angular momentum
+        for b, (way_x, way_y), (vx, vy) in self.later:
+            dvx, dvy = b.vx - way_x, b.vy - way_y
+            lost += b.m * h * (dvx * (way_y - vy) - dvy * (way_x - vx))
+            b.vx, b.vy = vx + dvx, vy + dvy
         self.later = []
+        if lost and not self.hangs:
+            x, y, _ = self.spin(0.0, 0.0)
+            change = lost / sum([b.m * squares(b.x - x, b.y - y) for b in self.balls])  # rad/s
+            for b in self.balls:
+                b.vx -= change * (b.y - y)
+                b.vy += change * (b.x - x)
+
+    def take_back_stretching(self, h: float) -> None:
+        """Remove all speed along the rods, in their present directions (RATTLE)."""
+        if self.later:
+            self.end_parts(h)
         for rod in self.rods:
             nx, ny, rod.given = rod.nx, rod.ny, rod.j + rod.pushed
             rod.pushed = 0.0
