@@ -15,16 +15,13 @@ OPPOSITE = -0.5  # cosine; if a normal turns further, a centre has crossed a seg
 class Contact:
     """Two bodies that touch. It persists while they do, so that its impulses can warm start.
 
-    Contacts.prepare and Friction.prepare compute once per step what its substeps need. A unit of
-    impulse along the normal takes (ax, ay) from A's velocity and adds (bx, by) to B's. A unit along
-    the tangent takes (tax, tay) from A's velocity, adds (tbx, tby) to B's, and takes aw and bw from
-    their spins. Centres `reach` px apart along the normal just touch.
+    Centres `reach` px apart along the normal just touch. Impulses act on B as they are and on A
+    reversed; friction turns both, each by its arm.
     """
 
     __slots__ = (
         *("a", "b", "nx", "ny", "found", "gap", "reach", "jn", "jt", "mn", "mt", "mu", "e"),
-        *("ax", "ay", "bx", "by", "tax", "tay", "aw", "tbx", "tby", "bw", "arm_a", "arm_b"),
-        *("last", "place", "turn", "ratio"),
+        *("arm_a", "arm_b", "last", "place", "turn", "ratio"),
     )
 
     def __init__(self, a: Body, b: Body) -> None:
@@ -44,42 +41,14 @@ class Contact:
         self.mt = 0.0  # kg, effective mass along the tangent, filled in by Friction
         self.mu = 0.0  # friction of the pair, filled in by Friction
         self.e = 0.0  # restitution of the pair, filled in by Bounce
-        self.ax = self.ay = self.bx = self.by = 0.0  # 1/kg, along the normal
-        self.tax = self.tay = self.tbx = self.tby = 0.0  # 1/kg, along the tangent
-        self.aw = self.bw = 0.0  # 1/(kg px), of the spins
-        self.arm_a = self.arm_b = 0.0  # px, from the centres to where they touch
+        # px, from the centres to one point, or friction would make spin from nothing
+        self.arm_a = self.arm_b = 0.0
 
     def weigh(self) -> None:
         """Take over the masses of A and B. A kinematic body counts as PUSHER balls."""
         a, b = self.a, self.b
         self.mn = 1 / (a.inv_mass + b.inv_mass)
         self.ratio = max(a.m, b.m) / min(a.m, b.m) if b.m else PUSHER if b.is_kinematic else 1.0
-
-    def spread(self) -> None:
-        """Set what a unit of impulse along the normal changes."""
-        a, b = self.a, self.b
-        self.ax, self.ay = self.nx * a.inv_mass, self.ny * a.inv_mass
-        self.bx, self.by = self.nx * b.inv_mass, self.ny * b.inv_mass
-
-    def spread_tangent(self, gap: float) -> None:
-        """Set what a unit of impulse along the tangent changes, at a gap (px).
-
-        Both arms end at one point, or friction would make spin from nothing.
-        """
-        a, b, tx, ty = self.a, self.b, -self.ny, self.nx
-        half = gap / 2 if b.inv_mass else 0.0
-        self.arm_a, self.arm_b = a.r + half, b.r + half
-        self.tax, self.tay, self.aw = tx * a.inv_mass, ty * a.inv_mass, self.arm_a * a.inv_inertia
-        self.tbx, self.tby, self.bw = tx * b.inv_mass, ty * b.inv_mass, self.arm_b * b.inv_inertia
-
-    def turn_to(self, nx: float, ny: float, gap: float) -> None:
-        """Take over a normal and a gap (px) after a move."""
-        a, b = self.a, self.b
-        self.nx, self.ny = nx, ny
-        self.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - gap + self.found - self.gap
-        self.spread()
-        if self.mu:
-            self.spread_tangent(gap)
 
     def __repr__(self) -> str:
         return f"Contact({self.a!r}, {self.b!r})"

@@ -350,8 +350,10 @@ class Contacts(Effect):
             tall = max(TALL * weight, SUNK * self.world.unit / sinks)
         for c in self.touching:
             a, b, nx, ny = c.a, c.b, c.nx, c.ny
-            c.spread()
-            c.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - c.gap
+            distance = (b.x - a.x) * nx + (b.y - a.y) * ny
+            c.reach = distance - c.gap
+            half = (distance - a.r - b.r) / 2 if b.inv_mass else 0.0
+            c.arm_a, c.arm_b = a.r + half, b.r + half
             is_heavy = is_heavy or c.ratio > HEAVY
             if c.jn > tall * c.mn:
                 is_upright = abs(nx * gy - ny * gx) * h < LEANING * weight
@@ -417,20 +419,15 @@ class Contacts(Effect):
             moves_b = group.moves_b
             for c in group.contacts:
                 a, b, jn, jt = c.a, c.b, c.jn, c.jt
+                jx, jy = c.nx * jn - c.ny * jt, c.ny * jn + c.nx * jt
+                a.vx -= jx * a.inv_mass
+                a.vy -= jy * a.inv_mass
+                if moves_b:
+                    b.vx += jx * b.inv_mass
+                    b.vy += jy * b.inv_mass
                 if jt:
-                    a.vx -= c.ax * jn + c.tax * jt
-                    a.vy -= c.ay * jn + c.tay * jt
-                    a.w -= c.aw * jt
-                    if moves_b:
-                        b.vx += c.bx * jn + c.tbx * jt
-                        b.vy += c.by * jn + c.tby * jt
-                        b.w -= c.bw * jt
-                else:
-                    a.vx -= c.ax * jn
-                    a.vy -= c.ay * jn
-                    if moves_b:
-                        b.vx += c.bx * jn
-                        b.vy += c.by * jn
+                    a.w -= c.arm_a * a.inv_inertia * jt
+                    b.w -= c.arm_b * b.inv_inertia * jt
 
     def solve(self, h: float) -> None:
         for pile in self.piles:
@@ -468,11 +465,13 @@ class Contacts(Effect):
                 jn = 0.0
             c.jn = jn
             jn -= before
-            a.vx -= c.ax * jn
-            a.vy -= c.ay * jn
+            change = jn * a.inv_mass
+            a.vx -= nx * change
+            a.vy -= ny * change
             if moves_b:
-                b.vx += c.bx * jn
-                b.vy += c.by * jn
+                change = jn * b.inv_mass
+                b.vx += nx * change
+                b.vy += ny * change
 
     def relax(self, h: float) -> None:
         if self.changed:
@@ -493,21 +492,25 @@ class Contacts(Effect):
             dx, dy = b.x - a.x, b.y - a.y
             distance = sqrt(dx * dx + dy * dy)
             if distance > 0:
-                c.turn_to(dx / distance, dy / distance, distance - (a.r + b.r))
+                c.nx, c.ny = dx / distance, dy / distance
+                half = (distance - a.r - b.r) / 2
+                c.arm_a, c.arm_b = a.r + half, b.r + half
         for c in self.corners:
             nx, ny, gap = the_way_it_came(c, *collide(c.a, c.b))
             if nx * c.nx + ny * c.ny > SAME_DIRECTION:
-                c.turn_to(nx, ny, gap)
+                a, b = c.a, c.b
+                c.nx, c.ny = nx, ny
+                c.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - gap + c.found - c.gap
 
     def stop(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Stop bodies that still come together, and take back the speed of a push."""
         moves_b = group.moves_b
         for c in contacts:
-            a, b = c.a, c.b
-            speed = (b.vx - a.vx) * c.nx + (b.vy - a.vy) * c.ny
+            a, b, nx, ny = c.a, c.b, c.nx, c.ny
+            speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
             before = c.jn
             if not before:
-                gap = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny - c.reach
+                gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
                 if gap > 0:
                     speed += gap / h
             jn = before - c.mn * speed
@@ -515,11 +518,13 @@ class Contacts(Effect):
                 jn = 0.0
             c.jn = jn
             jn -= before
-            a.vx -= c.ax * jn
-            a.vy -= c.ay * jn
+            change = jn * a.inv_mass
+            a.vx -= nx * change
+            a.vy -= ny * change
             if moves_b:
-                b.vx += c.bx * jn
-                b.vy += c.by * jn
+                change = jn * b.inv_mass
+                b.vx += nx * change
+                b.vy += ny * change
 
     def finish(self, h: float) -> None:
         """Keep the core of a ball out of static bodies, however fast or hard pressed it is.

@@ -36,11 +36,6 @@ class Friction(Effect):
         if c.mu == 0:
             c.jt = 0.0
 
-    def prepare(self, h: float) -> None:
-        for group in self.contacts.groups if self.contacts.changed else []:
-            for c in group.contacts:
-                c.spread_tangent(c.reach + c.gap - c.a.r - c.b.r)
-
     def solve(self, h: float) -> None:
         """Apply friction to contacts that press now; in relax alone, a pile would never rest."""
         for group in self.contacts.groups:
@@ -57,9 +52,9 @@ class Friction(Effect):
         for c in contacts:
             limit, before = c.mu * c.jn, c.jt
             if limit or before:
-                a, b = c.a, c.b
+                a, b, nx, ny = c.a, c.b, c.nx, c.ny
                 rims = b.w * c.arm_b + a.w * c.arm_a
-                jt = before - c.mt * ((b.vy - a.vy) * c.nx - (b.vx - a.vx) * c.ny - rims)
+                jt = before - c.mt * ((b.vy - a.vy) * nx - (b.vx - a.vx) * ny - rims)
                 if jt > limit:
                     jt = limit
                 elif jt < -limit:
@@ -69,10 +64,12 @@ class Friction(Effect):
                 if abs(jt) <= CALM * limit:
                     c.jt = before
                     continue
-                a.vx -= c.tax * jt
-                a.vy -= c.tay * jt
-                a.w -= c.aw * jt
+                change = jt * a.inv_mass
+                a.vx += ny * change
+                a.vy -= nx * change
+                a.w -= c.arm_a * a.inv_inertia * jt
                 if moves_b:
-                    b.vx += c.tbx * jt
-                    b.vy += c.tby * jt
-                    b.w -= c.bw * jt
+                    change = jt * b.inv_mass
+                    b.vx -= ny * change
+                    b.vy += nx * change
+                    b.w -= c.arm_b * b.inv_inertia * jt
