@@ -219,6 +219,8 @@ class Flight:
         x, y = self.world.acceleration(body)
         for spring in self.springs_of.get(body, []) if body not in self.stiff else []:
             other = spring.end_b if body is spring.end_a else spring.end_a
+            if other in self.stiff:
+                continue  # it does not fly along, so momentum would be lost
             there = state_of(other)
             if other not in self.moved:
                 at_x, at_y, vx, vy = self.before[other]
