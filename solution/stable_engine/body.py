@@ -291,11 +291,12 @@ class Body:
         self.push(0.0, 0.0, finite("Body.apply_torque's torque", torque))
 
     def push(self, fx: float, fy: float, torque: float) -> None:
-        """Pass a force and a torque on to the world, for the next step."""
+        """Add to the force and the torque that act on it in the next step."""
         require(not self.is_static, "Body.mass", 0, "above 0 for a force to move it")
         if self.world is None:
             refuse("Body.world", None, "a World: add the body before you push it")
-        self.world.push(self, fx, fy, torque)
+        before_x, before_y, before = self.world.forces.get(self, (0.0, 0.0, 0.0))
+        self.world.forces[self] = before_x + fx, before_y + fy, before + torque
         self.still = self.kept = 0.0
         self.wake()
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import islice
+from itertools import combinations
 from math import hypot
 from typing import TYPE_CHECKING
 
@@ -41,20 +40,22 @@ def missing(world: World, looked_at: list[Body]) -> dict[str, str]:
     for body in bodies:
         if body.friction_given and body.mu > 0:
             reasons.setdefault("Friction", f"{body!r} was given a friction of {body.mu:g}")
-        if "Contacts" in world.effects and (body.w or is_belt(body)):
+        is_belt = body.is_static and not body.is_kinematic and (body.vx or body.vy)
+        if "Contacts" in world.effects and (body.w or is_belt):
             words = "turns" if body.w else "has a velocity, as a belt has,"
             reasons.setdefault("Friction", f"{body!r} {words} and would drag nothing along")
         if body.restitution_given and body.e > 0:
             reasons.setdefault("Bounce", f"{body!r} was given a restitution of {body.e:g}")
         if body.is_static and not body.joint_count:
             reasons.setdefault("Contacts", f"{body!r} is static, and bodies would pass through it")
-        if world.statics and is_too_fast(body):
-            fast = f"more than {FAST:g} radii in {FRAME:.4f} s"
-            reasons.setdefault("Bullets", f"{body!r} moves by {fast}")
+        is_fast = not body.is_static and hypot(body.vx, body.vy) * FRAME > FAST * body.r
+        if world.statics and is_fast:
+            words = f"moves by more than {FAST:g} radii in {FRAME:.4f} s"
+            reasons.setdefault("Bullets", f"{body!r} {words}")
     if "Friction" in reasons or "Bounce" in reasons:
         reasons.setdefault("Contacts", "without contacts, friction and restitution do nothing")
     if "Contacts" not in world.effects and "Contacts" not in reasons:
-        for a, b in islice(meetings(world, bodies), 1):
+        for a, b in meetings(world, bodies)[:1]:
             reasons["Contacts"] = f"{a!r} and {b!r} would pass through each other"
     if "Contacts" not in world.effects:
         reasons.pop("Bullets", None)
@@ -66,28 +67,16 @@ def missing(world: World, looked_at: list[Body]) -> dict[str, str]:
     }
 
 
-def is_belt(body: Body) -> bool:
-    """Return whether a body has a velocity but does not move."""
-    return body.is_static and not body.is_kinematic and bool(body.vx or body.vy)
-
-
-def is_too_fast(body: Body) -> bool:
-    """Return whether a ball moves so far in a frame that it may pass through a static body."""
-    return not body.is_static and hypot(body.vx, body.vy) * FRAME > FAST * body.r
-
-
-def meetings(world: World, bodies: list[Body]) -> Iterator[tuple[Body, Body]]:
-    """Yield pairs of free balls that overlap or fly at each other, of the first MOST in the world.
+def meetings(world: World, bodies: list[Body]) -> list[tuple[Body, Body]]:
+    """Return pairs of free balls that overlap or fly at each other, of the first MOST in the world.
 
     Gravity accelerates both alike, so each flies straight as seen from the other. Balls on joints
     are left out.
     """
     new = set(bodies)
     free = [body for body in world.bodies if not (body.is_static or body.joint_count)][:MOST]
-    for a in free:
-        for b in free:
-            if a.id < b.id and (a in new or b in new) and will_meet(a, b):
-                yield a, b
+    pairs = [(a, b) for a, b in combinations(free, 2) if a in new or b in new]
+    return [(a, b) for a, b in pairs if will_meet(a, b)]
 
 
 def will_meet(a: Body, b: Body) -> bool:

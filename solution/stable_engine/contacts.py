@@ -7,6 +7,7 @@ from .body import Body, State, state_of
 from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, is_at_face, the_way_it_came
 from .effect import Direction, Effect
+from .joint import Joint
 from .loads import (
     BEARING,
     DEEP,
@@ -23,7 +24,7 @@ from .loads import (
     take_off,
 )
 from .order import PLACE, Group, give_places, in_same_place, put_in_order
-from .rods import Rods
+from .rods import Frame, Rods
 from .soft import SAME_DIRECTION, Pace, softness
 from .springs import Springs
 from .sweep import NO_HIT, first_hit, moment_of_touch, put_back
@@ -377,14 +378,14 @@ class Contacts(Effect):
             if hypot(fx, fy) > HEAVY * body.m * pull:
                 loads[body] = hypot(fx, fy) / pull
         is_heavy = is_heavy or bool(loads)
-        frames = []
+        frames: list[Frame] = []
         if isinstance(rods, Rods) and (is_heavy or is_deep or rods.any_heavy()):
-            is_heavy, frames = True, rods.frame_loads()
-            for frame, load in frames:
-                loads.update({body: load for rod in frame for body in (rod.end_a, rod.end_b)})
+            is_heavy, frames = True, rods.frames
+            for frame in frames:
+                loads.update(dict.fromkeys(frame.ends, frame.load))
         if not (is_heavy or is_deep):
             return []
-        links = [rod for frame, _ in frames for rod in frame]
+        links: list[Joint] = [rod for frame in frames for rod in frame.rods]
         return find_piles(self.touching, links, loads, self.world.unit)
 
     def find_order(self) -> None:

@@ -87,18 +87,6 @@ class Flight:
                 return False
         return True
 
-    def fly_back(self, hit: list[Body], seconds: float) -> None:
-        """Move balls back to where they were at the time of an impact."""
-        if self.springs_of:
-            self.take_along(hit)
-        self.fly(hit, -seconds)
-
-    def fly_on(self, hit: list[Body], seconds: float) -> None:
-        """Let balls that were moved back fly on. One that flies far stops before a wall."""
-        self.fly(hit, seconds)
-        if self.springs_of:
-            self.leave_behind()
-
     def take_along(self, hit: list[Body]) -> None:
         """Let the balls on springs of those hit fly with them, as if nothing had hit these."""
         free = [body for body in hit if body not in self.stiff]
@@ -127,7 +115,9 @@ class Flight:
                 body.x, body.y = body.x + x, body.y + y
 
     def fly(self, hit: list[Body], seconds: float) -> None:
-        """Let balls fly for a time, or back."""
+        """Let balls fly back to an impact, or on. One that flies on far stops before a wall."""
+        if self.springs_of and seconds < 0:
+            self.take_along(hit)
         free = hit
         if self.frame_of:
             free = [body for body in hit if body not in self.frame_of]
@@ -150,6 +140,8 @@ class Flight:
             self.time += seconds / parts
             for (body, pull), time in zip(before, times, strict=True):
                 self.adjust(body, pull, time)
+        if seconds > 0:
+            self.leave_behind()
 
     def fly_ball(self, body: Body, pull: tuple[float, float], seconds: float) -> float:
         """Let a ball fly on under a pull (px/s²). Return for how long (s) it could."""

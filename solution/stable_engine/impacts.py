@@ -338,7 +338,7 @@ class Impacts:
                 back = (c.b.vx * c.nx + c.b.vy * c.ny) * ago  # the way of a belt does not count
                 c.b.x -= c.nx * back
                 c.b.y -= c.ny * back
-        self.flight.fly_back(hit, ago)
+        self.flight.fly(hit, -ago)
         for body in hit if self.stops else []:
             self.stops.pop(body, None)
         for c in group:
@@ -346,7 +346,7 @@ class Impacts:
         self.resolve(group, frames)
         for wall, (x, y) in walls.items():
             wall.x, wall.y = x, y
-        self.flight.fly_on(hit, ago + late)
+        self.flight.fly(hit, ago + late)
 
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""

@@ -18,8 +18,8 @@ class Joint:
     """
 
     __slots__ = (
-        *("arm_a", "arm_b", "distance", "dx", "dy", "end_a", "end_b", "m", "nx", "ny", "pivot"),
-        *("rest", "rhs"),
+        *("arm_a", "arm_b", "distance", "dx", "dy", "end_a", "end_b", "given", "m", "nx", "ny"),
+        *("pivot", "rest", "rhs"),
     )
     effect: ClassVar[str]  # the name of the effect that owns it
 
@@ -35,6 +35,7 @@ class Joint:
         self.end_b = b
         self.pivot = self.rhs = 0.0  # see Network.solve
         self.arm_a = self.arm_b = 0.0  # px, with which an impulse along it turns A and B
+        self.given = 0.0  # kg px/s, the impulse of the latest substep
         self.weigh()
         self.measure()
         self.rest = self.distance  # px, its length
@@ -61,6 +62,14 @@ class Joint:
     def length(self, value: float) -> None:
         self.rest = self.fitting(value)
         self.changed()
+
+    @property
+    def impulse(self) -> float:
+        """Return the latest substep's impulse (kg px/s): above 0 it pushes, below 0 it pulls.
+
+        Divide it by the length of a substep for the force.
+        """
+        return self.given
 
     def fitting(self, length: float) -> float:
         """Return a length as a float. Raises ValueError if the joint cannot have it."""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Generic
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Generic, TypeVar
 
 from .body import Body
 from .joint import AnyJoint, Joint
@@ -27,6 +27,7 @@ class Coupling:
         self.share = 0.0  # how much of the row of `one` is taken off that of `other`
 
 
+Thing = TypeVar("Thing")
 Fill = tuple[Coupling, Coupling, Coupling]
 
 
@@ -49,7 +50,6 @@ class Network(Generic[AnyJoint]):
         while beside:
             joint = min(beside, key=lambda one: len(beside[one]))
             self.rows.append(self.eliminate(joint, beside))
-        self.backwards = self.rows[::-1]
 
     def eliminate(self, joint: Joint, beside: dict[Joint, dict[Joint, Coupling]]) -> Row:
         """Remove a joint from those left, and couple its neighbours to each other."""
@@ -89,7 +89,7 @@ class Network(Generic[AnyJoint]):
                     other.rhs -= share * rhs
                 for c, d, filled in fills:
                     filled.value -= c.share * d.value
-        for joint, couplings, _ in self.backwards:
+        for joint, couplings, _ in reversed(self.rows):
             rhs = joint.rhs / joint.pivot
             for c in couplings:
                 rhs -= c.share * c.other.rhs
@@ -122,16 +122,20 @@ def bodies_of(joints: Sequence[Joint]) -> list[Body]:
 
 def connect(joints: list[AnyJoint]) -> list[Network[AnyJoint]]:
     """Return a network for each set of joints that balls connect."""
-    beside, networks = couple(joints), []
-    seen: set[Joint] = set()
-    for joint in joints:
-        if joint not in seen:
-            ahead: list[Joint] = [joint]
-            found: set[Joint] = {joint}
-            while ahead:
-                new = [other for other in beside[ahead.pop()] if other not in found]
-                found.update(new)
-                ahead += new
-            seen |= found
-            networks.append(Network([one for one in joints if one in found]))
-    return networks
+    return [Network(group) for group in connected(joints, couple(joints))]
+
+
+def connected(things: list[Thing], beside: Mapping[Any, Iterable[Any]]) -> list[list[Thing]]:
+    """Return groups of things that are connected directly or through others, in the same order."""
+    first_of: dict[Any, Thing] = {}
+    for first in things:
+        ahead: list[Any] = [first]
+        while ahead:
+            one = ahead.pop()
+            if one not in first_of:
+                first_of[one] = first
+                ahead += beside[one]
+    groups: dict[Thing, list[Thing]] = {}
+    for thing in things:
+        groups.setdefault(first_of[thing], []).append(thing)
+    return list(groups.values())

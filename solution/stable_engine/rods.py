@@ -1,9 +1,4 @@
-"""Rods: two centres keep their distance.
-
-Where rods turn far in a substep, Frame.go_in_parts follows them in small parts: soft rods would
-lose a fifth of the energy of a fast dumbbell. Where rods are torn, turn too fast for that, or hang
-on bodies that move apart, Frame.give_way makes them soft: the parts alone would give them energy.
-"""
+"""Rods: two centres keep their distance."""
 
 from math import hypot, sqrt
 
@@ -38,7 +33,7 @@ Velocity = tuple[float, float]
 class Rod(Joint):
     """A rigid rod that keeps the distance a and b start with. It pulls and pushes."""
 
-    __slots__ = ("given", "j", "pushed")
+    __slots__ = ("j", "pushed")
     effect = "Rods"
 
     def __init__(self, a: Body, b: Body) -> None:
@@ -46,15 +41,10 @@ class Rod(Joint):
         self.fitting(self.rest)
         self.j = 0.0  # kg px/s, accumulated impulse before the move, positive when it pushes
         self.pushed = 0.0  # kg px/s, what contacts add to it before the move
-        self.given = 0.0  # kg px/s, with both and the impulse after the move
 
-    @property
-    def impulse(self) -> float:
-        """Return the latest substep's impulse (kg px/s): above 0 it pushes, below 0 it pulls.
-
-        Divide it by the length of a substep for the force.
-        """
-        return self.given
+    def may_touch(self) -> bool:
+        """Return whether it leaves a gap between its ends; a contact would fight a shorter rod."""
+        return self.rest > (self.end_a.r + self.end_b.r) * (1 + ROUNDING)
 
     def take(self, j: float, has_moved: bool) -> None:
         super().take(j, has_moved)
@@ -76,9 +66,12 @@ class Rods(Joints[Rod]):
     uses the axis after the move: with the one before, a pendulum would lose energy.
 
     If a rod of a frame turns far in a substep, or light balls between heavy ones move fast, the
-    frame cuts the substep into parts; with masses that differ much, until impulses are steady.
-    Existing errors of length are corrected softly. If a rod's ends would pass each other, the speed
-    along the present axis counts, as the axis after the move would drive them on.
+    frame cuts the substep into parts: soft rods would lose a fifth of the energy of a fast
+    dumbbell. With masses that differ much, it does so until impulses are steady. Where rods are
+    torn, turn too fast for that, or hang on bodies that move apart, they give way: the parts alone
+    would give them energy. Existing errors of length are corrected softly. If a rod's ends would
+    pass each other, the speed along the present axis counts, as that after the move would drive
+    them on.
     """
 
     __slots__ = ("frame_of", "frames", "pace", "spring")
@@ -92,7 +85,7 @@ class Rods(Joints[Rod]):
 
     def add(self, rod: Rod) -> None:
         super().add(rod)
-        self.world.call("let_touch", rod.a, rod.b, may_touch(rod))
+        self.world.call("let_touch", rod.a, rod.b, rod.may_touch())
 
     def remove(self, rod: Rod) -> None:
         super().remove(rod)
@@ -102,7 +95,7 @@ class Rods(Joints[Rod]):
         super().body_changed(body)
         for rod in self.joints:
             if body in (rod.a, rod.b):
-                self.world.call("let_touch", rod.a, rod.b, may_touch(rod))
+                self.world.call("let_touch", rod.a, rod.b, rod.may_touch())
 
     def awake_changed(self) -> None:
         super().awake_changed()
@@ -131,13 +124,7 @@ class Rods(Joints[Rod]):
 
     def any_heavy(self) -> bool:
         """Return whether any frame presses like a heavy body."""
-        self.find_frames()
         return any([frame.load > HEAVY * frame.lightest for frame in self.frames])
-
-    def frame_loads(self) -> list[tuple[list[Joint], float]]:
-        """Return the rods of each frame, and the mass (kg) that presses where it touches."""
-        self.find_frames()
-        return [([*frame.rods], frame.load) for frame in self.frames]
 
     def warm_start(self, h: float) -> None:
         for rod in self.awake:
@@ -166,10 +153,11 @@ class Frame:
         self.ends = list(ends)
         self.hangs = len(self.balls) < len(ends)
         masses = [ball.m for ball in self.balls]
+        self.mass = sum(masses)  # kg
         self.heaviest, self.lightest = max(masses), min(masses)  # kg
         self.is_uneven = self.heaviest > HEAVY * self.lightest
         is_braced = len(self.rods) > 2 * len(ends) - 3  # by more rods than keep its shape
-        self.load = sum(masses) if is_braced else self.heaviest  # kg, that presses where it touches
+        self.load = self.mass if is_braced else self.heaviest  # kg, that presses where it touches
         self.most = -1.0  # kg px²/s², the maximum of its energy, or -1 for none
         self.lost = 0.0  # kg px²/s², lost while it turned fast; it may gain it again
         self.work = 0.0  # kg px²/s², the work of its firm rods in this substep
@@ -270,7 +258,7 @@ class Frame:
             rod.j = 0.0
         self.fall(-h / 2)
         self.hold()
-        energy = self.energy(*self.velocity()) - self.fallen()
+        energy = self.energy() - self.fallen()
         most = MOST_PARTS
         if self.is_uneven and not self.flies_past(h):
             most = max(most, MOST_WORK // len(self.rods))
@@ -323,9 +311,8 @@ class Frame:
         """Return the velocity (px/s) of the centre of mass, 0 if it hangs on a static body."""
         if self.hangs:
             return 0.0, 0.0
-        mass = sum([ball.m for ball in self.balls])
         momentum_x = sum([ball.m * ball.vx for ball in self.balls])
-        return momentum_x / mass, sum([ball.m * ball.vy for ball in self.balls]) / mass
+        return momentum_x / self.mass, sum([ball.m * ball.vy for ball in self.balls]) / self.mass
 
     def fallen(self) -> float:
         """Return twice the energy (kg px²/s²) from gravity, up to a constant."""
@@ -353,15 +340,15 @@ class Frame:
 
     def spin(self, vx: float, vy: float) -> tuple[float, float, float]:
         """Return the centre of mass (px), and the spin (rad/s) about it by angular momentum."""
-        mass = sum([b.m for b in self.balls])
-        x = sum([b.m * b.x for b in self.balls]) / mass
-        y = sum([b.m * b.y for b in self.balls]) / mass
+        x = sum([b.m * b.x for b in self.balls]) / self.mass
+        y = sum([b.m * b.y for b in self.balls]) / self.mass
         turn = sum([b.m * ((b.x - x) * (b.vy - vy) - (b.y - y) * (b.vx - vx)) for b in self.balls])
         inertia = sum([b.m * squares(b.x - x, b.y - y) for b in self.balls])
         return x, y, turn / inertia if inertia else 0.0
 
-    def energy(self, vx: float, vy: float) -> float:
-        """Return twice the balls' energy (kg px²/s²), measured relative to a velocity."""
+    def energy(self) -> float:
+        """Return twice the balls' energy (kg px²/s²), relative to the centre of mass."""
+        vx, vy = self.velocity()
         return sum([b.m * squares(b.vx - vx, b.vy - vy) for b in self.balls])
 
     def energy_before(self, h: float) -> float:
@@ -376,7 +363,7 @@ class Frame:
         for rod in self.rods:
             off = abs(rod.distance - rod.rest) + abs(rod.speed()) * h
             self.is_off = self.is_off or off > LOOSE * rod.rest
-        energy = self.energy(*self.velocity())
+        energy = self.energy()
         for rod in self.rods:
             rod.apply_impulse(rod.j)
         return energy
@@ -386,7 +373,7 @@ class Frame:
 
         Some may take energy, see energy_before. The balls never gain any.
         """
-        energy = self.energy(*self.velocity())
+        energy = self.energy()
         most = self.most + self.lost
         wanted = min(energy if self.gave_way else max(-self.work, 0.0), most)
         self.lost = most - wanted
@@ -422,7 +409,7 @@ class Frame:
                 break
         if self.most >= 0:
             self.gave_way = is_soft or self.is_off
-            self.work = self.energy(*self.velocity()) - self.most
+            self.work = self.energy() - self.most
 
     def look_ahead(self, h: float, bias: float) -> tuple[float, float]:
         """Set the changes of speed that keep each rod's length in the move to come.
@@ -498,7 +485,7 @@ class Frame:
             self.apply()
             self.lost = 0.0
         else:
-            self.work -= self.energy(*self.velocity())
+            self.work -= self.energy()
             self.apply()
             self.keep_energy()
         for rod in self.rods:
@@ -508,8 +495,3 @@ class Frame:
 def squares(x: float, y: float) -> float:
     """Return the sum of two squares. Powers are rounded in other ways in another unit."""
     return x * x + y * y
-
-
-def may_touch(rod: Rod) -> bool:
-    """Return whether a rod leaves a gap between its ends; a contact would fight a shorter rod."""
-    return rod.rest > (rod.a.r + rod.b.r) * (1 + ROUNDING)

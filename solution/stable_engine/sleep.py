@@ -5,6 +5,7 @@ from math import hypot
 from .body import Body
 from .contacts import Contacts
 from .effect import Effect
+from .network import connected
 
 # lengths are in units of the world, see World.unit
 STILL_TIME, STILL_SPEED = 0.5, 0.5  # s; 1/s, of the centre and of the rim
@@ -138,33 +139,24 @@ class Sleep(Effect):
         return self.rates.get(body, 0.0) * hypot(body.vx, body.vy) > most
 
     def find_islands(self) -> list[list[Body]]:
-        """Return the awake balls in groups, by union-find: connected balls get the same root.
+        """Return the awake balls in groups of those that are connected.
 
         Also list in `supported` the balls that touch something static or are tied to it. A ball on
         a moving kinematic body does not lie still.
         """
         self.supported: set[Body] = set()
-        parent = {body: body for body in self.world.awake}
-
-        def root(body: Body) -> Body:
-            while parent[body] is not body:
-                parent[body] = parent[parent[body]]  # halves the path for the next search
-                body = parent[body]
-            return body
-
+        beside: dict[Body, list[Body]] = {body: [] for body in self.world.awake}
         for links in self.world.hooks["links"]:
             for a, b in links():
                 if not (a.idle or b.idle):
-                    parent[root(a)] = root(b)
+                    beside[a].append(b)
+                    beside[b].append(a)
                 elif not (a.idle and b.idle):
                     ball, other = (b, a) if a.idle else (a, b)
                     self.supported.add(ball)
                     if other.is_kinematic and (other.vx or other.vy or other.w):
                         ball.still = ball.kept = 0.0
-        islands: dict[Body, list[Body]] = {}
-        for body in self.world.awake:
-            islands.setdefault(root(body), []).append(body)
-        return list(islands.values())
+        return connected(self.world.awake, beside)
 
     def update_awake(self) -> None:
         """Update the world's list of awake bodies, and tell the effects."""

@@ -21,7 +21,7 @@ class Spring(Joint):
     stiffness is force per px of stretch (kg/s²), damping is force per px/s (kg/s).
     """
 
-    __slots__ = ("c", "crowd", "drag", "j", "k", "pull", "rate", "tied", "vx", "vy")
+    __slots__ = ("c", "crowd", "drag", "k", "pull", "rate", "tied", "vx", "vy")
     effect = "Springs"
 
     def __init__(
@@ -33,7 +33,6 @@ class Spring(Joint):
         length: float | None = None,
     ) -> None:
         super().__init__(a, b)
-        self.j = 0.0  # kg px/s, accumulated impulse, positive when it pushes
         self.crowd = 0.0  # 1/s², its maximum omega², from all springs at its ends
         self.rate = 0.0  # 1/s, at which damping slows it at most, by all springs at its ends
         self.tied = False  # whether any of its ends has another spring
@@ -56,14 +55,6 @@ class Spring(Joint):
         self.changed()
 
     @property
-    def impulse(self) -> float:
-        """Return the latest substep's impulse (kg px/s): above 0 it pushes, below 0 it pulls.
-
-        Divide it by the length of a substep for the force.
-        """
-        return self.j
-
-    @property
     def damping(self) -> float:
         """Return the force per px/s, in kg/s. Setting it wakes both ends."""
         return self.c
@@ -82,7 +73,7 @@ class Spring(Joint):
 
         Between tight springs it might: then its swing would grow. Others need none.
         """
-        tight = -self.j * h / self.distance if self.distance else 0.0  # kg
+        tight = -self.given * h / self.distance if self.distance else 0.0  # kg
         turn2 = 2 * tight / self.m  # rad², of that swing in a substep of h seconds, squared
         share = 1 - 1 / (1 + min(turn2 / 2, MOST_SWAY) ** 6)
         return tight * share if turn2 > SWAYS else 0.0
@@ -184,18 +175,18 @@ class Springs(Joints[Spring]):
             before = spring.vx * spring.nx + spring.vy * spring.ny
             spring.pull = (heavier - first) * before - h * k * (spring.distance - spring.rest)
             spring.drag = max(last + ahead * h * h * k + heavier, LEAST_DRAG * spring.m)
-            spring.apply_impulse(spring.j)
+            spring.apply_impulse(spring.given)
 
     def solve(self, h: float) -> None:
         for spring in self.awake:
             give = 1 / spring.drag
             spring.pivot = 1 / spring.m + give
-            spring.rhs = (spring.pull - spring.j) * give - spring.speed()
+            spring.rhs = (spring.pull - spring.given) * give - spring.speed()
         for network in self.networks:
             network.solve()
         for spring in self.awake:
             spring.apply_impulse(spring.rhs)
-            spring.j += spring.rhs
+            spring.given += spring.rhs
         drags = [(spring, spring.sway(h)) for spring in self.awake if spring.tied]
         sways = [Sway(spring, drag) for spring, drag in drags if drag]
         for across in connect(sways) if sways else []:

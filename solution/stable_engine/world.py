@@ -14,13 +14,8 @@ from .joint import Joint
 from .rays import RayHit, cast_ray
 from .validate import pair, positive, refuse, require, whole
 
-# the names of hooks: of a step, of each substep, and between effects
-STEP = ("detect", "impact", "prepare", "finish", "coast", "tell")
-SUBSTEP = ("force", "warm_start", "solve", "press", "lag", "relax")
-BETWEEN = (
-    *("begin_contact", "body_changed", "body_moved", "static_moved", "unload", "forget"),
-    *("let_touch", "links", "drag", "wake", "awake_changed"),
-)
+HOOKS = [name for name in vars(Effect) if not name.startswith("_")]
+SUBSTEP = ("force", "warm_start", "solve", "press", "lag", "relax")  # hooks of the substeps
 
 Thing = TypeVar("Thing", bound=Body | Joint)
 
@@ -70,7 +65,7 @@ class World:
             require(name not in self.effects, "World.effects", f"with {name}() twice", "without")
             self.effects[name] = effect
         self.ranked = sorted(self.effects.values(), key=lambda effect: effect.rank)
-        self.hooks = {name: find_hooks(name, self.ranked) for name in (*STEP, *BETWEEN)}
+        self.hooks = {name: find_hooks(name, self.ranked) for name in HOOKS}
         for effect in self.effects.values():
             name, found = f"World.effects' {effect!r}", "in another world already"
             require(not hasattr(effect, "world"), name, found, "a new one: each world has its own")
@@ -231,11 +226,6 @@ class World:
         way = pair("World.ray_cast's start", start), pair("World.ray_cast's end", end)
         return cast_ray(self.bodies, *way)
 
-    def push(self, body: Body, fx: float, fy: float, torque: float) -> None:
-        """Add to the force and the torque that act on a body in the next step."""
-        before_x, before_y, before = self.forces.get(body, (0.0, 0.0, 0.0))
-        self.forces[body] = before_x + fx, before_y + fy, before + torque
-
     def acceleration(self, body: Body) -> tuple[float, float]:
         """Return the acceleration (px/s²) of a ball by gravity and by forces on it alone."""
         x, y = self.g
@@ -341,7 +331,8 @@ class World:
                 impact(h)
         self.lag_h = h if lags else 0.0
         if lags:
-            self.catch_up(h)
+            self.change_velocities(h / 2)  # to the time of the positions
+            self.pushed, self.forces = self.forces, {}
         for tell in hooks["tell"]:
             tell(h)
 
@@ -361,13 +352,11 @@ class World:
             body.vy -= body.lag_y
             body.is_pressed = False
 
-    def catch_up(self, h: float) -> None:
-        """Take velocities on to the time of the positions, except those of pressed bodies."""
-        self.change_velocities(h / 2)
-        self.pushed, self.forces = self.forces, {}
-
     def change_velocities(self, seconds: float) -> None:
-        """Change velocities as so many seconds would (below 0: back) where bodies are now."""
+        """Change velocities as so many seconds would (below 0: back) where bodies are now.
+
+        Those of pressed bodies stay.
+        """
         gx, gy = self.g[0] * seconds, self.g[1] * seconds
         for body in self.awake:
             body.lag_x, body.lag_y = gx, gy
