@@ -332,7 +332,7 @@ class World:
         self.lag_h = h if lags else 0.0
         if lags:
             self.change_velocities(h / 2)  # to the time of the positions
-            self.pushed, self.forces = self.forces, {}
+        self.pushed, self.forces = self.forces, {}
         for tell in hooks["tell"]:
             tell(h)
 

@@ -30,6 +30,7 @@ from stable_engine import (
     Circle,
     Contacts,
     Damping,
+    Effect,
     Friction,
     Rod,
     Rods,
@@ -289,6 +290,29 @@ def test_a_force_that_begins_in_a_fall_acts_for_one_step_as_well():
     assert ball.vx == pytest.approx(100 * DT, rel=1e-12)
     run(world, 0.1)
     assert ball.vx == pytest.approx(100 * DT, rel=1e-12)
+
+
+class Unloads(Effect):
+    """Count how often bodies press less."""
+
+    __slots__ = ("count",)
+    rank = 9
+
+    def __init__(self):
+        self.count = 0
+
+    def unload(self, lost, direction):
+        self.count += 1
+
+
+@pytest.mark.parametrize("gravity", [(0, 0), (0, G)])
+def test_a_force_ends_once(gravity):
+    unloads = Unloads()
+    world = World(gravity, effects=[Contacts(), unloads])
+    ball = world.add(Body(Circle(10), (5, 5), mass=4))
+    ball.apply_force((300, -100))
+    run(world, 5 * DT)
+    assert unloads.count == 1
 
 
 def test_a_pull_that_follows_the_position_keeps_an_orbit_in_single_short_substeps():
