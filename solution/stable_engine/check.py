@@ -21,12 +21,6 @@ WEAK = 20.0  # units/s²
 SHAKY = 0.15  # under a load of 3 g a ball turns by more than 1 rad in a substep
 
 
-def complaints(world: World) -> list[str]:
-    """Return one sentence for each effect that is missing, or declared and not used."""
-    told = [*missing(world, world.bodies).values(), *unused(world)]
-    return [*told, *odd_gravity(world), *overloaded_rods(world)]
-
-
 def missing(world: World, looked_at: list[Body]) -> dict[str, str]:
     """Return a sentence for each missing effect that these bodies need, by its name.
 

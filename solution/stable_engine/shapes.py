@@ -10,13 +10,13 @@ class Circle:
     """A disc."""
 
     def __init__(self, radius: float) -> None:
-        self.size = positive("Circle.radius", radius)
-        self.half = self.size, self.size  # px, of its bounding box
+        size = positive("Circle.radius", radius)
+        self.half = size, size  # px, of its bounding box
 
     @property
     def radius(self) -> float:
         """Return the radius in px, which stays the same."""
-        return self.size
+        return self.half[0]
 
     def __repr__(self) -> str:
         return f"Circle({self.radius:g})"

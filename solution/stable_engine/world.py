@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from typing import Any, TypeVar
 
 from .body import Body
-from .check import complaints, missing
+from .check import missing, odd_gravity, overloaded_rods, unused
 from .effect import Effect, Push
 from .joint import Joint
 from .rays import RayHit, cast_ray
@@ -253,9 +253,9 @@ class World:
         Other sentences name a gravity too weak for the unit, and rods that shake. Without this
         call, a step warns of undeclared effects after bodies were added or changed.
         """
-        self.unchecked = []
-        self.warned |= missing(self, self.bodies).keys()
-        return complaints(self)
+        lacking = missing(self, self.bodies)
+        self.unchecked, self.warned = [], self.warned | lacking.keys()
+        return [*lacking.values(), *unused(self), *odd_gravity(self), *overloaded_rods(self)]
 
     def warn(self) -> None:
         """Warn once of each undeclared effect that new or changed bodies need."""
