@@ -31,8 +31,15 @@ Thing = TypeVar("Thing")
 Fill = tuple[Coupling, Coupling, Coupling]
 
 
-# a joint, its couplings to later ones, and the changes that eliminating it makes to those
-Row = tuple[Joint, list[Coupling], list[Fill]]
+class Row:
+    """A joint, its couplings to later ones, and the changes that eliminating it makes to those."""
+
+    __slots__ = ("couplings", "fills", "joint")
+
+    def __init__(self, joint: Joint, couplings: list[Coupling], fills: list[Fill]) -> None:
+        self.joint = joint
+        self.couplings = couplings
+        self.fills = fills
 
 
 class Network(Generic[AnyJoint]):
@@ -50,6 +57,7 @@ class Network(Generic[AnyJoint]):
         while beside:
             joint = min(beside, key=lambda one: len(beside[one]))
             self.rows.append(self.eliminate(joint, beside))
+        self.backwards = self.rows[::-1]
 
     def eliminate(self, joint: Joint, beside: dict[Joint, dict[Joint, Coupling]]) -> Row:
         """Remove a joint from those left, and couple its neighbours to each other."""
@@ -66,7 +74,7 @@ class Network(Generic[AnyJoint]):
                     self.filled.append(there)
                 fills.append((before, c, there))
             couplings.append(c)
-        return joint, couplings, fills
+        return Row(joint, couplings, fills)
 
     def solve(self) -> None:
         """Find the impulses that together give each joint its speed.
@@ -79,19 +87,21 @@ class Network(Generic[AnyJoint]):
             c.value = c.weight * (one.nx * other.nx + one.ny * other.ny) + c.spin
         for c in self.filled:
             c.value = 0.0
-        for joint, couplings, fills in self.rows:
-            if couplings:
+        for row in self.rows:
+            if row.couplings:
+                joint = row.joint
                 pivot, rhs = joint.pivot, joint.rhs
-                for c in couplings:
+                for c in row.couplings:
                     share = c.share = c.value / pivot
                     other = c.other
                     other.pivot -= share * c.value
                     other.rhs -= share * rhs
-                for c, d, filled in fills:
+                for c, d, filled in row.fills:
                     filled.value -= c.share * d.value
-        for joint, couplings, _ in reversed(self.rows):
+        for row in self.backwards:
+            joint = row.joint
             rhs = joint.rhs / joint.pivot
-            for c in couplings:
+            for c in row.couplings:
                 rhs -= c.share * c.other.rhs
             joint.rhs = rhs
 

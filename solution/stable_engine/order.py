@@ -3,7 +3,6 @@
 from bisect import insort
 from collections import Counter
 from collections.abc import Callable
-from itertools import groupby
 from math import hypot
 from operator import attrgetter
 
@@ -159,7 +158,13 @@ def find_ties(group: Group, grain: float) -> None:
 
 def in_same_place(contacts: list[Contact]) -> list[list[Contact]]:
     """Return contacts that are in order, as lists of those in the same place."""
-    return [list(same) for _, same in groupby(contacts, key=PLACE)]
+    lists: list[list[Contact]] = []
+    for c in contacts:
+        if lists and lists[-1][0].place == c.place:
+            lists[-1].append(c)
+        else:
+            lists.append([c])
+    return lists
 
 
 def share_of_each(contacts: list[Contact]) -> float:
