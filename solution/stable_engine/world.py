@@ -282,7 +282,7 @@ class World:
         hooks = self.hooks
 
         # 1 detect: the step before has, unless the program has changed anything since
-        lags = bool(hooks["lag"] or self.forces) or self.g != (0.0, 0.0)
+        lags = self.g != (0.0, 0.0) or bool(hooks["lag"] or self.forces)
         is_known = h == self.lag_h and self.forces.keys() == self.pushed.keys()
         if self.pushed and self.forces != self.pushed:
             self.end_pushes()
