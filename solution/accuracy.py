@@ -19,7 +19,7 @@ import sys
 from pathlib import Path
 
 from experiments.accuracy.charts import make_charts, round_numbers
-from experiments.accuracy.piles import choose_settings, study_pile
+from experiments.accuracy.crowds import CROWDS, choose_settings, study_crowd
 from experiments.accuracy.questions import QUESTIONS, dials, families
 from experiments.accuracy.runs import Effort, study_budgets, study_dials
 from experiments.accuracy.smooth import study_energy, study_spring
@@ -28,11 +28,10 @@ from experiments.compiled import time_compiled
 from experiments.figures import draw_figures
 from experiments.table import Progress, write_markdown
 
-BALLS, QUICK_BALLS = (40, 200), (40,)  # in piles
 STEPS = 1e6  # at most, of an integrator
 
 
-def measure(effort, balls, progress):
+def measure(effort, crowds, progress):
     """Return all results, as plain lists and dictionaries."""
 
     def tick(title):
@@ -45,24 +44,24 @@ def measure(effort, balls, progress):
         "budgets": {name: study_budgets(name, effort, tick(name)) for name in QUESTIONS},
         "smooth": smooth,
         "dials": {name: study_dials(name, effort, tick(name)) for name in QUESTIONS},
-        "piles": [study_pile(count, effort, tick(f"pile of {count}")) for count in balls],
+        "crowds": [study_crowd(each, effort, tick(each.title)) for each in crowds],
     }
 
 
-def count_runs(effort, balls):
+def count_runs(effort, crowds):
     """Return how often measuring ticks."""
     turned = len({setting for row in dials(effort.quick).values() for setting in row.values()})
     each = len(families()) + turned
-    return 1 + len(QUESTIONS) * each + len(balls) * len(choose_settings())
+    return 1 + len(QUESTIONS) * each + len(crowds) * len(choose_settings())
 
 
 def main(arguments=None):
     options = read(arguments)
     effort = Effort(options.quick, options.scale)
-    balls = QUICK_BALLS if options.quick else BALLS
+    crowds = CROWDS[:1] if options.quick else CROWDS
     options.out.mkdir(parents=True, exist_ok=True)
-    progress = Progress(count_runs(effort, balls))
-    results = measure(effort, balls, progress)
+    progress = Progress(count_runs(effort, crowds))
+    results = measure(effort, crowds, progress)
     progress.end()
     results["lines"] = make_lines(results)
     text = json.dumps(results, indent=1, allow_nan=False)

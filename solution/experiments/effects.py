@@ -109,11 +109,6 @@ def with_fliers(scene):
     return replace(scene, bodies=[*pile_of_them, *fliers])
 
 
-def row_of_balls(count):
-    """Return balls far apart, and nothing else."""
-    return Scene([Ball((100.0 * i, 0.0)) for i in range(count)], ())
-
-
 def packed(count):
     """Return five rows of balls in a bin, each ball on two of the row below, and the rest on top.
 
@@ -188,11 +183,6 @@ def rough_rows_of(effect):
     return sum(c.mu > 0 for group in effect.contacts.groups for c in group.contacts)
 
 
-def has_work(world):
-    """Return true if there is anything to solve in a lesson's world."""
-    return bool(world.contacts or world.joints)
-
-
 def awake(effect):
     """Count the joints that one pass solves."""
     return len(effect.awake)
@@ -210,7 +200,7 @@ STABLE_WORK = [
 ]
 LESSON_WORK = [
     ("pairs", lesson_contacts.collide, 1),
-    ("solver runs", world.World.solve, has_work),
+    ("solver runs", world.World.solve, lambda world: bool(world.contacts or world.joints)),
     ("contact solves", solver.solve_normal, 1),
     ("friction solves", solver.solve_friction, 1),
     ("rod solves", joints.DistanceJoint.solve, 1),
@@ -254,7 +244,7 @@ def list_lesson(balls):
     """Return the work of the lesson's engine on the same pile, and on scenes with less."""
     heap = settled(balls)
     scenes = {
-        "balls far apart": row_of_balls(balls),
+        "balls far apart": Scene([Ball((100.0 * i, 0.0)) for i in range(balls)], ()),
         "a pile without friction": replace(heap, effects=("Contacts",)),
         "with friction": heap,
         "with friction and 10 rods": replace(heap, effects=(*TOUCH, "Rods")),

@@ -295,7 +295,7 @@ def results(tiny):
 
 @pytest.mark.soak
 def test_the_results_are_complete(results):
-    assert set(results) == {"about", "budgets", "smooth", "dials", "piles", "lines"}
+    assert set(results) == {"about", "budgets", "smooth", "dials", "crowds", "lines"}
     assert list(results["budgets"]) == list(results["dials"]) == list(QUESTIONS)
     for scene in results["budgets"].values():
         assert set(scene["within"]) == set(families())
@@ -304,7 +304,7 @@ def test_the_results_are_complete(results):
         assert [dial["dial"] for dial in scene["dials"]] == list(dials(quick=True))
         assert all(run["work"] > 0 for dial in scene["dials"] for run in dial["runs"])
     assert [len(rows) for rows in results["smooth"].values()] == [4, 4]
-    (pile,) = results["piles"]
+    (pile,) = results["crowds"]
     same = {(run["engine"], run["substeps"]): run for run in pile["runs"]}
     depths = [same[who]["error"] for who in (("stable", 4), ("stable", 1), ("lesson", 1))]
     assert same["pymunk", 1]["ratio"] == [1, 1, 1] and depths == sorted(depths)
@@ -341,7 +341,7 @@ def test_it_runs_in_a_students_folder_with_nothing_done(handed_out, tmp_path):
     results = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))
     methods = results["smooth"]["spring"]
     assert len({json.dumps(row["points"][-1]["error"]) for row in methods[1:]}) == 1
-    assert results["piles"][0]["runs"][1]["error"] == "falls through"
+    assert results["crowds"][0]["runs"][1]["error"] == "falls through"
 
 
 @pytest.mark.parametrize("scale", ["0", "2", "-1", "nan"])

@@ -10,7 +10,7 @@ import tomllib
 import pytest
 
 from experiments import compiled
-from experiments.accuracy import piles
+from experiments.accuracy import crowds
 from experiments.accuracy.runs import Effort
 from experiments.compiled import Compiled, build, load, same_bits, sources, use_compiled
 from experiments.engines import ENGINES, Stable
@@ -108,9 +108,9 @@ def test_a_compiled_build_is_used_where_there_is_one_and_it_is_said(
     made = ENGINES["stable"](on_floor())
     assert type(made.world).__module__ == f"{package.name}.world"
     run(made, 0.1)
-    rows = piles.study_pile(8, Effort(quick=True, scale=0.1))["runs"]
+    rows = crowds.study_crowd(crowds.ask_pile(8), Effort(quick=True, scale=0.1))["runs"]
     compiled_rows = [row for row in rows if row["engine"] == "compiled"]
-    assert len(compiled_rows) == len(piles.SUBSTEPS)
+    assert len(compiled_rows) == len(crowds.SUBSTEPS)
     assert all(min(row["ratio"]) > 0 for row in compiled_rows)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from experiments.accuracy.piles import choose_settings, settle_pile
+from experiments.accuracy.crowds import CROWDS, choose_settings
 from experiments.accuracy.questions import (
     LESSON,
     QUESTIONS,
@@ -18,7 +18,6 @@ from experiments.accuracy.questions import (
     Setting,
     dials,
     families,
-    measure_overlap,
     measure_stretch,
 )
 from experiments.accuracy.runs import EXACT, Effort, run_setting
@@ -67,10 +66,8 @@ def test_an_error_is_what_its_engine_gives(name: str, question: Question, settin
 
 
 @pytest.mark.soak
-@pytest.mark.parametrize("balls", [40, 200])
-def test_an_overlap_is_what_its_engine_leaves(balls: int) -> None:
-    scene = settle_pile(balls)
-    question = Question(f"pile of {balls}", lambda: scene, measure_overlap, "overlap", "px", 2.0)
+@pytest.mark.parametrize("question", CROWDS, ids=lambda question: question.title)
+def test_an_error_of_a_crowd_is_what_its_engine_leaves(question: Question) -> None:
     for setting in choose_settings():
         error = run_setting(question, setting, Effort())["error"]
         assert error == pytest.approx(LINES[question.name(setting)], rel=1e-6), AGAIN

@@ -11,7 +11,8 @@ from ..compiled import Compiled
 from ..engines import ENGINES, SUBSTEPS
 from ..engines.box2d import PASSES as BOX2D_PASSES
 from ..engines.chipmunk import PASSES
-from ..measures import deepest_overlap, energy_height, run, watch, worst_stretch
+from ..measures import deepest_overlap, energy_height, run, states, watch, worst_stretch
+from ..rows.hits import kinetic
 from ..scenes import chain, drop, find_pendulum_angle, pendulum, pendulum_period, stack, tower
 
 LAUNCHED = 1.0  # px: a ball that rises by more was thrown
@@ -129,6 +130,13 @@ def measure_overlap(engine, seconds, dt):
     """Return the deepest overlap at the end."""
     run(engine, seconds, dt)
     return refuse_fallen(engine, deepest_overlap(engine))
+
+
+def measure_warming(engine, seconds, dt):
+    """Return the change of the energy of motion, as a share."""
+    start = kinetic(engine.scene, states(engine))
+    run(engine, seconds, dt)
+    return abs(kinetic(engine.scene, states(engine)) / start - 1)
 
 
 def measure_lag(engine, seconds, dt):

@@ -56,12 +56,7 @@ def add_times(runs, effort):
     """Add to each run its ms per frame in every repeat, timed from its last state on."""
     going = [(run.pop("in motion"), 1 / run["rate"]) for run in runs]
     for run, times in zip(runs, repeated_times(going, effort.repeats, effort.rounds), strict=True):
-        run["ms"] = as_milliseconds(times)
-
-
-def as_milliseconds(times):
-    """Convert times in s per second to ms per frame. None stays None."""
-    return None if times is None else [1000 * seconds / FRAMES for seconds in times]
+        run["ms"] = times and [1000 * seconds / FRAMES for seconds in times]
 
 
 def is_number(value):
@@ -164,8 +159,5 @@ def pick_within(runs, budget, which):
     """
     fitting = [run for run in runs if run["ms"] and spread(run["ms"])[which] <= budget]
     known = [run for run in fitting if is_number(run["error"])]
-    return min(known, key=get_error, default=(fitting or [{"error": "too slow"}])[-1])
-
-
-def get_error(run):
-    return run["error"]
+    fallback = (fitting or [{"error": "too slow"}])[-1]
+    return min(known, key=lambda run: run["error"], default=fallback)

@@ -23,7 +23,7 @@ def make_tables(results):
         tabulate_budgets(results["budgets"]),
         tabulate_orders(results["smooth"]),
         tabulate_dials(results["dials"].values()),
-        tabulate_piles(results["piles"]),
+        tabulate_crowds(results["crowds"]),
     ]
 
 
@@ -34,8 +34,8 @@ def make_lines(results):
     lines |= list_smooth(results["smooth"])
     for study in results["dials"].values():
         lines |= list_dials(study)
-    for study in results["piles"]:
-        lines |= list_pile(study)
+    for study in results["crowds"]:
+        lines |= list_crowd(study)
     return lines
 
 
@@ -166,20 +166,20 @@ def list_dials(study):
     return lines
 
 
-# ---------------------------------------------------------------- piles
+# ---------------------------------------------------------------- crowds
 
 
-def tabulate_piles(piles):
-    """Show each engine's overlap and time, a row per setting and two columns per pile."""
+def tabulate_crowds(crowds):
+    """Show each engine's error and time, a row per setting and two columns per crowd."""
     heads, rows = ["engine"], []
-    for study in piles:
-        heads += [f"{study['balls']} balls: overlap, px", "time"]
-    for runs in zip(*[study["runs"] for study in piles], strict=True):
+    for study in crowds:
+        heads += [f"{study['title']}: {study['error']} ({study['unit']})", "time"]
+    for runs in zip(*[study["runs"] for study in crowds], strict=True):
         row = [name_run(runs[0])]
         for run in runs:
             row += [say_error(run["error"]), span(run["ratio"], "x")]
         rows.append(row)
-    return Table("Settled piles, in steps of 1/120 s", heads, rows, "Time: pymunk takes 1.")
+    return Table("Piles and a gas, in steps of 1/120 s", heads, rows, "Time: pymunk takes 1.")
 
 
 def name_run(run):
@@ -188,8 +188,8 @@ def name_run(run):
     return f"{name}, {plural(run['substeps'], 'substep')}" if run["engine"] in SUBSTEPPED else name
 
 
-def list_pile(study):
-    lines = list_errors(study["title"], "overlap", study["runs"])
+def list_crowd(study):
+    lines = list_errors(study["title"], study["error"], study["runs"])
     for run in study["runs"]:
         lines |= as_range(f"{study['title']}, {run['setting']}: time in pymunk's", run["ratio"])
     return lines

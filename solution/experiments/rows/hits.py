@@ -209,11 +209,14 @@ def order_matters(trial, scene, seconds):
 def gas(count=20, masses=(1.0,), seed=3, e=1.0):
     """Make balls that fly in a closed box, with no overlap at the start."""
     rng = random.Random(seed)
+    reach = 24 * (max(6, math.ceil(math.sqrt(count))) - 1)
+    far, half = reach + 80, reach + 130
     walls = [
-        Block((x, y), (250 if y else 50, 50 if y else 250), e, 0.0)
-        for x, y in ((0, -200), (0, 200), (-200, 0), (200, 0))
+        Block((x, y), (half if y else 50, 50 if y else half), e, 0.0)
+        for x, y in ((0, -far), (0, far), (-far, 0), (far, 0))
     ]
-    cells = [(x, y) for x in range(-120, 121, 48) for y in range(-120, 121, 48)]
+    places = range(-reach, reach + 1, 48)
+    cells = [(x, y) for x in places for y in places]
     balls = []
     for cell in rng.sample(cells, count):
         mass, vel = rng.choice(masses), (rng.uniform(-300, 300), rng.uniform(-300, 300))
