@@ -359,9 +359,18 @@ class Impacts:
             self.look(c, is_new=ago > 0)
 
     def lift(self, c: Contact) -> None:
-        """Put a ball onto a face that stops it, but not higher than it was at first."""
+        """Put a ball onto a face that stops it, but not higher than it was at first.
+
+        One that leaves the face pays with its speed, as if it had risen there.
+        """
         up = self.sunk(c)
         if up > 0:
+            g, lag = self.flight.pull(c)
+            speed = -c.closing_speed() - lag
+            if speed > 0:
+                slower = speed - sqrt(max(speed * speed - 2 * g * up, 0.0))
+                c.a.vx += c.nx * slower
+                c.a.vy += c.ny * slower
             c.a.x -= c.nx * up
             c.a.y -= c.ny * up
             c.gap = c.found = c.gap + up
