@@ -68,10 +68,10 @@ class Body:
         self.idle = mass == 0  # static or asleep
         if not isinstance(shape, (Circle, Box, Segment)):
             refuse("Body.shape", shape, "a Circle, a Box or a Segment")
-        self.outline = shape
         self.segment = shape if isinstance(shape, Segment) else None
         self.r = shape.radius if isinstance(shape, Circle) else 0.0  # px
         self.hx, self.hy = shape.half  # px, half extents of the bounding box
+        self.outline = shape
         rule = f"0 for a {type(shape).__name__}, which is always static"
         require(self.r > 0 or mass == 0, "Body.mass", mass, rule)
         if self.segment and pos is None:

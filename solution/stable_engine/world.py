@@ -303,24 +303,26 @@ class World:
         # 2 prepare
         for prepare in hooks["prepare"]:
             prepare(h)
+        forces, warm_starts = hooks["force"], hooks["warm_start"]
+        solves, relaxes = hooks["solve"], hooks["relax"]
 
         for _ in range(self.substep_count):
             # 3 forces
-            for force in hooks["force"]:
+            for force in forces:
                 force(h)
             self.accelerate(h)
 
             # 4 solve
-            for warm_start in hooks["warm_start"]:
+            for warm_start in warm_starts:
                 warm_start(h)
-            for solve in hooks["solve"]:
+            for solve in solves:
                 solve(h)
 
             # 5 move
             self.move(h)
 
             # 6 relax
-            for relax in hooks["relax"]:
+            for relax in relaxes:
                 relax(h)
 
         for finish in hooks["finish"]:
