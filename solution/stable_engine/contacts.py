@@ -71,7 +71,8 @@ class Contacts(Effect):
         *("last_dt", "flying", "hit_ago", "stopped", "broad_phase", "crowd"),
         *("beside_static", "corners", "ends", "springs"),
         *("balls", "statics", "groups", "beginnings", "is_mirrored", "unpaired", "ignored", "pace"),
-        *("h", "touching_gap", "slow", "max_push_speed", "begin_contact_hooks", "piles"),
+        *("h", "touching_gap", "slow", "max_push_speed", "begin_contact_hooks", "piles", "stage"),
+        "has_friction",
     )
     rank = 3
 
@@ -104,6 +105,7 @@ class Contacts(Effect):
         self.unpaired: dict[int, Contact] = {}  # of sleeping bodies, by their pair's number
         self.ignored: set[int] = set()  # numbers of pairs
         self.piles: list[Pile] = []  # with heavy bodies
+        self.stage = Stage(0.0, 0.0, 0.0)  # of the substep, if there are piles
         self.pace = Pace(STIFFENING)
         self.h = 0.0  # s, the substep of the kept impulses
 
@@ -112,6 +114,7 @@ class Contacts(Effect):
         self.slow = SPECULATIVE_SPEED * self.world.unit  # px/s
         self.max_push_speed = MAX_PUSH_SPEED * self.world.unit  # px/s
         self.begin_contact_hooks = self.world.hooks["begin_contact"]
+        self.has_friction = "Friction" in self.world.effects
         springs = self.world.effects.get("Springs")
         self.springs = springs if isinstance(springs, Springs) else None
 
@@ -438,11 +441,15 @@ class Contacts(Effect):
             for tie in group.ties:
                 tie.solve(self.push, group, h)
         if self.piles:
-            stage = Stage(h, self.max_push_speed, self.touching_gap / 2)
+            stage = self.stage = Stage(h, self.max_push_speed, self.touching_gap / 2)
             stage.has_moved = False
             stage.ball_rate, stage.static_rate = self.balls.bias_rate, self.statics.bias_rate
-            for pile in self.piles:
-                pile.settle(stage)
+            self.settle()
+
+    def settle(self) -> None:
+        """Solve piles for what passes have left. Friction calls this again after its own pass."""
+        for pile in self.piles:
+            pile.settle(self.stage)
 
     def push(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Push overlapping bodies apart, and stop those that would overlap after the move."""
@@ -482,9 +489,9 @@ class Contacts(Effect):
             for tie in group.ties:
                 tie.solve(self.stop, group, h)
         if self.piles:
-            stage = Stage(h, self.max_push_speed, self.touching_gap / 2)
-            for pile in self.piles:
-                pile.settle(stage)
+            self.stage = Stage(h, self.max_push_speed, self.touching_gap / 2)
+            if not self.has_friction:
+                self.settle()
 
     def turn_normals(self) -> None:
         """Take over the normals after the move: else angular momentum would not be kept."""

@@ -37,11 +37,16 @@ class Friction(Effect):
             c.jt = 0.0
 
     def solve(self, h: float) -> None:
-        """Apply friction to contacts that press now; in relax alone, a pile would never rest."""
+        """Apply friction to contacts that press now; in relax alone, a pile would never rest.
+
+        It makes bodies come together where heavy ones press: that is left neither to the move
+        nor to the next substep.
+        """
         for group in self.contacts.groups:
             self.rub(group, group.in_turn, h)
             for tie in group.ties:
                 tie.solve(self.rub, group, h)
+        self.contacts.settle()
 
     def relax(self, h: float) -> None:
         self.solve(h)

@@ -2,6 +2,7 @@
 
 import math
 import random
+from collections import Counter
 from itertools import pairwise
 
 import pytest
@@ -239,3 +240,60 @@ def test_a_press_throws_no_ball_away(seed):
     for _ in range(int(90 / speed / dt)):
         world.step(dt)
         assert max(ball.vel.length() for ball in pressed) < 1e4
+
+
+def make_bin(half, names):
+    """Make a world with a rough floor and walls `half` px to both sides."""
+    world = World((0, G), effects=make(names))
+    world.add(Body(Box((half + 40, 20)), (0, 20), friction=0.6))
+    for side in (-1, 1):
+        world.add(Body(Box((20, 1500)), (side * (half + 20), -1480), friction=0.6))
+    return world
+
+
+def fastest_of_pile(world):
+    """Return the highest speed of balls that bear others: one that bears none may roll on."""
+    contacts = world.effects["Contacts"]
+    bearing = Counter(body for c in contacts.touching if c.impulse > 0 for body in (c.a, c.b))
+    return max(body.vel.length() for body in bearing if bearing[body] > 1 and body.mass)
+
+
+@pytest.mark.parametrize(("mass", "seed"), [(50.0, 8), (200.0, 0), (200.0, 1), (200.0, 7)])
+def test_rough_light_balls_come_to_rest_under_a_heavy_one(mass, seed):
+    """Nothing drives them: friction and impacts with e = 0 take all energy in a few swings."""
+    world, rng = make_bin(60, ("Contacts", "Friction")), random.Random(seed)
+    for k in range(20):
+        x, y = -48 + 24 * (k % 5) + rng.random(), -RADIUS * (1 + 2 * (k // 5))
+        world.add(Body(Circle(RADIUS), (x, y), 1, friction=0.6))
+    world.add(Body(Circle(25), (rng.uniform(-8, 8), -180), mass, friction=0.6))
+    for _ in steps(world, 8):
+        pass
+    assert max(fastest_of_pile(world) for _ in steps(world, 0.5)) < 0.1
+
+
+@pytest.mark.parametrize("seed", [5, 20])
+def test_a_rained_pile_of_rough_light_and_heavy_balls_comes_to_rest(seed):
+    """Each ball falls on those before it, so none is dropped into another."""
+    world, rng = make_bin(100, ("Contacts", "Friction")), random.Random(seed)
+    for k in range(30):
+        radius = rng.uniform(9, 15)
+        place = rng.uniform(radius - 100, 100 - radius), -RADIUS * (2 + 3 * k)
+        world.add(Body(Circle(radius), place, 10 ** rng.uniform(0, 2), friction=0.6))
+    for _ in steps(world, 11):
+        pass
+    assert max(fastest_of_pile(world) for _ in steps(world, 0.5)) < 0.1
+
+
+def test_a_heap_that_rolls_as_gears_keeps_its_speed():
+    """Rolling takes no energy: only balls that slip or are hit come to rest."""
+    world = World((0, G), effects=make(("Contacts", "Friction")))
+    world.add(Body(Box((400, 20)), (0, 20), friction=1))
+    places = (-11, -RADIUS), (11, -RADIUS), (0, -RADIUS - math.sqrt(400 - 121))
+    heap = [world.add(Body(Circle(RADIUS), place, 1, friction=1)) for place in places]
+    for _ in steps(world, 1):
+        pass
+    for ball, turn in zip(heap, (1, 1, -1), strict=True):
+        ball.vel, ball.omega = (5.0, 0.0), turn * 5.0 / RADIUS
+    for _ in steps(world, 5):
+        pass
+    assert [ball.vel.x for ball in heap] == pytest.approx([5.0] * 3, rel=1e-3)
