@@ -38,17 +38,25 @@ class Contact:
         self.turn = -1  # when it was last put in order, see put_in_order
         self.mn = self.ratio = 0.0  # kg, effective mass along the normal; ratio of the masses
         self.weigh()
-        self.mt = 0.0  # kg, effective mass along the tangent, filled in by Friction
+        self.mt = 0.0  # kg, effective mass along the tangent, see reach_to
         self.mu = 0.0  # friction of the pair, filled in by Friction
         self.e = 0.0  # restitution of the pair, filled in by Bounce
-        # px, from the centres to one point, or friction would make spin from nothing
-        self.arm_a = self.arm_b = 0.0
+        self.arm_a = self.arm_b = 0.0  # px, from the centres to where friction acts
 
     def weigh(self) -> None:
         """Take over the masses of A and B. A kinematic body counts as PUSHER balls."""
         a, b = self.a, self.b
         self.mn = 1 / (a.inv_mass + b.inv_mass)
         self.ratio = max(a.m, b.m) / min(a.m, b.m) if b.m else PUSHER if b.is_kinematic else 1.0
+
+    def reach_to(self, gap: float) -> None:
+        """Let the arms of friction end at one point, amid a gap (px), or spin would be made."""
+        a, b = self.a, self.b
+        self.arm_a, self.arm_b = a.r + gap / 2, b.r + gap / 2
+        if self.mu:
+            turn_a, turn_b = self.arm_a * self.arm_a, self.arm_b * self.arm_b
+            spin = turn_a * a.inv_inertia + turn_b * b.inv_inertia
+            self.mt = 1 / (a.inv_mass + b.inv_mass + spin)
 
     def __repr__(self) -> str:
         return f"Contact({self.a!r}, {self.b!r})"

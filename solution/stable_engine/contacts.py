@@ -356,8 +356,7 @@ class Contacts(Effect):
             a, b, nx, ny = c.a, c.b, c.nx, c.ny
             distance = (b.x - a.x) * nx + (b.y - a.y) * ny
             c.reach = distance - c.gap
-            half = (distance - a.r - b.r) / 2 if b.inv_mass else 0.0
-            c.arm_a, c.arm_b = a.r + half, b.r + half
+            c.reach_to(distance - a.r - b.r if b.inv_mass else 0.0)
             is_heavy = is_heavy or c.ratio > HEAVY
             if c.jn > tall * c.mn:
                 is_upright = abs(nx * gy - ny * gx) * h < LEANING * weight
@@ -500,9 +499,11 @@ class Contacts(Effect):
             dx, dy = b.x - a.x, b.y - a.y
             distance = sqrt(dx * dx + dy * dy)
             if distance > 0:
-                c.nx, c.ny = dx / distance, dy / distance
-                half = (distance - a.r - b.r) / 2
-                c.arm_a, c.arm_b = a.r + half, b.r + half
+                nx, ny = dx / distance, dy / distance
+                if nx * c.nx + ny * c.ny < SAME_DIRECTION:
+                    c.jn = c.jt = 0.0  # to take them back elsewhere would add energy
+                c.nx, c.ny = nx, ny
+                c.reach_to(distance - a.r - b.r)
         for c in self.corners:
             nx, ny, gap = the_way_it_came(c, *collide(c.a, c.b))
             if nx * c.nx + ny * c.ny > SAME_DIRECTION:

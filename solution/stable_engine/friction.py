@@ -29,10 +29,7 @@ class Friction(Effect):
         return not self.contacts.groups
 
     def begin_contact(self, c: Contact) -> None:
-        a, b = c.a, c.b
-        spin = a.r * a.r * a.inv_inertia + b.r * b.r * b.inv_inertia
-        c.mt = 1 / (a.inv_mass + b.inv_mass + spin)
-        c.mu = sqrt(a.mu * b.mu)
+        c.mu = sqrt(c.a.mu * c.b.mu)
         if c.mu == 0:
             c.jt = 0.0
 

@@ -567,10 +567,11 @@ class Rub(Hit):
 
     def __init__(self, hit: Hit) -> None:
         super().__init__(hit.c, (0.0, 0.0))
+        gap = hit.c.gap if self.end_b.inv_mass else 0.0
+        hit.c.reach_to(gap)
         self.m = hit.c.mt
         self.nx, self.ny = -self.ny, self.nx
-        half = hit.c.gap / 2 if self.end_b.inv_mass else 0.0  # both arms end at one point
-        self.arm_a, self.arm_b = self.end_a.r + half, self.end_b.r + half
+        self.arm_a, self.arm_b = self.end_a.r + gap / 2, self.end_b.r + gap / 2
         self.high = hit.mu * hit.total
         self.low = -self.high
 
