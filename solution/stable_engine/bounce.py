@@ -39,7 +39,7 @@ class Bounce(Effect):
 
     def impact(self, h: float) -> None:
         self.slow = self.slow_speed(h * self.world.substep_count)
-        touching, slow = self.contacts.touching, self.slow
+        touching, slow, lands = self.contacts.touching, self.slow, self.contacts.lands
         if not self.contacts.begun and all([abs(c.closing_speed()) <= slow for c in touching]):
             return
         impacts = Impacts(self.contacts, self.rods, self.springs, slow, h)
@@ -53,7 +53,7 @@ class Bounce(Effect):
         for c in touching:
             if c.gap < 0 and self.is_separating(c):
                 c.gap = 0.0
-            elif c.closing_speed() > slow and impacts.is_open(c):
+            elif c.closing_speed() > slow and impacts.is_open(c) and not lands(c.a, c.b):
                 c.gap = FAR_APART * c.a.r
 
     def slow_speed(self, dt: float) -> float:

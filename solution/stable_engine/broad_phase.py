@@ -38,7 +38,7 @@ class Bounds:
     """
 
     __slots__ = (
-        *("body", "place", "near", "margin", "left", "right", "top", "bottom"),
+        *("body", "place", "near", "margin", "extra", "left", "right", "top", "bottom"),
         *("vx", "vy", "high", "low", "side_high", "side_low", "first_lane", "last_lane", "rank"),
     )
 
@@ -47,6 +47,7 @@ class Bounds:
         self.place = place  # in the world's list
         self.near = False  # whether any other body is near
         self.margin = ROOM * min(body.hx, body.hy)  # px, room on each side
+        self.extra = 0.0  # s, of motion in a room beyond that of others
         self.left = self.right = body.x  # px
         self.top = self.bottom = body.y  # px
         self.vx, self.vy = body.vx, body.vy  # px/s, when the room was made
@@ -120,6 +121,7 @@ class BroadPhase:
         self.moving: list[Bounds] = []  # of those that can move
         self.widest = 0.0  # px, half of the widest that can move
         self.narrowest = 0.0  # px, the least width of a lane
+        self.tied: list[Bounds] = []  # of balls on rods, whose landings are foreseen
         self.pairs: list[Pair] = []
         self.spare: list[Pair] = []  # pairs of the last sweep: reuse is cheaper
         self.near: list[Bounds] = []  # of bodies that can move and have others near
@@ -158,6 +160,12 @@ class BroadPhase:
             far = [b for b in self.far if b.body.vx != b.vx or b.body.vy != b.vy]
             doubtful = self.near + far
         self.leavers = leavers = [one for one in doubtful if not one.holds()]
+        for one in self.tied:
+            body = one.body
+            x, y = body.x + body.vx * dt, body.y + body.vy * dt
+            if not (one.left <= x <= one.right and one.top <= y <= one.bottom) and one.holds():
+                one.extra = dt
+                leavers.append(one)
         many = MANY if self.falls else max(MANY, SHARE * len(self.moving))
         if (leavers and (late or len(leavers) > many)) or (doubtful and self.is_quiet):
             self.is_stale = True
@@ -180,7 +188,7 @@ class BroadPhase:
         count, ahead = len(self.pairs), max(self.ahead - self.age, dt)
         fall_x, fall_y = g[0] * ahead * ahead / 2, g[1] * ahead * ahead / 2
         for one in self.leavers:
-            one.make_room(back, ahead)
+            one.make_room(back, ahead + one.extra)
         for one in self.leavers if self.falls else []:
             if not (one.body in held or one.body.idle):
                 one.make_room_to_fall(fall_x, fall_y)

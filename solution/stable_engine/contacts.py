@@ -16,6 +16,7 @@ from .loads import (
     SUNK,
     TALL,
     TIED,
+    TURNING,
     Pile,
     Stage,
     find_piles,
@@ -27,7 +28,7 @@ from .order import PLACE, Group, give_places, in_same_place, put_in_order
 from .rods import Frame, Rods
 from .soft import SAME_DIRECTION, Pace, softness
 from .springs import Springs
-from .sweep import NO_HIT, first_hit, moment_of_touch, put_back
+from .sweep import NO_HIT, first_hit, hit_body, moment_of_touch, put_back
 from .validate import refuse
 
 FREQUENCY = 0.24  # of a contact of two balls, per substep; against a static body it is doubled
@@ -70,7 +71,7 @@ class Contacts(Effect):
     __slots__ = (
         *("on_hit", "on_part", "hits", "parted", "touching", "begun", "changed", "lets_none_pass"),
         *("last_dt", "flying", "hit_ago", "stopped", "broad_phase", "crowd"),
-        *("beside_static", "corners", "ends", "springs"),
+        *("beside_static", "corners", "early", "ends", "on_rods", "springs", "rods"),
         *("balls", "statics", "groups", "beginnings", "is_mirrored", "unpaired", "ignored", "pace"),
         *("h", "touching_gap", "slow", "max_push_speed", "begin_contact_hooks", "piles", "stage"),
         "has_friction",
@@ -97,6 +98,9 @@ class Contacts(Effect):
         self.ends: dict[Body, tuple[State, State]] = {}
         self.broad_phase = BroadPhase()
         self.crowd: dict[Contact, None] = {}  # of balls that part_crowd separates
+        # contacts of balls on rods that will touch: the speeds (px/s) at which they will meet
+        self.early: dict[Contact, float] = {}
+        self.on_rods: list[Pair] = []  # near pairs with a ball on rods
         self.beside_static: dict[Body, None] = {}  # balls that are near static bodies
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
         self.groups: list[Group] = []  # of these two, those with any contact
@@ -118,11 +122,15 @@ class Contacts(Effect):
         self.has_friction = "Friction" in self.world.effects
         springs = self.world.effects.get("Springs")
         self.springs = springs if isinstance(springs, Springs) else None
+        rods = self.world.effects.get("Rods")
+        self.rods = rods if isinstance(rods, Rods) else None
 
     def detect(self, h: float) -> None:
         world, phase, dt = self.world, self.broad_phase, h * self.world.substep_count
         if len(phase.bounds) != len(world.bodies):
             phase.take(world.bodies)
+            held = self.rods.holds if self.rods else None
+            phase.tied = [one for one in phase.moving if held and held(one.body)]
         renews = phase.is_stale or len(phase.leavers) > 0
         moved = renews or self.any_moved()
         if renews:
@@ -151,7 +159,7 @@ class Contacts(Effect):
         """Find the near pairs that are new, and keep the contacts of bodies that still touch."""
         phase, g = self.broad_phase, self.world.g
         if phase.is_stale:  # all pairs are new
-            self.beside_static = {}
+            self.beside_static, self.on_rods = {}, []
             for c in self.touching:
                 self.unpaired[pair_number(c.a, c.b)] = c
         bearing = self.touching if g != (0.0, 0.0) else []
@@ -173,6 +181,10 @@ class Contacts(Effect):
         for pair in found:
             if pair.b.is_static:
                 self.beside_static[pair.a] = None
+        for pair in found if self.rods and self.rods.awake else []:
+            a, b = pair.a, pair.b
+            if (a.joint_count or b.joint_count) and pair_number(a, b) not in self.ignored:
+                self.on_rods.append(pair)
 
     def find_contacts(self, dt: float) -> None:
         """Find the present contacts of all bodies, with the impulses they had before.
@@ -187,6 +199,8 @@ class Contacts(Effect):
         slow, touching_gap = self.slow, self.touching_gap
         margin, slow2 = slow * dt, slow * slow
         back = self.last_dt if self.lets_none_pass else 0.0
+        if self.early:
+            self.end_early()
         for pair in self.broad_phase.pairs:
             a, b = pair.a, pair.b
             if b.r:
@@ -229,16 +243,54 @@ class Contacts(Effect):
                     self.crowd[c] = None
             else:
                 statics.append(c)
+        if self.early:
+            self.early = {c: self.early[c] for c in touching if c in self.early}
         self.touching, self.balls.contacts, self.statics.contacts = touching, balls, statics
         was_idle = not self.groups
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
+        if self.on_rods:
+            self.foresee(dt)
         if (not self.groups) != was_idle:
             self.world.update_hooks()
         self.broad_phase.add_looks(len(self.broad_phase.pairs) - len(touching), dt)
         if self.unpaired:
             self.end_unpaired()
 
-    def make_contact(self, a: Body, b: Body, nx: float, ny: float) -> Contact:
+    def lands(self, a: Body, b: Body) -> bool:
+        """Return whether one of these is on rods, and they will not bounce off each other."""
+        if self.rods is None or (self.lets_none_pass and a.e and b.e):
+            return False
+        return self.rods.holds(a) or self.rods.holds(b)
+
+    def foresee(self, dt: float) -> None:
+        """Begin the contacts of balls on rods that will land on something in dt seconds.
+
+        In an overlap, rods would work against the push out of it. So these contacts begin before
+        their bodies meet, and it is noted at which speed (px/s) they will.
+        """
+        for pair in self.on_rods:
+            a, b = pair.a, pair.b
+            if pair.contact is None and self.lands(a, b):
+                gx, gy = self.world.g if b.is_static else (0.0, 0.0)
+                dx, dy = (a.vx - b.vx + gx * dt) * dt, (a.vy - b.vy + gy * dt) * dt
+                nx, ny, gap = collide(a, b)
+                is_near = gap > self.touching_gap and gap * gap < dx * dx + dy * dy
+                if is_near and hit_body(b, a.r, a.x - b.x, a.y - b.y, dx, dy) < NO_HIT:
+                    c = self.meet(pair, nx, ny, gap, is_early=True)
+                    speed = c.closing_speed()
+                    square = speed * speed + 2 * gap * (gx * nx + gy * ny)
+                    self.early[c] = sqrt(max(square, 0.0))
+
+    def end_early(self) -> None:
+        """Note the hits of contacts that were foreseen, once their bodies press each other."""
+        for c in [c for c in self.early if c.jn > 0 or c.last > 0]:
+            speed = self.early.pop(c)
+            if self.on_hit:
+                self.hits.append((c.a, c.b, speed))
+
+    def make_contact(
+        self, a: Body, b: Body, nx: float, ny: float, is_early: bool = False
+    ) -> Contact:
         """Return a new contact with this normal, filled in by the other effects."""
         c = Contact(a, b)
         c.nx, c.ny = nx, ny
@@ -247,7 +299,7 @@ class Contacts(Effect):
         self.begun.append(c)
         if (a.is_fresh or (b.inv_mass and b.is_fresh)) and c.closing_speed() > -self.slow:
             a.is_pressed = b.is_pressed = True
-        if self.on_hit:
+        if self.on_hit and not is_early:
             self.hits.append((a, b, self.meeting_speed(c)))
         return c
 
@@ -261,11 +313,11 @@ class Contacts(Effect):
         since = self.h / 2 - ago if falls else 0.0  # s, as velocities lag half a substep behind
         return (a.vx - b.vx + gx * since) * nx + (a.vy - b.vy + gy * since) * ny
 
-    def meet(self, pair: Pair, nx: float, ny: float, gap: float) -> Contact:
-        """Add the contact of two bodies that an impact has moved together, and wake them."""
+    def meet(self, pair: Pair, nx: float, ny: float, gap: float, is_early: bool = False) -> Contact:
+        """Add the contact of two bodies that meet, beside those found, and wake them."""
         pair.a.wake()
         pair.b.wake()
-        c = pair.contact = self.make_contact(pair.a, pair.b, nx, ny)
+        c = pair.contact = self.make_contact(pair.a, pair.b, nx, ny, is_early)
         c.gap = c.found = gap
         self.touching.append(c)
         group = self.balls if c.b.inv_mass else self.statics
@@ -278,8 +330,8 @@ class Contacts(Effect):
 
     def end_contact(self, pair: Pair) -> None:
         """End the contact of two bodies that have parted."""
-        pair.contact = None
-        if self.on_part:
+        c, pair.contact = pair.contact, None
+        if self.on_part and c not in self.early:
             self.parted.append((pair.a, pair.b))
 
     def end_unpaired(self) -> None:
@@ -291,7 +343,7 @@ class Contacts(Effect):
         for number, c in unpaired.items():
             if c.a.sleeps and c.b.idle:
                 self.unpaired[number] = c
-            elif self.on_part:
+            elif c not in self.early and self.on_part:
                 self.parted.append((c.a, c.b))
 
     def have_passed(self, a: Body, b: Body, gap: float) -> bool:
@@ -363,33 +415,48 @@ class Contacts(Effect):
                 is_upright = abs(nx * gy - ny * gx) * h < LEANING * weight
                 is_tall = is_tall or (is_upright and a.touches <= 2 and b.touches <= 2)
             else:
-                is_tied = a.joint_count > 0 or b.joint_count > 0
-                is_deep = is_deep or c.gap < -(TIED if is_tied else DEEP) * (a.r + b.r)
-        self.piles = self.find_piles(is_heavy, is_deep)
+                is_deep = is_deep or c.gap < -DEEP * (a.r + b.r)
+        for pile in self.piles:
+            pile.end()
+        tied = self.find_tied(h) if self.on_rods else set()
+        self.piles = self.find_piles(is_heavy, is_deep, tied)
         if is_tall:
             self.piles += find_towers(self.touching, self.piles, tall, weight, self.world.unit)
 
-    def find_piles(self, is_heavy: bool, is_deep: bool) -> list[Pile]:
+    def find_tied(self, h: float) -> set[Contact]:
+        """Return the contacts that may work against rods: they land, overlap, or rods turn fast."""
+        tied: set[Contact] = set()
+        turning = self.rods.find_turning(TURNING / h) if self.rods else set()
+        for pair in self.on_rods:
+            c, a, b = pair.contact, pair.a, pair.b
+            if c:
+                ahead = c.gap - max(c.closing_speed(), 0.0) * h * self.world.substep_count
+                if ahead < -TIED * (a.r + b.r) or a in turning or b in turning:
+                    tied.add(c)
+        return tied
+
+    def find_piles(self, is_heavy: bool, is_deep: bool, tied: set[Contact]) -> list[Pile]:
         """Return the piles with heavy loads: is_heavy tells whether any two masses differ much.
 
-        is_deep tells whether any two balls overlap deep.
+        is_deep tells whether any two balls overlap deep, and `tied` are contacts that may work
+        against rods.
         """
-        rods = self.world.effects.get("Rods")
+        rods = self.rods
         pull = hypot(*self.world.g)
         loads = find_wedged(self.statics.contacts)  # kg, that press beside the bodies' own masses
         for body, (fx, fy, _) in self.world.forces.items() if pull else []:
             if hypot(fx, fy) > HEAVY * body.m * pull:
                 loads[body] = hypot(fx, fy) / pull
-        is_heavy = is_heavy or bool(loads)
+        is_heavy = is_heavy or bool(loads or tied)
         frames: list[Frame] = []
-        if isinstance(rods, Rods) and (is_heavy or is_deep or rods.any_heavy()):
+        if rods and (is_heavy or is_deep or rods.any_heavy()):
             is_heavy, frames = True, rods.frames
             for frame in frames:
                 loads.update(dict.fromkeys(frame.ends, frame.load))
         if not (is_heavy or is_deep):
             return []
         links: list[Joint] = [rod for frame in frames for rod in frame.rods]
-        return find_piles(self.touching, links, loads, self.world.unit)
+        return find_piles(self.touching, links, loads, tied, self.world.unit)
 
     def find_order(self) -> None:
         """Find the contacts solved in turn, with their order, and those solved at once.
@@ -490,8 +557,9 @@ class Contacts(Effect):
                 tie.solve(self.stop, group, h)
         if self.piles:
             self.stage = Stage(h, self.max_push_speed, self.touching_gap / 2)
-            if not self.has_friction:
-                self.settle()
+            for pile in self.piles:
+                if pile.rods or not self.has_friction:  # else friction will settle it
+                    pile.settle(self.stage)
 
     def turn_normals(self) -> None:
         """Take over the normals after the move: else angular momentum would not be kept.
@@ -776,6 +844,7 @@ class Contacts(Effect):
         for c in self.touching:
             c.a.is_pressed = c.b.is_pressed = False
         self.touching = [c for c in self.touching if not ends <= {c.a, c.b}]
+        self.early = {c: v for c, v in self.early.items() if not ends <= {c.a, c.b}}
         self.unpaired = {n: c for n, c in self.unpaired.items() if not ends <= {c.a, c.b}}
         self.broad_phase.bounds = []
 

@@ -69,18 +69,25 @@ class Limited(Joint):
         self.at = 0.0 if self.at else -1.0 if self.total < self.low else 1.0
 
 
+def always() -> bool:
+    """Accept any solution."""
+    return True
+
+
 def solve_within(
     network: Network[Joint],
     limited: Sequence[Limited],
     aim: Callable[[], None],
     least: float,
     has_moved: bool,
-) -> None:
+    accepts: Callable[[], bool] = always,
+) -> bool:
     """Find the impulses of all rows together: those of `limited` stay within their limits.
 
     aim sets each row's pivot and rhs, see Network.solve. Each turn solves for some rows, then lets
     go of those beyond their limits, and takes those that still lack more than `least` px/s (block
-    pivoting, Júdice and Pires 1994). If that does not end, nothing changes.
+    pivoting, Júdice and Pires 1994). If that does not end, or `accepts` refuses its end, nothing
+    changes. Return whether anything may have.
     """
     before = [(body, body.vx, body.vy, body.w) for body in bodies_of(network.joints)]
     taken = dict.fromkeys(network.joints, 0.0)  # kg px/s
@@ -108,7 +115,9 @@ def solve_within(
         aim()
         wrong = [row for row in limited if row.is_wrong(least)]
         if not wrong:
-            return
+            if accepts():
+                return True
+            break
         patience -= 1
         if len(wrong) < fewest:
             fewest, patience = len(wrong), TURNS
@@ -118,3 +127,4 @@ def solve_within(
         one.take(-j, has_moved)
     for body, vx, vy, w in before:
         body.vx, body.vy, body.w = vx, vy, w
+    return False

@@ -3,7 +3,7 @@
 from math import hypot, inf
 
 from .body import Body
-from .contact import Contact
+from .contact import Contact, is_at_face
 from .effect import Direction
 from .joint import Joint
 from .limits import Limited, solve_within
@@ -32,6 +32,8 @@ RELAXED = 1e-3  # of that share, what is left after the move
 WEDGED = 0.9  # cosine; a ball between faces that turn less is pressed as by a heavier one
 PARALLEL = 1 - 1e-9  # cosine, of faces that are one
 OPPOSITE = -0.5  # cosine; faces that turn further apart clamp what is between them
+TRIES = 3  # of a pile with rods, before the move: a length is no linear function of the speeds
+TURNING = 0.01  # rad in a substep; rods that turn by more pull at balls that contacts hold
 LEVEL = 1e-6  # a sine; contacts that rise by less do not bear what is above
 
 
@@ -51,13 +53,14 @@ class Stage:
 class Load(Limited):
     """A contact in a pile."""
 
-    __slots__ = ("give", "haste", "ratio")
+    __slots__ = ("give", "haste", "pressed", "ratio")
 
     def __init__(self, c: Contact, ratio: float) -> None:
         super().__init__(c)
         self.ratio = ratio  # of the heavier body, or its frame, to the lighter ball
         self.give = 0.0  # the share that it gives way
         self.haste = 1.0  # the share of the highest speed at which overlap is pushed out
+        self.pressed = -1.0  # kg px/s, beside rods its impulse before the move
 
     def aim(self, stage: Stage) -> None:
         """Set rhs to the speed (px/s) that the bodies lack, and the pivot."""
@@ -67,7 +70,8 @@ class Load(Limited):
         rate = stage.ball_rate if b.inv_mass else stage.static_rate
         give = self.give * RELAXED if stage.has_moved else self.give
         self.pivot = (1 + give) / c.mn
-        if gap > stage.least and not (stage.has_moved and c.jn):
+        presses = c.jn > 0 if self.pressed < 0 else self.pressed > 0
+        if gap > stage.least and not (stage.has_moved and presses):
             self.rhs = -speed - gap / stage.h
         else:
             push = max(rate * gap, -stage.most * self.haste)
@@ -85,7 +89,10 @@ class Pile:
     ball below has mass m. So what a pass leaves is solved exactly, for the contacts that press.
     """
 
-    __slots__ = ("bodies", "calm", "is_wild", "kept", "loads", "network", "rods", "rows", "stage")
+    __slots__ = (
+        *("bodies", "calm", "is_wild", "lengths", "loads", "network", "rods", "rows", "stage"),
+        *("tries", "turning"),
+    )
 
     def __init__(self, loads: list[Load], rods: list[Joint], unit: float, softest: float) -> None:
         self.loads = loads
@@ -99,15 +106,18 @@ class Pile:
             load.give = max(min(given, softest), HARDEST)
             load.haste = GENTLE if self.rods and ratio <= HEAVY else 1.0
         self.calm = CALM * unit / min(ratio, STEEPEST) ** 2  # px/s
-        self.kept = [0.0] * len(self.rods)  # px/s
-        self.is_wild = False  # whether its balls move far in this substep
+        self.lengths: list[float] = []  # px, of its rods after the move
+        self.tries = TRIES if rods else 1
+        turning = [load for load in loads if not (rods and is_at_face(load.c))]
+        self.turning = bodies_of(turning)  # at contacts that are other ones once these moved far
+        self.is_wild = False  # whether they move far in this substep
         self.network: Network[Joint] | None = None  # of all rows, once it was needed
 
     def look(self, h: float) -> None:
-        """Note the speeds with which rods keep their lengths, before contacts change them."""
-        self.kept = [rod.speed() for rod in self.rods]
+        """Note the lengths that rods will have after the move, before contacts change them."""
+        self.lengths = [length_after(rod, h) for rod in self.rods]
         self.is_wild = any(
-            [b.inv_mass > 0 and hypot(b.vx, b.vy) * h > FAR * b.r for b in self.bodies]
+            [b.inv_mass > 0 and hypot(b.vx, b.vy) * h > FAR * b.r for b in self.turning]
         )
 
     def forget_impacts(self) -> None:
@@ -119,46 +129,85 @@ class Pile:
         """
         for load in self.loads:
             c, before = load.c, load.c.jn
-            c.jn = 0.0 if self.rods else min(before, c.last)
+            lower(c, 0.0 if self.rods else c.last)
             c.last = before
-            if c.jn < before:
-                c.jt *= c.jn / before  # friction without its load would throw balls
+
+    def end(self) -> None:
+        """Lower impulses to those before a move: a step without this pile begins with them."""
+        for load in self.loads if self.rods else []:
+            lower(load.c, min(load.c.last, load.pressed))
 
     def settle(self, stage: Stage) -> None:
         """Solve for all impulses, if a pass has left more than a calm speed."""
         if self.is_wild:
             return
         self.stage = stage
-        if stage.has_moved:
-            self.kept = [0.0] * len(self.rods)
         for load in self.loads:
             load.follow()
-        for load in self.loads:
-            load.aim(stage)
-            if load.rhs > self.calm or (load.rhs < -self.calm and load.c.jn > 0):
-                return self.press()
-        for rod, speed in zip(self.rods, self.kept, strict=True):
-            if abs(rod.speed() - speed) > self.calm:
-                return self.press()
+        for _ in range(1 if stage.has_moved else self.tries):
+            lack = self.lack()
+            if lack <= self.calm or not self.press(lack):
+                break
+        for load in self.loads if self.rods and not stage.has_moved else []:
+            load.pressed = load.c.jn
 
-    def press(self) -> None:
-        """Apply the impulses of the contacts that press, and of the rods."""
+    def lack(self) -> float:
+        """Return the most that a contact or rod lacks, in px/s."""
+        most = 0.0
+        for load in self.loads:
+            load.aim(self.stage)
+            most = max(most, load.rhs if load.c.jn == 0 else abs(load.rhs))
+        return max([most, *[abs(speed) for speed in self.lacking()]])
+
+    def lacking(self) -> list[float]:
+        """Return the speeds (px/s) that rods lack to keep their lengths."""
+        if self.stage.has_moved:
+            return [-rod.speed() for rod in self.rods]
+        h = self.stage.h
+        both = zip(self.rods, self.lengths, strict=True)
+        return [(length - length_after(rod, h)) / h for rod, length in both]
+
+    def press(self, lack: float) -> bool:
+        """Apply the impulses of the contacts that press, and of the rods, and return True.
+
+        Change nothing if more (px/s) would then lack than before, as where rods turn very far.
+        """
         if self.network is None:
             self.network = Network(self.rows)
         for load in self.loads:
             load.total = load.c.jn
-        solve_within(self.network, self.loads, self.aim, self.calm, self.stage.has_moved)
+        return solve_within(
+            *(self.network, self.loads, self.aim, self.calm, self.stage.has_moved),
+            lambda: self.stage.has_moved or not self.rods or self.lack() <= lack,
+        )
 
     def aim(self) -> None:
         """Set each row's pivot and rhs."""
         for load in self.loads:
             load.aim(self.stage)
-        for rod, speed in zip(self.rods, self.kept, strict=True):
-            rod.ask(speed)
+        for rod, speed in zip(self.rods, self.lacking(), strict=True):
+            rod.ask(rod.speed() + speed)
+
+
+def lower(c: Contact, most: float) -> None:
+    """Lower the impulses of a contact until the normal one is at most this (kg px/s)."""
+    before, c.jn = c.jn, max(min(c.jn, most), 0.0)
+    if c.jn < before:
+        c.jt *= c.jn / before  # friction without its load would throw balls
+
+
+def length_after(rod: Joint, h: float) -> float:
+    """Return the length (px) of a rod after a move of h seconds."""
+    a, b = rod.end_a, rod.end_b
+    return hypot(b.x - a.x + (b.vx - a.vx) * h, b.y - a.y + (b.vy - a.vy) * h)
 
 
 def find_piles(
-    contacts: list[Contact], rods: list[Joint], loads: dict[Body, float], unit: float
+    contacts: list[Contact],
+    rods: list[Joint],
+    loads: dict[Body, float],
+    tied: set[Contact],
+    unit: float,
 ) -> list[Pile]:
     """Return the piles in which a body, or a frame, is much heavier than a ball at its contact.
 
@@ -167,7 +216,7 @@ def find_piles(
     that of the world.
     """
     ratios = [ratio_of(c, loads) if loads else c.ratio for c in contacts]
-    firsts = find_firsts(contacts, ratios, loads, unit)
+    firsts = find_firsts(contacts, ratios, loads, tied, unit)
     if not firsts:
         return []
     count = len(contacts)
@@ -211,14 +260,18 @@ def find_wedged(contacts: list[Contact]) -> dict[Body, float]:
 
 
 def find_firsts(
-    contacts: list[Contact], ratios: list[float], loads: dict[Body, float], unit: float
+    contacts: list[Contact],
+    ratios: list[float],
+    loads: dict[Body, float],
+    tied: set[Contact],
+    unit: float,
 ) -> list[tuple[int, int]]:
     """Return the places of contacts that make a pile, each with the most rows it may have."""
     heavy: list[tuple[int, int]] = []
     deep: list[tuple[int, int]] = []
     for place, (c, ratio) in enumerate(zip(contacts, ratios, strict=True)):
         is_deep = c.gap < -DEEP * (c.a.r + c.b.r)
-        is_tied = (c.a in loads or c.b in loads) and c.gap < -TIED * (c.a.r + c.b.r)
+        is_tied = c in tied and (c.a in loads or c.b in loads)
         is_slow = not c.e or abs(c.closing_speed()) < RESTING * unit
         if (ratio > HEAVY or is_tied) and is_slow:
             heavy.append((place, MOST_ROWS))

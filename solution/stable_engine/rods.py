@@ -122,6 +122,20 @@ class Rods(Joints[Rod]):
             else:
                 frame.hold_lags()
 
+    def holds(self, body: Body) -> bool:
+        self.find_frames()
+        return body in self.frame_of
+
+    def find_turning(self, most: float) -> set[Body]:
+        self.find_frames()
+        turning: set[Body] = set()
+        for rod in self.awake:
+            a, b, far = rod.end_a, rod.end_b, most * rod.rest
+            vx, vy = b.vx - a.vx, b.vy - a.vy
+            if vx * vx + vy * vy > far * far:
+                turning.update(self.frame_of[b if a.is_static else a].ends)
+        return turning
+
     def any_heavy(self) -> bool:
         """Return whether any frame presses like a heavy body."""
         return any([frame.load > HEAVY * frame.lightest for frame in self.frames])
