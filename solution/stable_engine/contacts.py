@@ -40,7 +40,6 @@ RESTING_SPEED = 30.0  # 1/s, a slower impact does not bounce
 SPECULATIVE_SPEED = 10.0  # 1/s, slower pairs get a contact before they touch
 CORE = 0.5  # radii
 FAR = 0.125  # of both radii; balls that approach by more in a step may have passed each other
-ASTRAY = 0.99  # cosine; if a normal turns further in a substep, impulses are dropped
 SEAM = 1e-9  # a squared sine; faces that turn less are one
 CORNER_PASSES = 4  # of keeping cores out: a ball put back may meet another static body
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
@@ -564,7 +563,8 @@ class Contacts(Effect):
     def turn_normals(self) -> None:
         """Take over the normals after the move: else angular momentum would not be kept.
 
-        To take back impulses in another direction would add energy, so these are dropped there.
+        Balls that have passed each other drop their impulses: taken back from behind, these would
+        add energy.
         """
         for c in self.balls.contacts:
             a, b = c.a, c.b
@@ -572,7 +572,7 @@ class Contacts(Effect):
             distance = sqrt(dx * dx + dy * dy)
             if distance > 0:
                 nx, ny = dx / distance, dy / distance
-                if nx * c.nx + ny * c.ny < ASTRAY:
+                if nx * c.nx + ny * c.ny < 0:
                     c.jn = c.jt = 0.0
                 c.nx, c.ny = nx, ny
                 c.reach_to(distance - a.r - b.r)
