@@ -64,7 +64,7 @@ class Contacts(Effect):
     Each stage solves contacts of static bodies last, so that these hold best. Where passes would
     leave much, all that balls connect is then solved together, see Pile: where a body is more than
     2.5 times as heavy as a ball that it touches, or kinematic, in a narrow or flat V, in a tall
-    tower, and where balls on rods overlap, or balls that were thrown at each other.
+    tower, where balls on rods land or overlap, and where balls were thrown at each other.
     """
 
     __slots__ = (
@@ -140,6 +140,8 @@ class Contacts(Effect):
                 body = one.body
                 body.last_x, body.last_y = body.x, body.y
                 body.touches = 0
+            if self.early:
+                self.end_early()
             self.find_contacts(dt)
 
     def any_moved(self) -> bool:
@@ -198,8 +200,6 @@ class Contacts(Effect):
         slow, touching_gap = self.slow, self.touching_gap
         margin, slow2 = slow * dt, slow * slow
         back = self.last_dt if self.lets_none_pass else 0.0
-        if self.early:
-            self.end_early()
         for pair in self.broad_phase.pairs:
             a, b = pair.a, pair.b
             if b.r:
@@ -242,12 +242,10 @@ class Contacts(Effect):
                     self.crowd[c] = None
             else:
                 statics.append(c)
-        if self.early:
-            self.early = {c: self.early[c] for c in touching if c in self.early}
         self.touching, self.balls.contacts, self.statics.contacts = touching, balls, statics
         was_idle = not self.groups
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
-        if self.on_rods:
+        if self.on_rods or self.early:
             self.foresee(dt)
         if (not self.groups) != was_idle:
             self.world.update_hooks()
@@ -267,6 +265,8 @@ class Contacts(Effect):
         In an overlap, rods would work against the push out of it. So these contacts begin before
         their bodies meet, and it is noted at which speed (px/s) they will.
         """
+        if self.early:
+            self.early = {c: self.early[c] for c in self.touching if c in self.early}
         for pair in self.on_rods:
             a, b = pair.a, pair.b
             if pair.contact is None and self.lands(a, b):

@@ -266,13 +266,18 @@ class World:
                 self.warned.add(name)
                 warnings.warn(sentence, stacklevel=3)
 
-    def step(self, dt: float) -> None:
-        """Advance by dt seconds. Raises ValueError on a bad dt or a body with NaN or infinity."""
+    def cut(self, dt: float) -> float:
+        """Return the length (s) of a substep. Raises ValueError on a bad dt."""
         try:
             h = float(dt / self.substep_count)
         except TypeError:
             refuse("World.step's dt", dt, "a number of seconds")
         require(0 < h < math.inf, "World.step's dt", dt, "a finite number of seconds above 0")
+        return h
+
+    def step(self, dt: float) -> None:
+        """Advance by dt seconds. Raises ValueError on a bad dt or a body with NaN or infinity."""
+        h = self.cut(dt)
         for body in self.awake:
             body.check()
         if not self.awake:
