@@ -29,7 +29,7 @@ from .table import Progress, write_markdown
 
 SIZES = (10, 40, 200)  # balls
 HEAPS = (40, 200, 400)  # balls, for the two bonus tasks that save work
-LULL = 5.0  # s, after which a pile is asleep; until then a ball may roll alone on the floor
+LULL = 30.0  # s, after which a pile is asleep; until then a ball may roll alone on the floor
 USERS = 10  # rods, springs, bullets
 WARM_UP = 40  # steps before counting: rooms adapt to motion
 COUNTED = sleep.TWO_LOOKS  # steps: Sleep looks at two of them

@@ -5,7 +5,7 @@ from math import hypot, inf, sqrt
 
 from .body import Body, State, state_of
 from .broad_phase import BroadPhase, Pair
-from .contact import Contact, collide, is_at_face, the_way_it_came
+from .contact import Contact, collide, the_way_it_came
 from .effect import Direction, Effect
 from .joint import Joint
 from .loads import (
@@ -70,7 +70,7 @@ class Contacts(Effect):
     __slots__ = (
         *("on_hit", "on_part", "hits", "parted", "touching", "begun", "changed", "lets_none_pass"),
         *("last_dt", "flying", "hit_ago", "stopped", "broad_phase", "crowd"),
-        *("beside_static", "corners", "early", "ends", "on_rods", "springs", "rods"),
+        *("beside_static", "early", "ends", "on_rods", "round", "springs", "rods"),
         *("balls", "statics", "groups", "beginnings", "is_mirrored", "unpaired", "ignored", "pace"),
         *("h", "touching_gap", "slow", "max_push_speed", "begin_contact_hooks", "piles", "stage"),
         "has_friction",
@@ -103,7 +103,7 @@ class Contacts(Effect):
         self.beside_static: dict[Body, None] = {}  # balls that are near static bodies
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
         self.groups: list[Group] = []  # of these two, those with any contact
-        self.corners: list[Contact] = []  # of static bodies, where a ball may roll round
+        self.round: list[Contact] = []  # those of two round bodies
         self.beginnings = 0.0  # in how many steps any contact has begun
         self.is_mirrored = False  # whether contacts may have the same place in the order
         self.unpaired: dict[int, Contact] = {}  # of sleeping bodies, by their pair's number
@@ -396,7 +396,7 @@ class Contacts(Effect):
         if self.crowd:
             self.gather_crowd()
         self.find_order()
-        self.corners = [c for c in self.statics.contacts if not is_at_face(c)]
+        self.round = [*self.balls.contacts, *[c for c in self.statics.contacts if c.b.r]]
         is_heavy = is_deep = is_tall = False
         gx, gy = self.world.g
         weight = hypot(gx, gy) * h  # px/s, of 1 kg in a substep
@@ -561,27 +561,24 @@ class Contacts(Effect):
                     pile.settle(self.stage)
 
     def turn_normals(self) -> None:
-        """Take over the normals after the move: else angular momentum would not be kept.
+        """Take over the normals of round bodies after the move, or their spin would not be kept.
 
         Balls that have passed each other drop their impulses: taken back from behind, these would
-        add energy.
+        add energy. From a static body, a ball leaves the way it came.
         """
-        for c in self.balls.contacts:
+        for c in self.round:
             a, b = c.a, c.b
             dx, dy = b.x - a.x, b.y - a.y
             distance = sqrt(dx * dx + dy * dy)
             if distance > 0:
                 nx, ny = dx / distance, dy / distance
-                if nx * c.nx + ny * c.ny < 0:
+                same = nx * c.nx + ny * c.ny
+                if b.inv_mass == 0 and same < SAME_DIRECTION:
+                    continue
+                if same < 0:
                     c.jn = c.jt = 0.0
                 c.nx, c.ny = nx, ny
-                c.reach_to(distance - a.r - b.r)
-        for c in self.corners:
-            nx, ny, gap = the_way_it_came(c, *collide(c.a, c.b))
-            if nx * c.nx + ny * c.ny > SAME_DIRECTION:
-                a, b = c.a, c.b
-                c.nx, c.ny = nx, ny
-                c.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - gap + c.found - c.gap
+                c.reach_to(distance - a.r - b.r if b.inv_mass else 0.0)
 
     def stop(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Stop bodies that still come together, and take back the speed of a push."""
