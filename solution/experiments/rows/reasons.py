@@ -2,7 +2,7 @@
 
 REASONS = {
     "fast balls: 20 thrown at 20": "Without Bounce, balls do not meet on their way.",
-    "rained pile: 40 balls, late speed": "A last ball still rolls: nothing brakes rolling, so "
+    "rained pile: 100 balls, late speed": "A last ball still rolls: nothing brakes rolling, so "
     "chance decides when it stops.",
 }
 
