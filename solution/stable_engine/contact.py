@@ -38,7 +38,7 @@ class Contact:
         self.turn = -1  # when it was last put in order, see put_in_order
         self.mn = self.ratio = 0.0  # kg, effective mass along the normal; ratio of the masses
         self.weigh()
-        self.mt = 0.0  # kg, effective mass along the tangent, see reach_to
+        self.mt = 0.0  # kg, effective mass along the tangent, see set_arms
         self.mu = 0.0  # friction of the pair, filled in by Friction
         self.e = 0.0  # restitution of the pair, filled in by Bounce
         self.arm_a = self.arm_b = 0.0  # px, from the centres to where friction acts
@@ -49,10 +49,11 @@ class Contact:
         self.mn = 1 / (a.inv_mass + b.inv_mass)
         self.ratio = max(a.m, b.m) / min(a.m, b.m) if b.m else PUSHER if b.is_kinematic else 1.0
 
-    def reach_to(self, gap: float) -> None:
+    def set_arms(self, gap: float) -> None:
         """Let the arms of friction end at one point, amid a gap (px), or spin would be made."""
         a, b = self.a, self.b
-        self.arm_a, self.arm_b = a.r + gap / 2, b.r + gap / 2
+        half = gap / 2 if b.inv_mass else 0.0
+        self.arm_a, self.arm_b = a.r + half, b.r + half
         if self.mu:
             turn_a, turn_b = self.arm_a * self.arm_a, self.arm_b * self.arm_b
             spin = turn_a * a.inv_inertia + turn_b * b.inv_inertia

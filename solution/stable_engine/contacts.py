@@ -99,7 +99,7 @@ class Contacts(Effect):
         self.crowd: dict[Contact, None] = {}  # of balls that part_crowd separates
         # contacts of balls on rods that will touch: the speeds (px/s) at which they will meet
         self.early: dict[Contact, float] = {}
-        self.on_rods: list[Pair] = []  # near pairs with a ball on rods
+        self.on_rods: list[Pair] = []  # near pairs with a ball on rods, or on springs beside these
         self.beside_static: dict[Body, None] = {}  # balls that are near static bodies
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
         self.groups: list[Group] = []  # of these two, those with any contact
@@ -128,8 +128,8 @@ class Contacts(Effect):
         world, phase, dt = self.world, self.broad_phase, h * self.world.substep_count
         if len(phase.bounds) != len(world.bodies):
             phase.take(world.bodies)
-            held = self.rods.holds if self.rods else None
-            phase.tied = [one for one in phase.moving if held and held(one.body)]
+            rods = self.rods
+            phase.tied = [one for one in phase.moving if rods.holds(one.body)] if rods else []
         renews = phase.is_stale or len(phase.leavers) > 0
         moved = renews or self.any_moved()
         if renews:
@@ -408,7 +408,7 @@ class Contacts(Effect):
             a, b, nx, ny = c.a, c.b, c.nx, c.ny
             distance = (b.x - a.x) * nx + (b.y - a.y) * ny
             c.reach = distance - c.gap
-            c.reach_to(distance - a.r - b.r if b.inv_mass else 0.0)
+            c.set_arms(distance - a.r - b.r)
             is_heavy = is_heavy or c.ratio > HEAVY
             if c.jn > tall * c.mn:
                 is_upright = abs(nx * gy - ny * gx) * h < LEANING * weight
@@ -578,7 +578,7 @@ class Contacts(Effect):
                 if same < 0:
                     c.jn = c.jt = 0.0
                 c.nx, c.ny = nx, ny
-                c.reach_to(distance - a.r - b.r if b.inv_mass else 0.0)
+                c.set_arms(distance - a.r - b.r)
 
     def stop(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Stop bodies that still come together, and take back the speed of a push."""

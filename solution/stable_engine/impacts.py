@@ -567,11 +567,13 @@ class Rub(Hit):
 
     def __init__(self, hit: Hit) -> None:
         super().__init__(hit.c, (0.0, 0.0))
-        gap = hit.c.gap if self.end_b.inv_mass else 0.0
-        hit.c.reach_to(gap)
-        self.m = hit.c.mt
+        c = hit.c
+        c.set_arms(c.gap)
+        self.m = c.mt
         self.nx, self.ny = -self.ny, self.nx
-        self.arm_a, self.arm_b = self.end_a.r + gap / 2, self.end_b.r + gap / 2
+        self.arm_a, self.arm_b = c.arm_a, c.arm_b
+        if self.end_a is not c.a:
+            self.arm_a, self.arm_b = c.arm_b, c.arm_a
         self.high = hit.mu * hit.total
         self.low = -self.high
 

@@ -25,10 +25,11 @@ class Limited(Joint):
 
     def __init__(self, c: Contact) -> None:
         self.c = c
-        self.end_a, self.end_b, self.nx, self.ny = c.a, c.b, c.nx, c.ny
         a, b = c.a, c.b
+        self.end_a, self.end_b = a, b
         if b.inv_mass and (b.x < a.x or (b.x == a.x and b.y < a.y)):
-            self.end_a, self.end_b, self.nx, self.ny = c.b, c.a, -c.nx, -c.ny
+            self.end_a, self.end_b = b, a
+        self.follow()
         self.arm_a = self.arm_b = 0.0
         self.pivot = self.rhs = 0.0
         self.low, self.high = 0.0, inf  # kg px/s

@@ -123,10 +123,12 @@ class Rods(Joints[Rod]):
                 frame.hold_lags()
 
     def holds(self, body: Body) -> bool:
+        """Return whether a body is a ball on one of these."""
         self.find_frames()
         return body in self.frame_of
 
     def find_turning(self, most: float) -> set[Body]:
+        """Return the bodies of frames with a rod that turns faster than `most` (rad/s)."""
         self.find_frames()
         turning: set[Body] = set()
         for rod in self.awake:

@@ -11,8 +11,8 @@ from ..compiled import Compiled
 from ..engines import ENGINES, SUBSTEPS
 from ..engines.box2d import PASSES as BOX2D_PASSES
 from ..engines.chipmunk import PASSES
-from ..measures import deepest_overlap, energy_height, run, states, watch, worst_stretch
-from ..rows.hits import kinetic
+from ..measures import deepest_overlap, energy_height, run, watch, worst_stretch
+from ..rows.hits import energy_gain
 from ..scenes import chain, drop, find_pendulum_angle, pendulum, pendulum_period, stack, tower
 
 LAUNCHED = 1.0  # px: a ball that rises by more was thrown
@@ -134,9 +134,7 @@ def measure_overlap(engine, seconds, dt):
 
 def measure_warming(engine, seconds, dt):
     """Return the change of the energy of motion, as a share."""
-    start = kinetic(engine.scene, states(engine))
-    run(engine, seconds, dt)
-    return abs(kinetic(engine.scene, states(engine)) / start - 1)
+    return abs(energy_gain(engine, engine.scene, seconds, dt))
 
 
 def measure_lag(engine, seconds, dt):

@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import partial
 
 from ..measures import run, states
-from ..scenes import BOUNCE, Ball, Block, Scene, cradle, shuffled
+from ..scenes import BOUNCE, DT, Ball, Block, Scene, cradle, shuffled
 from .row import (
     Bound,
     H,
@@ -110,12 +110,16 @@ def kinetic(scene, now):
     )
 
 
-def energy_off(trial, scene, seconds, may_fall=False):
-    """Return the change of the energy of motion in the end, as a share."""
-    engine = trial.build(scene)
+def energy_gain(engine, scene, seconds, dt=DT):
+    """Return the change of the energy of motion in the end, as a share of that now."""
     start = kinetic(scene, states(engine))
-    run(engine, seconds)
-    gain = kinetic(scene, states(engine)) / start - 1
+    run(engine, seconds, dt)
+    return kinetic(scene, states(engine)) / start - 1
+
+
+def energy_off(trial, scene, seconds, may_fall=False):
+    """Return the size of the change of the energy of motion, or its rise if it may fall."""
+    gain = energy_gain(trial.build(scene), scene, seconds)
     return max(0.0, gain) if may_fall else abs(gain)
 
 
