@@ -1,0 +1,415 @@
+"""Find contacts: which bodies touch, and since when (the near pairs are in broad_phase.py)."""
+
+from collections.abc import Callable
+from math import inf, sqrt
+
+from .body import Body, State
+from .broad_phase import BroadPhase, Pair
+from .contact import Contact, collide, the_way_it_came
+from .effect import Effect
+from .order import Group
+from .rods import Rods
+from .soft import SAME_DIRECTION
+from .sweep import NO_HIT, hit_body, moment_of_touch
+from .validate import refuse
+
+# lengths are in units of the world, see World.unit
+SPECULATIVE_SPEED = 10.0  # 1/s, slower pairs get a contact before they touch
+FAR = 0.125  # of both radii; balls that approach by more in a step may have passed each other
+TOUCHING = 1e-6  # a gap that counts as touching: rounding
+MOST_BODIES = 2**29  # and no id is larger
+REDETECT_DISTANCE = 1e-4  # contacts stay valid until a body moves further
+
+OnHit = Callable[[Body, Body, float], object]
+OnPart = Callable[[Body, Body], object]
+
+
+class Detection(Effect):
+    """The part of Contacts that finds them, once per step, and tells the program of new ones."""
+
+    __slots__ = (
+        *("on_hit", "on_part", "hits", "parted", "touching", "begun", "changed", "lets_none_pass"),
+        *("last_dt", "flying", "hit_ago", "stopped", "ends", "broad_phase", "crowd", "early"),
+        *("beside_static", "on_rods", "rods", "balls", "statics", "groups", "unpaired", "ignored"),
+        *("h", "touching_gap", "slow", "begin_contact_hooks"),
+    )
+
+    def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:
+        if on_hit is not None and not callable(on_hit):
+            refuse("Contacts.on_hit", on_hit, "a function of two bodies and a speed, or None")
+        if on_part is not None and not callable(on_part):
+            refuse("Contacts.on_part", on_part, "a function of two bodies, or None")
+        self.on_hit, self.on_part = on_hit, on_part
+        self.hits: list[tuple[Body, Body, float]] = []  # of this step, if on_hit is set
+        self.parted: list[tuple[Body, Body]] = []  # in this step, if on_part is set
+        self.touching: list[Contact] = []
+        self.begun: list[Contact] = []  # contacts that are new in this step
+        self.changed = False  # whether contacts are new, so that their rows must be renewed
+        self.lets_none_pass = False  # for Bounce: whether balls that touched and passed on count
+        self.last_dt = 0.0  # s, of the step that ends; 0 once its impacts are resolved
+        self.h = 0.0  # s, the substep of the kept impulses
+        self.flying: list[Body] = []  # balls that were hit in the step before, or stopped
+        self.hit_ago: dict[Body, float] = {}  # s, since the last impact of a ball in this step
+        self.stopped: dict[Body, float] = {}  # s, into the step, until a static body stopped it
+        # of a stopped ball: where it is, and where it would be
+        self.ends: dict[Body, tuple[State, State]] = {}
+        self.broad_phase = BroadPhase()
+        self.crowd: dict[Contact, None] = {}  # of balls that part_crowd separates
+        # contacts of balls on rods that will touch: the speeds (px/s) at which they will meet
+        self.early: dict[Contact, float] = {}
+        self.on_rods: list[Pair] = []  # near pairs with a ball on rods, or on springs beside these
+        self.beside_static: dict[Body, None] = {}  # balls that are near static bodies
+        self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
+        self.groups: list[Group] = []  # of these two, those with any contact
+        self.unpaired: dict[int, Contact] = {}  # of sleeping bodies, by their pair's number
+        self.ignored: set[int] = set()  # numbers of pairs
+
+    def attach(self) -> None:
+        self.touching_gap = TOUCHING * self.world.unit  # px
+        self.slow = SPECULATIVE_SPEED * self.world.unit  # px/s
+        self.begin_contact_hooks = self.world.hooks["begin_contact"]
+        rods = self.world.effects.get("Rods")
+        self.rods = rods if isinstance(rods, Rods) else None
+
+    def detect(self, h: float) -> None:
+        world, phase, dt = self.world, self.broad_phase, h * self.world.substep_count
+        if len(phase.bounds) != len(world.bodies):
+            phase.take(world.bodies)
+            rods = self.rods
+            phase.tied = [one for one in phase.moving if rods.holds(one.body)] if rods else []
+        renews = phase.is_stale or len(phase.leavers) > 0
+        moved = renews or self.any_moved()
+        if renews:
+            self.renew_pairs(dt)
+        if moved:
+            self.changed = True
+            for one in phase.near:
+                body = one.body
+                body.last_x, body.last_y = body.x, body.y
+                body.touches = 0
+            if self.early:
+                self.end_early()
+            self.find_contacts(dt)
+
+    def any_moved(self) -> bool:
+        """Return whether a body with others near has moved since contacts were last found."""
+        far = REDETECT_DISTANCE * self.world.unit
+        far2 = far * far
+        self.broad_phase.list_near()
+        for one in self.broad_phase.near:
+            body = one.body
+            dx, dy = body.x - body.last_x, body.y - body.last_y
+            if dx * dx + dy * dy > far2:
+                return True
+        return False
+
+    def renew_pairs(self, dt: float) -> None:
+        """Find the near pairs that are new, and keep the contacts of bodies that still touch."""
+        phase, g = self.broad_phase, self.world.g
+        if phase.is_stale:  # all pairs are new
+            self.beside_static, self.on_rods = {}, []
+            for c in self.touching:
+                self.unpaired[pair_number(c.a, c.b)] = c
+        bearing = self.touching if g != (0.0, 0.0) else []
+        held = {c.a for c in bearing} | {c.b for c in bearing}
+        back = self.last_dt if self.lets_none_pass else 0.0
+        found = phase.renew(g, held, dt, back, self.slow * dt)
+        phase.list_near()
+        self.take_in(found)
+        touched = {c.a for c in self.unpaired.values()}
+        for pair in found if touched else []:
+            if pair.a in touched:
+                pair.contact = self.unpaired.pop(pair_number(pair.a, pair.b), None)
+
+    def take_in(self, found: list[Pair]) -> None:
+        """Note new near pairs, and drop those to ignore."""
+        phase = self.broad_phase
+        if self.ignored:
+            phase.pairs = [p for p in phase.pairs if pair_number(p.a, p.b) not in self.ignored]
+        for pair in found:
+            if pair.b.is_static:
+                self.beside_static[pair.a] = None
+        for pair in found if self.rods and self.rods.awake else []:
+            a, b = pair.a, pair.b
+            if (a.joint_count or b.joint_count) and pair_number(a, b) not in self.ignored:
+                self.on_rods.append(pair)
+
+    def find_contacts(self, dt: float) -> None:
+        """Find the present contacts of all bodies, with the impulses they had before.
+
+        Bodies that touch are in contact, and so are slow ones that may touch within dt seconds: a
+        speculative contact lets them close the gap and no more. Fast ones get none, as they may
+        still miss each other.
+        """
+        touching: list[Contact] = []
+        balls: list[Contact] = []
+        statics: list[Contact] = []
+        slow, touching_gap = self.slow, self.touching_gap
+        margin, slow2 = slow * dt, slow * slow
+        back = self.last_dt if self.lets_none_pass else 0.0
+        for pair in self.broad_phase.pairs:
+            a, b = pair.a, pair.b
+            if b.r:
+                dx, dy, reach = b.x - a.x, b.y - a.y, a.r + b.r + margin
+                if back:
+                    dvx, dvy = b.vx - a.vx, b.vy - a.vy
+                    reach += sqrt(dvx * dvx + dvy * dvy) * back
+                if dx * dx + dy * dy > reach * reach:
+                    if pair.contact:
+                        self.end_contact(pair)
+                    continue
+            dvx, dvy = b.vx - a.vx, b.vy - a.vy
+            nx, ny, gap = collide(a, b)
+            if (
+                gap > touching_gap
+                and (
+                    gap > margin
+                    or (pair.contact and abs(dvx * nx + dvy * ny) > slow)
+                    or (not pair.contact and dvx * dvx + dvy * dvy > slow2)
+                )
+                and not (back and self.have_passed(a, b, gap))
+            ):
+                if pair.contact:
+                    self.end_contact(pair)
+                continue
+            c = pair.contact
+            if c is None:
+                c = pair.contact = self.make_contact(a, b, nx, ny)
+            if not b.r:
+                nx, ny, gap = the_way_it_came(c, nx, ny, gap)
+            if nx * c.nx + ny * c.ny < SAME_DIRECTION:
+                c.jn = c.jt = 0.0
+            c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
+            touching.append(c)
+            if b.inv_mass:
+                balls.append(c)
+                a.touches += 1
+                b.touches += 1
+                if gap < -a.r or gap < -b.r:
+                    self.crowd[c] = None
+            else:
+                statics.append(c)
+        self.touching, self.balls.contacts, self.statics.contacts = touching, balls, statics
+        was_idle = not self.groups
+        self.groups = [group for group in (self.balls, self.statics) if group.contacts]
+        if self.on_rods or self.early:
+            self.foresee(dt)
+        if (not self.groups) != was_idle:
+            self.world.update_hooks()
+        self.broad_phase.add_looks(len(self.broad_phase.pairs) - len(touching), dt)
+        if self.unpaired:
+            self.end_unpaired()
+
+    def lands(self, a: Body, b: Body) -> bool:
+        """Return whether one of these is on rods, and they will not bounce off each other."""
+        if self.rods is None or (self.lets_none_pass and a.e and b.e):
+            return False
+        return self.rods.holds(a) or self.rods.holds(b)
+
+    def foresee(self, dt: float) -> None:
+        """Begin the contacts of balls on rods that will land on something in dt seconds.
+
+        In an overlap, rods would work against the push out of it. So these contacts begin before
+        their bodies meet, and it is noted at which speed (px/s) they will.
+        """
+        if self.early:
+            self.early = {c: self.early[c] for c in self.touching if c in self.early}
+        for pair in self.on_rods:
+            a, b = pair.a, pair.b
+            if pair.contact is None and self.lands(a, b):
+                gx, gy = self.world.g if b.is_static else (0.0, 0.0)
+                dx, dy = (a.vx - b.vx + gx * dt) * dt, (a.vy - b.vy + gy * dt) * dt
+                nx, ny, gap = collide(a, b)
+                is_near = gap > self.touching_gap and gap * gap < dx * dx + dy * dy
+                if is_near and hit_body(b, a.r, a.x - b.x, a.y - b.y, dx, dy) < NO_HIT:
+                    c = self.meet(pair, nx, ny, gap, is_early=True)
+                    speed = c.closing_speed()
+                    square = speed * speed + 2 * gap * (gx * nx + gy * ny)
+                    self.early[c] = sqrt(max(square, 0.0))
+
+    def end_early(self) -> None:
+        """Note the hits of contacts that were foreseen, once their bodies press each other."""
+        for c in [c for c in self.early if c.jn > 0 or c.last > 0]:
+            speed = self.early.pop(c)
+            if self.on_hit:
+                self.hits.append((c.a, c.b, speed))
+
+    def make_contact(
+        self, a: Body, b: Body, nx: float, ny: float, is_early: bool = False
+    ) -> Contact:
+        """Return a new contact with this normal, filled in by the other effects."""
+        c = Contact(a, b)
+        c.nx, c.ny = nx, ny
+        for begin_contact in self.begin_contact_hooks:
+            begin_contact(c)
+        self.begun.append(c)
+        if (a.is_fresh or (b.inv_mass and b.is_fresh)) and c.closing_speed() > -self.slow:
+            a.is_pressed = b.is_pressed = True
+        if self.on_hit and not is_early:
+            self.hits.append((a, b, self.meeting_speed(c)))
+        return c
+
+    def meeting_speed(self, c: Contact) -> float:
+        """Return the speed (px/s) at which A and B came together when they began to touch."""
+        a, b = c.a, c.b
+        ago, nx, ny = moment_of_touch(a, b, self.flight_of(a, b))
+        if ago == 0:
+            return max(c.closing_speed(), 0.0)
+        (gx, gy), falls = self.world.g, b.is_static and not a.joint_count
+        since = self.h / 2 - ago if falls else 0.0  # s, as velocities lag half a substep behind
+        return (a.vx - b.vx + gx * since) * nx + (a.vy - b.vy + gy * since) * ny
+
+    def meet(self, pair: Pair, nx: float, ny: float, gap: float, is_early: bool = False) -> Contact:
+        """Add the contact of two bodies that meet, beside those found, and wake them."""
+        pair.a.wake()
+        pair.b.wake()
+        c = pair.contact = self.make_contact(pair.a, pair.b, nx, ny, is_early)
+        c.gap = c.found = gap
+        self.touching.append(c)
+        group = self.balls if c.b.inv_mass else self.statics
+        group.contacts = [*group.contacts, c]  # a new list, as its order is new
+        if c.b.inv_mass:
+            c.a.touches += 1
+            c.b.touches += 1
+        self.groups = [group for group in (self.balls, self.statics) if group.contacts]
+        return c
+
+    def end_contact(self, pair: Pair) -> None:
+        """End the contact of two bodies that have parted."""
+        c, pair.contact = pair.contact, None
+        if self.on_part and c not in self.early:
+            self.parted.append((pair.a, pair.b))
+
+    def end_unpaired(self) -> None:
+        """End the contacts of bodies that are no longer near each other, except sleeping ones.
+
+        Those keep their impulses: with a warm start, a pile wakes calmly.
+        """
+        unpaired, self.unpaired = self.unpaired, {}
+        for number, c in unpaired.items():
+            if c.a.sleeps and c.b.idle:
+                self.unpaired[number] = c
+            elif c not in self.early and self.on_part:
+                self.parted.append((c.a, c.b))
+
+    def have_passed(self, a: Body, b: Body, gap: float) -> bool:
+        """Return whether two free balls have touched on their way here and passed each other."""
+        vx, vy = a.vx - b.vx, a.vy - b.vy
+        seconds = self.flight_of(a, b)
+        way = sqrt(vx * vx + vy * vy) * seconds
+        if way <= gap or way <= FAR * (a.r + b.r) or not b.r:
+            return False
+        if a.joint_count or b.joint_count or self.was_stopped(a) or self.was_stopped(b):
+            return False
+        return moment_of_touch(a, b, seconds)[0] > 0
+
+    def flight_of(self, a: Body, b: Body) -> float:
+        """Return how long (s) two bodies have flown freely: a step, if none was hit or stopped."""
+        least = min(a.flown, b.flown)
+        return least if least < inf and self.last_dt else self.last_dt
+
+    def note_impact(self, body: Body, ago: float) -> None:
+        """Note that a ball was hit some seconds ago, and has flown freely since."""
+        self.hit_ago[body] = body.flown = ago
+
+    def was_stopped(self, body: Body) -> bool:
+        """Return whether a bullet met something static in the step before."""
+        return body.is_bullet and body in self.stopped
+
+    def tell(self, h: float) -> None:
+        """Call on_hit and on_part, for bodies that are still in the world."""
+        self.last_dt, self.ends = 0.0, {}  # impacts are over; a program may change anything now
+        if self.hits and self.on_hit:
+            hits, self.hits = self.hits, []
+            for a, b, speed in hits:
+                if a.world is b.world is self.world:
+                    self.on_hit(a, b, speed)
+        if self.parted and self.on_part:
+            parted, self.parted = self.parted, []
+            for a, b in parted:
+                if a.world is b.world is self.world:
+                    self.on_part(a, b)
+
+    def let_touch(self, a: Body, b: Body, may: bool) -> None:
+        if may:
+            self.ignored.discard(pair_number(a, b))
+            self.broad_phase.bounds = []
+        else:
+            self.ignored.add(pair_number(a, b))
+            self.drop(a, b)
+
+    def all_contacts(self) -> list[Contact]:
+        """Return all contacts, also those between sleeping bodies."""
+        return list(dict.fromkeys([*self.touching, *self.unpaired.values()]))
+
+    def of_body(self, body: Body) -> list[Contact]:
+        """Return the contacts of a body, also while it sleeps."""
+        return [c for c in self.all_contacts() if body in (c.a, c.b)]
+
+    def wake_beside(self, body: Body) -> None:
+        """Wake whatever touches a body."""
+        for c in self.of_body(body):
+            c.a.wake()
+            c.b.wake()
+
+    def body_changed(self, body: Body) -> None:
+        """Fill in the body's contacts anew, and wake whatever touches it."""
+        for c in self.of_body(body):
+            c.weigh()
+            for begin_contact in self.begin_contact_hooks:
+                begin_contact(c)
+        self.wake_beside(body)
+        self.broad_phase.bounds = []
+
+    def body_moved(self, body: Body) -> None:
+        """Look for near pairs anew. Nobody flew to where a program has put the body."""
+        body.flown = inf
+        gaps = [] if body.is_static else [collide(c.a, c.b)[2] for c in self.of_body(body)]
+        if gaps and min(gaps) > self.touching_gap:
+            self.world.relieve({body: inf})
+        self.broad_phase.bounds = []
+
+    def static_moved(self, body: Body) -> None:
+        """Wake the bodies that sleep on a static body or touch it now."""
+        world = self.world
+        if len(world.awake) + len(world.statics) < len(world.bodies):
+            self.wake_beside(body)
+            for other in world.bodies:
+                dx, dy = abs(other.x - body.x), abs(other.y - body.y)
+                if other.sleeps and dx < other.hx + body.hx and dy < other.hy + body.hy:
+                    other.wake()
+
+    def forget(self, body: Body) -> None:
+        """Wake whatever touches the body: it may have rested on it."""
+        body.flown = inf
+        self.flying = [other for other in self.flying if other is not body]
+        self.hit_ago.pop(body, None)
+        self.wake_beside(body)
+        self.drop(body, body)
+
+    def drop(self, a: Body, b: Body) -> None:
+        """Drop all contacts of A and B, without a call of on_part."""
+        ends = {a, b}
+        for c in self.touching:
+            c.a.is_pressed = c.b.is_pressed = False
+        self.touching = [c for c in self.touching if not ends <= {c.a, c.b}]
+        self.early = {c: v for c, v in self.early.items() if not ends <= {c.a, c.b}}
+        self.unpaired = {n: c for n, c in self.unpaired.items() if not ends <= {c.a, c.b}}
+        self.broad_phase.bounds = []
+
+    def is_idle(self) -> bool:
+        return not self.groups
+
+    def is_used(self) -> bool:
+        return len(self.world.bodies) > 1
+
+    def links(self) -> list[tuple[Body, Body]]:
+        return [(c.a, c.b) for c in self.touching]
+
+    def awake_changed(self) -> None:
+        self.broad_phase.bounds = []
+
+
+def pair_number(a: Body, b: Body) -> int:
+    """Return a number that only this pair of bodies has, whichever comes first."""
+    return max(a.id, b.id) * MOST_BODIES + min(a.id, b.id)
