@@ -37,4 +37,4 @@ class Bullets(Users):
         for bullet, x, y in self.starts:
             if hypot(bullet.x - x, bullet.y - y) > SWEEP_FROM * bullet.r:
                 overlap = OVERLAP * bullet.r
-                self.contacts.sweep(bullet, (x, y), bullet.r, overlap, h)
+                self.contacts.cores.sweep(bullet, (x, y), bullet.r, overlap, h)

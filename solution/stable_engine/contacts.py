@@ -2,9 +2,11 @@
 
 from math import hypot, inf, sqrt
 
-from .body import Body, State, state_of
-from .contact import Contact, collide, the_way_it_came
-from .detection import REDETECT_DISTANCE, Detection, OnHit, OnPart, pair_number
+from .body import Body
+from .contact import Contact
+from .cores import Cores
+from .crowd import gather_crowd, part_crowd
+from .detection import REDETECT_DISTANCE, Detection, OnHit, OnPart
 from .effect import Direction
 from .joint import Joint
 from .loads import (
@@ -23,11 +25,9 @@ from .loads import (
     find_wedged,
     take_off,
 )
-from .order import PLACE, Group, give_places, in_same_place, put_in_order
+from .order import Group, give_places, put_in_order
 from .rods import Frame
 from .soft import SAME_DIRECTION, Pace, softness
-from .springs import Springs
-from .sweep import NO_HIT, first_hit, put_back
 
 FREQUENCY = 0.24  # of a contact of two balls, per substep; against a static body it is doubled
 LEAST_DAMPING = 10.0  # ratio, so high that overlap is pushed out without a bounce
@@ -35,12 +35,7 @@ SUBSTEP_DAMPING = 2.5  # ratio, per substep of a step: see Contacts.prepare
 STIFFENING = 0.07  # of a substep, per step
 # lengths are in units of the world, see World.unit
 RESTING_SPEED = 30.0  # 1/s, a slower impact does not bounce
-CORE = 0.5  # radii
-SEAM = 1e-9  # a squared sine; faces that turn less are one
-CORNER_PASSES = 4  # of keeping cores out: a ball put back may meet another static body
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
-CROWDED = 0.1  # radii, by which balls that bear a load overlap in a crowd
-PARTED = 0.3  # share of an overlap that a step takes from balls in a crowd
 
 
 class Contacts(Detection):
@@ -59,7 +54,7 @@ class Contacts(Detection):
 
     __slots__ = (
         *("beginnings", "has_friction", "is_mirrored", "max_push_speed", "pace", "piles", "round"),
-        *("springs", "stage"),
+        *("cores", "stage"),
     )
     rank = 3
 
@@ -76,8 +71,7 @@ class Contacts(Detection):
         super().attach()
         self.max_push_speed = MAX_PUSH_SPEED * self.world.unit  # px/s
         self.has_friction = "Friction" in self.world.effects
-        springs = self.world.effects.get("Springs")
-        self.springs = springs if isinstance(springs, Springs) else None
+        self.cores = Cores(self)
 
     def prepare(self, h: float) -> None:
         """Set the stiffness of contacts by the substep, their damping by the number of substeps.
@@ -96,7 +90,9 @@ class Contacts(Detection):
         if not self.changed:
             return
         if self.crowd:
-            self.gather_crowd()
+            self.crowd = gather_crowd(self.crowd, self.begun, self.touching, self.slow)
+            for c in self.crowd:  # they just touch, so that the solver does not push them apart
+                c.gap = max(c.gap, self.touching_gap)
         self.find_order()
         self.round = [*self.balls.contacts, *[c for c in self.statics.contacts if c.b.r]]
         is_heavy = is_deep = is_tall = False
@@ -307,42 +303,12 @@ class Contacts(Detection):
                 b.vy += ny * change
 
     def finish(self, h: float) -> None:
-        """Keep the core of a ball out of static bodies, however fast or hard pressed it is.
-
-        From deep in a static body, a ball might leave on the other side.
-
-        The core is half as wide as the ball, so that a sliding ball does not catch on a seam.
-        """
+        super().finish(h)
         if self.crowd:
-            self.part_crowd(h * self.world.substep_count)
-        self.begun, self.changed = [], False
-        self.last_dt = h * self.world.substep_count
-        for body in self.flying:
-            body.flown = inf
-        for body, ago in self.hit_ago.items():
-            body.flown = ago + self.last_dt
-        self.flying, self.hit_ago = [*self.hit_ago], {}
-        self.stopped = {}
-        self.ends = {}
-        for one in self.broad_phase.find_leavers(self.last_dt):
-            if self.world.statics:
-                if not one.near:
-                    one.find_start(self.last_dt)
-                self.stop_core(one.body, h)
-        for body in self.beside_static:
-            self.stop_core(body, h)
-        for _ in range(CORNER_PASSES if self.statics.contacts else 0):
-            ways: dict[Body, list[State]] = {}
-            for c in self.statics.contacts:
-                a, b = c.a, c.b
-                gap = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny - c.reach + c.found - c.gap
-                if gap < -CORE * a.r:
-                    self.find_way_out(c, gap, ways)
-            if not ways:
-                break
-            for body, ways_out in ways.items():
-                self.put_out(body, ways_out)
-                self.stop_core(body, h)
+            deepest = part_crowd(self.crowd, self.max_push_speed * self.last_dt)
+            if deepest < REDETECT_DISTANCE * self.world.unit:
+                self.crowd = {}
+        self.cores.keep_out(h)
 
     def press(self, h: float) -> None:
         """Mark bodies that contacts hold: by more than rounding, or the weight of a falling pair.
@@ -353,118 +319,6 @@ class Contacts(Detection):
         for c in self.touching:
             if c.jn > least * c.mn and c.closing_speed() > -self.slow:
                 c.a.is_pressed = c.b.is_pressed = True
-
-    def gather_crowd(self) -> None:
-        """Make balls in a crowd just touch. Balls that they are moved against join the crowd."""
-        members = {body for c in self.crowd for body in (c.a, c.b)}
-        for c in self.begun:
-            met = not (c.b.is_static or members.isdisjoint((c.a, c.b)))
-            if met and c.closing_speed() <= self.slow:
-                self.crowd[c] = None
-        self.crowd = {c: None for c in self.touching if c in self.crowd and is_crowded(c)}
-        for c in self.crowd:
-            c.gap = max(c.gap, self.touching_gap)
-
-    def part_crowd(self, dt: float) -> None:
-        """Separate balls whose centre was in another ball, and balls that they meet by that.
-
-        They are moved and get no speed: impulses between many balls at one position would leave
-        some speed, which is energy from nothing. So they turn about each other more slowly.
-        """
-        deepest = 0.0
-        for same in in_same_place(sorted(self.crowd, key=PLACE)):
-            for c, (nx, ny, gap) in [(c, collide(c.a, c.b)) for c in same]:
-                a, b = c.a, c.b
-                deepest = max(deepest, -gap)
-                way = min(max(-PARTED * gap, 0.0), self.max_push_speed * dt)
-                slip = (b.vy - a.vy) * nx - (b.vx - a.vx) * ny
-                slower = 0.0 if c.e else -slip * way / (gap + a.r + b.r + way)
-                dx, dy = nx * way * c.mn, ny * way * c.mn
-                dvx, dvy = -ny * slower * c.mn, nx * slower * c.mn
-                a.x, a.y = a.x - dx * a.inv_mass, a.y - dy * a.inv_mass
-                b.x, b.y = b.x + dx * b.inv_mass, b.y + dy * b.inv_mass
-                a.vx, a.vy = a.vx - dvx * a.inv_mass, a.vy - dvy * a.inv_mass
-                b.vx, b.vy = b.vx + dvx * b.inv_mass, b.vy + dvy * b.inv_mass
-                a.still = b.still = 0.0
-        if deepest < REDETECT_DISTANCE * self.world.unit:
-            self.crowd = {}
-
-    def stop_core(self, body: Body, h: float) -> None:
-        """Stop a ball that moved far, or was hit, where its core met a static body."""
-        distance = abs(body.x - body.last_x) + abs(body.y - body.last_y)
-        is_far = distance > body.r > 0 or (distance > 0 and body.flown < inf)
-        if is_far and not (body.is_bullet or body.is_static):
-            self.sweep(body, (body.last_x, body.last_y), CORE * body.r, 0.0, h)
-
-    def find_way_out(self, c: Contact, gap: float, ways: dict[Body, list[State]]) -> None:
-        """Note what puts back and stops a ball whose core entered a static body, or went deeper.
-
-        `gap` is along the normal at the start of the step; past a corner the new normal counts,
-        unless the ball went through the body.
-        """
-        a, b = c.a, c.b
-        nx, ny, now = the_way_it_came(c, *collide(a, b))
-        if nx * c.nx + ny * c.ny < SAME_DIRECTION and self.went_through(c):
-            nx, ny, now = c.nx, c.ny, gap
-        back = min(c.found, -CORE * a.r) - now
-        if back > self.touching_gap:
-            closing = max((a.vx - b.vx) * nx + (a.vy - b.vy) * ny, 0.0)
-            ways.setdefault(a, []).append((back, closing, nx, ny))
-
-    def put_out(self, body: Body, ways: list[State]) -> None:
-        """Put a ball out along the two longest of these ways at once: in a V, neither is first."""
-        back, closing, nx, ny = max(ways)
-        ways.remove((back, closing, nx, ny))
-        if ways:
-            back_2, closing_2, x, y = max(ways)
-            back, back_2 = parts(back, back_2, nx * x + ny * y)
-            closing, closing_2 = parts(closing, closing_2, nx * x + ny * y)
-            push(body, x, y, back_2, closing_2)
-        push(body, nx, ny, back, closing)
-
-    def went_through(self, c: Contact) -> bool:
-        """Return whether the centre of a ball was in a static body at any time in this step."""
-        if c.found < -c.a.r:
-            return True
-        a = c.a
-        way = a.x - a.last_x, a.y - a.last_y
-        return first_hit([c.b], 0.0, a.last_x, a.last_y, *way) < NO_HIT
-
-    def sweep(
-        self, body: Body, start: tuple[float, float], radius: float, overlap: float, h: float
-    ) -> None:
-        """Stop a ball of this radius at the first static body on its way from `start`, if any.
-
-        There it overlaps by `overlap` px: the next step finds the contact and resolves the impact.
-        """
-        statics = self.world.statics
-        if self.ignored:
-            statics = [s for s in statics if pair_number(body, s) not in self.ignored]
-        x, y = start
-        dx, dy = body.x - x, body.y - y
-        # a little smaller, or rounding would decide whether a ball that slides along is stopped
-        fraction = first_hit(statics, radius - self.touching_gap, x, y, dx, dy)
-        if fraction < NO_HIT:
-            fraction = min(fraction, first_hit(statics, radius, x, y, dx, dy))
-            fraction += overlap / hypot(dx, dy)
-        if fraction < 1:
-            end = state_of(body)
-            put_back(body, (dx, dy), fraction, self.pull, h)
-            if not body.is_bullet:
-                self.ends[body] = state_of(body), self.ends.get(body, (end, end))[1]
-            before = self.stopped.get(body, self.last_dt)
-            self.stopped[body] = fraction * before
-            flown = body.flown if body.flown < inf else self.last_dt
-            body.flown = flown - (1 - fraction) * before
-            self.flying.append(body)
-
-    def pull(self, body: Body) -> tuple[float, float]:
-        """Return the acceleration of a body (px/s²) by gravity, forces and soft springs."""
-        x, y = self.world.acceleration(body)
-        if self.springs and body.joint_count:
-            by_x, by_y = self.springs.pull(body, self.h)
-            x, y = x + by_x, y + by_y
-        return x, y
 
     def unload(self, lost: dict[Body, float], direction: Direction) -> None:
         """Lower the kept impulses under bodies that press less.
@@ -477,26 +331,3 @@ class Contacts(Detection):
     def awake_changed(self) -> None:
         super().awake_changed()
         self.pace.awake_changed(any([c.a.sleeps for c in self.all_contacts()]))
-
-
-def push(body: Body, nx: float, ny: float, back: float, closing: float) -> None:
-    """Move a ball back (px) along a normal, and take a speed (px/s) along it away."""
-    body.x -= nx * back
-    body.y -= ny * back
-    body.vx -= nx * closing
-    body.vy -= ny * closing
-
-
-def parts(one: float, other: float, cosine: float) -> tuple[float, float]:
-    """Return the lengths along two directions that together reach as far along both as asked."""
-    rest = 1 - cosine * cosine
-    if one <= cosine * other or rest < SEAM:
-        return (0.0, other) if other > one else (one, 0.0)
-    if other <= cosine * one:
-        return one, 0.0
-    return (one - cosine * other) / rest, (other - cosine * one) / rest
-
-
-def is_crowded(c: Contact) -> bool:
-    """Return whether two balls still overlap much, or a little without a load."""
-    return c.jn == 0 or c.gap < -CROWDED * min(c.a.r, c.b.r)

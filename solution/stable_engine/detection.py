@@ -316,6 +316,17 @@ class Detection(Effect):
         """Return whether a bullet met something static in the step before."""
         return body.is_bullet and body in self.stopped
 
+    def finish(self, h: float) -> None:
+        """Note how long (s) each ball has flown freely, and begin a new list of hits."""
+        self.begun, self.changed = [], False
+        self.last_dt = h * self.world.substep_count
+        for body in self.flying:
+            body.flown = inf
+        for body, ago in self.hit_ago.items():
+            body.flown = ago + self.last_dt
+        self.flying, self.hit_ago = [*self.hit_ago], {}
+        self.stopped, self.ends = {}, {}
+
     def tell(self, h: float) -> None:
         """Call on_hit and on_part, for bodies that are still in the world."""
         self.last_dt, self.ends = 0.0, {}  # impacts are over; a program may change anything now

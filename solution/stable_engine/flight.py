@@ -4,7 +4,8 @@ from math import cos, hypot, sin
 
 from .body import Body, State, state_of
 from .contact import Contact
-from .contacts import CORE, Contacts
+from .contacts import Contacts
+from .cores import CORE
 from .rods import Frame, Rods
 from .springs import Spring, Springs
 from .sweep import first_stop

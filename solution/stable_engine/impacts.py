@@ -8,7 +8,8 @@ from math import hypot, inf, sqrt
 from .body import Body, State, state_of
 from .broad_phase import Pair
 from .contact import Contact, collide, is_at_face, the_way_it_came
-from .contacts import CORE, Contacts
+from .contacts import Contacts
+from .cores import CORE
 from .detection import FAR
 from .flight import BEFORE, DEEPEST, Flight
 from .joint import Joint

@@ -127,6 +127,6 @@ def test_the_decorator_for_plain_effects_is_in_the_compiled_copy_alone():
 
 def test_constants_are_final_in_the_compiled_copy_alone():
     text = sources()["contacts.py"]
-    assert "CORE: Final = 0.5" in text
+    assert "FREQUENCY: Final = 0.24" in text
     assert text.startswith('"""Contacts') and "from typing import Final\n" in text
     assert "Final" not in (compiled.TREE / "stable_engine/contacts.py").read_text("utf-8")

@@ -1,0 +1,154 @@
+"""Keep fast and hard-pressed balls out of static bodies."""
+
+from math import hypot, inf
+
+from .body import Body, State, state_of
+from .contact import Contact, collide, the_way_it_came
+from .detection import Detection, pair_number
+from .soft import SAME_DIRECTION
+from .springs import Springs
+from .sweep import NO_HIT, first_hit, put_back
+
+CORE = 0.5  # radii
+SEAM = 1e-9  # a squared sine; faces that turn less are one
+CORNER_PASSES = 4  # of keeping cores out: a ball put back may meet another static body
+
+
+class Cores:
+    """The cores of balls: no static body may enter them, however fast or hard pressed a ball is.
+
+    From deep in a static body, a ball might leave on the other side. The core is half as wide as
+    the ball, so that a sliding ball does not catch on a seam.
+    """
+
+    __slots__ = ("contacts", "springs", "world")
+
+    def __init__(self, contacts: Detection) -> None:
+        self.contacts = contacts
+        self.world = contacts.world
+        springs = self.world.effects.get("Springs")
+        self.springs = springs if isinstance(springs, Springs) else None
+
+    def keep_out(self, h: float) -> None:
+        """Put balls back whose cores met a static body in this step, or are in one."""
+        contacts = self.contacts
+        for one in contacts.broad_phase.find_leavers(contacts.last_dt):
+            if self.world.statics:
+                if not one.near:
+                    one.find_start(contacts.last_dt)
+                self.stop_core(one.body, h)
+        for body in contacts.beside_static:
+            self.stop_core(body, h)
+        statics = contacts.statics.contacts
+        for _ in range(CORNER_PASSES if statics else 0):
+            ways: dict[Body, list[State]] = {}
+            for c in statics:
+                a, b = c.a, c.b
+                gap = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny - c.reach + c.found - c.gap
+                if gap < -CORE * a.r:
+                    self.find_way_out(c, gap, ways)
+            if not ways:
+                break
+            for body, ways_out in ways.items():
+                self.put_out(body, ways_out)
+                self.stop_core(body, h)
+
+    def stop_core(self, body: Body, h: float) -> None:
+        """Stop a ball that moved far, or was hit, where its core met a static body."""
+        distance = abs(body.x - body.last_x) + abs(body.y - body.last_y)
+        is_far = distance > body.r > 0 or (distance > 0 and body.flown < inf)
+        if is_far and not (body.is_bullet or body.is_static):
+            self.sweep(body, (body.last_x, body.last_y), CORE * body.r, 0.0, h)
+
+    def find_way_out(self, c: Contact, gap: float, ways: dict[Body, list[State]]) -> None:
+        """Note what puts back and stops a ball whose core entered a static body, or went deeper.
+
+        `gap` is along the normal at the start of the step; past a corner the new normal counts,
+        unless the ball went through the body.
+        """
+        a, b = c.a, c.b
+        nx, ny, now = the_way_it_came(c, *collide(a, b))
+        if nx * c.nx + ny * c.ny < SAME_DIRECTION and self.went_through(c):
+            nx, ny, now = c.nx, c.ny, gap
+        back = min(c.found, -CORE * a.r) - now
+        if back > self.contacts.touching_gap:
+            closing = max((a.vx - b.vx) * nx + (a.vy - b.vy) * ny, 0.0)
+            ways.setdefault(a, []).append((back, closing, nx, ny))
+
+    def put_out(self, body: Body, ways: list[State]) -> None:
+        """Put a ball out along the two longest of these ways at once: in a V, neither is first."""
+        back, closing, nx, ny = max(ways)
+        ways.remove((back, closing, nx, ny))
+        if ways:
+            back_2, closing_2, x, y = max(ways)
+            back, back_2 = parts(back, back_2, nx * x + ny * y)
+            closing, closing_2 = parts(closing, closing_2, nx * x + ny * y)
+            push(body, x, y, back_2, closing_2)
+        push(body, nx, ny, back, closing)
+
+    def went_through(self, c: Contact) -> bool:
+        """Return whether the centre of a ball was in a static body at any time in this step."""
+        if c.found < -c.a.r:
+            return True
+        a = c.a
+        way = a.x - a.last_x, a.y - a.last_y
+        return first_hit([c.b], 0.0, a.last_x, a.last_y, *way) < NO_HIT
+
+    def sweep(
+        self, body: Body, start: tuple[float, float], radius: float, overlap: float, h: float
+    ) -> None:
+        """Stop a ball of this radius at the first static body on its way from `start`, if any.
+
+        There it overlaps by `overlap` px: the next step finds the contact and resolves the impact.
+        """
+        statics, ignored = self.world.statics, self.contacts.ignored
+        if ignored:
+            statics = [s for s in statics if pair_number(body, s) not in ignored]
+        x, y = start
+        dx, dy = body.x - x, body.y - y
+        # a little smaller, or rounding would decide whether a ball that slides along is stopped
+        fraction = first_hit(statics, radius - self.contacts.touching_gap, x, y, dx, dy)
+        if fraction < NO_HIT:
+            fraction = min(fraction, first_hit(statics, radius, x, y, dx, dy))
+            fraction += overlap / hypot(dx, dy)
+        if fraction < 1:
+            self.stop(body, (dx, dy), fraction, h)
+
+    def stop(self, body: Body, way: tuple[float, float], fraction: float, h: float) -> None:
+        """Put a ball back to where it was after this fraction of its way (px), and note when."""
+        contacts = self.contacts
+        end = state_of(body)
+        put_back(body, way, fraction, self.pull, h)
+        if not body.is_bullet:
+            contacts.ends[body] = state_of(body), contacts.ends.get(body, (end, end))[1]
+        before = contacts.stopped.get(body, contacts.last_dt)
+        contacts.stopped[body] = fraction * before
+        flown = body.flown if body.flown < inf else contacts.last_dt
+        body.flown = flown - (1 - fraction) * before
+        contacts.flying.append(body)
+
+    def pull(self, body: Body) -> tuple[float, float]:
+        """Return the acceleration of a body (px/s²) by gravity, forces and soft springs."""
+        x, y = self.world.acceleration(body)
+        if self.springs and body.joint_count:
+            by_x, by_y = self.springs.pull(body, self.contacts.h)
+            x, y = x + by_x, y + by_y
+        return x, y
+
+
+def push(body: Body, nx: float, ny: float, back: float, closing: float) -> None:
+    """Move a ball back (px) along a normal, and take a speed (px/s) along it away."""
+    body.x -= nx * back
+    body.y -= ny * back
+    body.vx -= nx * closing
+    body.vy -= ny * closing
+
+
+def parts(one: float, other: float, cosine: float) -> tuple[float, float]:
+    """Return the lengths along two directions that together reach as far along both as asked."""
+    rest = 1 - cosine * cosine
+    if one <= cosine * other or rest < SEAM:
+        return (0.0, other) if other > one else (one, 0.0)
+    if other <= cosine * one:
+        return one, 0.0
+    return (one - cosine * other) / rest, (other - cosine * one) / rest
