@@ -1,7 +1,7 @@
 """Simulate rolling balls, and stay stable. A scene declares its effects.
 
-Read in this order: shapes, body, effect, world, detection, contacts, order, loads, friction,
-bounce, then any other effect.
+Read in this order: shapes, body, effect, world, detection, contacts, order, pile, friction, bounce,
+then any other effect.
 """
 
 from .body import Body

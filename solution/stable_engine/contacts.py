@@ -1,6 +1,6 @@
 """Contacts: bodies do not pass through each other."""
 
-from math import hypot, inf, sqrt
+from math import hypot, sqrt
 
 from .body import Body
 from .contact import Contact
@@ -8,26 +8,11 @@ from .cores import Cores
 from .crowd import gather_crowd, part_crowd
 from .detection import REDETECT_DISTANCE, Detection, OnHit, OnPart
 from .effect import Direction
-from .joint import Joint
-from .loads import (
-    BEARING,
-    DEEP,
-    HEAVY,
-    LEANING,
-    SUNK,
-    TALL,
-    TIED,
-    TURNING,
-    Pile,
-    Stage,
-    find_piles,
-    find_towers,
-    find_wedged,
-    take_off,
-)
 from .order import Group, give_places, put_in_order
-from .rods import Frame
+from .pile import Pile, Stage
+from .piles import BEARING, find_piles
 from .soft import SAME_DIRECTION, Pace, softness
+from .unload import take_off
 
 FREQUENCY = 0.24  # of a contact of two balls, per substep; against a static body it is doubled
 LEAST_DAMPING = 10.0  # ratio, so high that overlap is pushed out without a bounce
@@ -65,12 +50,12 @@ class Contacts(Detection):
         self.is_mirrored = False  # whether contacts may have the same place in the order
         self.piles: list[Pile] = []  # with heavy bodies
         self.stage = Stage(0.0, 0.0, 0.0)  # of the substep, if there are piles
+        self.has_friction = False  # whether Friction settles piles after its own pass
         self.pace = Pace(STIFFENING)
 
     def attach(self) -> None:
         super().attach()
         self.max_push_speed = MAX_PUSH_SPEED * self.world.unit  # px/s
-        self.has_friction = "Friction" in self.world.effects
         self.cores = Cores(self)
 
     def prepare(self, h: float) -> None:
@@ -95,65 +80,12 @@ class Contacts(Detection):
                 c.gap = max(c.gap, self.touching_gap)
         self.find_order()
         self.round = [*self.balls.contacts, *[c for c in self.statics.contacts if c.b.r]]
-        is_heavy = is_deep = is_tall = False
-        gx, gy = self.world.g
-        weight = hypot(gx, gy) * h  # px/s, of 1 kg in a substep
-        tall = inf  # px/s, by mass; a contact that bears more is left to towers
-        if weight and self.balls.contacts:
-            sinks = (1 - self.balls.mass_scale) / self.balls.bias_rate  # px by px/s, if it is not
-            tall = max(TALL * weight, SUNK * self.world.unit / sinks)
         for c in self.touching:
-            a, b, nx, ny = c.a, c.b, c.nx, c.ny
-            distance = (b.x - a.x) * nx + (b.y - a.y) * ny
+            a, b = c.a, c.b
+            distance = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny
             c.reach = distance - c.gap
             c.set_arms(distance - a.r - b.r)
-            is_heavy = is_heavy or c.ratio > HEAVY
-            if c.jn > tall * c.mn:
-                is_upright = abs(nx * gy - ny * gx) * h < LEANING * weight
-                is_tall = is_tall or (is_upright and a.touches <= 2 and b.touches <= 2)
-            else:
-                is_deep = is_deep or c.gap < -DEEP * (a.r + b.r)
-        for pile in self.piles:
-            pile.end()
-        tied = self.find_tied(h) if self.on_rods else set()
-        self.piles = self.find_piles(is_heavy, is_deep, tied)
-        if is_tall:
-            self.piles += find_towers(self.touching, self.piles, tall, weight, self.world.unit)
-
-    def find_tied(self, h: float) -> set[Contact]:
-        """Return the contacts that may work against rods: they land, overlap, or rods turn fast."""
-        tied: set[Contact] = set()
-        turning = self.rods.find_turning(TURNING / h) if self.rods else set()
-        for pair in self.on_rods:
-            c, a, b = pair.contact, pair.a, pair.b
-            if c:
-                ahead = c.gap - max(c.closing_speed(), 0.0) * h * self.world.substep_count
-                if ahead < -TIED * (a.r + b.r) or a in turning or b in turning:
-                    tied.add(c)
-        return tied
-
-    def find_piles(self, is_heavy: bool, is_deep: bool, tied: set[Contact]) -> list[Pile]:
-        """Return the piles with heavy loads: is_heavy tells whether any two masses differ much.
-
-        is_deep tells whether any two balls overlap deep, and `tied` are contacts that may work
-        against rods.
-        """
-        rods = self.rods
-        pull = hypot(*self.world.g)
-        loads = find_wedged(self.statics.contacts)  # kg, that press beside the bodies' own masses
-        for body, (fx, fy, _) in self.world.forces.items() if pull else []:
-            if hypot(fx, fy) > HEAVY * body.m * pull:
-                loads[body] = hypot(fx, fy) / pull
-        is_heavy = is_heavy or bool(loads or tied)
-        frames: list[Frame] = []
-        if rods and (is_heavy or is_deep or rods.any_heavy()):
-            is_heavy, frames = True, rods.frames
-            for frame in frames:
-                loads.update(dict.fromkeys(frame.ends, frame.load))
-        if not (is_heavy or is_deep):
-            return []
-        links: list[Joint] = [rod for frame in frames for rod in frame.rods]
-        return find_piles(self.touching, links, loads, tied, self.world.unit)
+        self.piles = find_piles(self, self.piles, h)
 
     def find_order(self) -> None:
         """Find the contacts solved in turn, with their order, and those solved at once.
@@ -205,13 +137,12 @@ class Contacts(Detection):
             for tie in group.ties:
                 tie.solve(self.push, group, h)
         if self.piles:
-            stage = self.stage = Stage(h, self.max_push_speed, self.touching_gap / 2)
-            stage.has_moved = False
-            stage.ball_rate, stage.static_rate = self.balls.bias_rate, self.statics.bias_rate
+            rates = self.balls.bias_rate, self.statics.bias_rate
+            self.stage = Stage(h, self.max_push_speed, self.touching_gap / 2, rates)
             self.settle()
 
     def settle(self) -> None:
-        """Solve piles for what passes have left. Friction calls this again after its own pass."""
+        """Solve piles for what passes have left, of contacts or of friction."""
         for pile in self.piles:
             pile.settle(self.stage)
 
@@ -255,7 +186,7 @@ class Contacts(Detection):
         if self.piles:
             self.stage = Stage(h, self.max_push_speed, self.touching_gap / 2)
             for pile in self.piles:
-                if pile.rods or not self.has_friction:  # else friction will settle it
+                if pile.rods or not self.has_friction:  # else friction settles it
                     pile.settle(self.stage)
 
     def turn_normals(self) -> None:

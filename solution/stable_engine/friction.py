@@ -21,6 +21,7 @@ class Friction(Effect):
 
     def attach(self) -> None:
         self.contacts: Contacts = self.world.need("Contacts", self)
+        self.contacts.has_friction = True
 
     def is_used(self) -> bool:
         return any(body.mu > 0 for body in self.world.bodies)

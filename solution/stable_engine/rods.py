@@ -4,8 +4,8 @@ from math import hypot, sqrt
 
 from .body import Body
 from .joint import FIRM, Joint, Joints
-from .loads import HEAVY
 from .network import Network, connect
+from .pile import HEAVY
 from .soft import SAME_DIRECTION, Pace, softness
 from .validate import require
 

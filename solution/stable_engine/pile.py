@@ -1,0 +1,187 @@
+"""Piles: where much presses on little, contacts and rods are solved together."""
+
+from math import hypot
+
+from .contact import Contact, is_at_face
+from .joint import Joint
+from .limits import Limited, solve_within
+from .network import Network, bodies_of
+
+HEAVY = 2.5  # times the lightest ball at a contact
+CALM = 0.5  # 1/s, in units of the world, by the square of that ratio: passes may leave this speed
+STEEPEST = 1000.0  # a larger ratio counts as this, or rounding would decide what presses
+FAR = 0.5  # radii; where a ball moves by more in a substep, its contacts are other ones by then
+PUSHED = 0.1  # share by which a contact gives way, per ratio: many firm ones have no solution
+FRAMED = 1.0  # the same where frames of rods press
+SOFTEST = 1e-2  # the most of both
+HARDEST = 1e-6  # the least of both, and all in a tower, where firm ones do have a solution
+GENTLE = 0.1  # share of the highest push, for balls on rods of equal masses that overlap
+RELAXED = 1e-3  # of that share, what is left after the move
+TRIES = 3  # of a pile with rods, before the move: a length is no linear function of the speeds
+
+
+class Stage:
+    """What contacts aim at: before the move to part at the rates of their bias, then to stop."""
+
+    __slots__ = ("ball_rate", "h", "has_moved", "least", "most", "static_rate")
+
+    def __init__(
+        self, h: float, most: float, least: float, rates: tuple[float, float] | None = None
+    ) -> None:
+        self.h = h  # s
+        self.most = most  # px/s, overlap is pushed out no faster
+        self.least = least  # px, a larger gap may be closed
+        self.has_moved = rates is None
+        self.ball_rate, self.static_rate = rates or (0.0, 0.0)  # 1/s, before the move
+
+
+class Load(Limited):
+    """A contact in a pile."""
+
+    __slots__ = ("give", "haste", "pressed", "ratio")
+
+    def __init__(self, c: Contact, ratio: float) -> None:
+        super().__init__(c)
+        self.ratio = ratio  # of the heavier body, or its frame, to the lighter ball
+        self.give = 0.0  # the share that it gives way
+        self.haste = 1.0  # the share of the highest speed at which overlap is pushed out
+        self.pressed = -1.0  # kg px/s, beside rods its impulse before the move
+
+    def aim(self, stage: Stage) -> None:
+        """Set rhs to the speed (px/s) that the bodies lack, and the pivot."""
+        c, a, b = self.c, self.end_a, self.end_b
+        speed = (b.vx - a.vx) * self.nx + (b.vy - a.vy) * self.ny
+        gap = (b.x - a.x) * self.nx + (b.y - a.y) * self.ny - c.reach
+        rate = stage.ball_rate if b.inv_mass else stage.static_rate
+        give = self.give * RELAXED if stage.has_moved else self.give
+        self.pivot = (1 + give) / c.mn
+        presses = c.jn > 0 if self.pressed < 0 else self.pressed > 0
+        if gap > stage.least and not (stage.has_moved and presses):
+            self.rhs = -speed - gap / stage.h
+        else:
+            push = max(rate * gap, -stage.most * self.haste)
+            self.rhs = -speed - push - give * c.jn / c.mn
+
+    def take(self, j: float, has_moved: bool) -> None:
+        super().take(j, has_moved)
+        self.c.jn = self.total
+
+
+class Pile:
+    """Contacts, and rods of frames, that balls connect.
+
+    A pass over contacts takes from a body of mass M only the share m / (M + m) of its speed, if the
+    ball below has mass m. So what a pass leaves is solved exactly, for the contacts that press.
+    """
+
+    __slots__ = (
+        *("bodies", "calm", "is_wild", "lengths", "loads", "network", "rods", "rows", "stage"),
+        *("tries", "turning"),
+    )
+
+    def __init__(self, loads: list[Load], rods: list[Joint], unit: float, softest: float) -> None:
+        self.loads = loads
+        self.rods = rods
+        self.rows: list[Joint] = [*loads, *rods]
+        self.bodies = bodies_of(self.rows)
+        masses = [body.m for body in self.bodies if body.m]
+        ratio = max(max(masses) / min(masses), *[load.ratio for load in self.loads])
+        for load in self.loads:
+            given = (FRAMED if self.rods else PUSHED) / ratio
+            load.give = max(min(given, softest), HARDEST)
+            load.haste = GENTLE if self.rods and ratio <= HEAVY else 1.0
+        self.calm = CALM * unit / min(ratio, STEEPEST) ** 2  # px/s
+        self.lengths: list[float] = []  # px, of its rods after the move
+        self.tries = TRIES if rods else 1
+        turning = [load for load in loads if not (rods and is_at_face(load.c))]
+        self.turning = bodies_of(turning)  # at contacts that are other ones once these moved far
+        self.is_wild = False  # whether they move far in this substep
+        self.network: Network[Joint] | None = None  # of all rows, once it was needed
+
+    def look(self, h: float) -> None:
+        """Note the lengths that rods will have after the move, before contacts change them."""
+        self.lengths = [length_after(rod, h) for rod in self.rods]
+        self.is_wild = any(
+            [b.inv_mass > 0 and hypot(b.vx, b.vy) * h > FAR * b.r for b in self.turning]
+        )
+
+    def forget_impacts(self) -> None:
+        """Begin a substep with impulses no larger than those of the substep before the last.
+
+        The warm start would repeat an impact, and passes would not take that back. With frames,
+        begin with none: where a ball sits between balls of a frame, impulses can be so large that
+        the least turn of the frame would throw it.
+        """
+        for load in self.loads:
+            c, before = load.c, load.c.jn
+            lower(c, 0.0 if self.rods else c.last)
+            c.last = before
+
+    def end(self) -> None:
+        """Lower impulses to those before a move: a step without this pile begins with them."""
+        for load in self.loads if self.rods else []:
+            lower(load.c, min(load.c.last, load.pressed))
+
+    def settle(self, stage: Stage) -> None:
+        """Solve for all impulses, if a pass has left more than a calm speed."""
+        if self.is_wild:
+            return
+        self.stage = stage
+        for load in self.loads:
+            load.follow()
+        for _ in range(1 if stage.has_moved else self.tries):
+            lack = self.lack()
+            if lack <= self.calm or not self.press(lack):
+                break
+        for load in self.loads if self.rods and not stage.has_moved else []:
+            load.pressed = load.c.jn
+
+    def lack(self) -> float:
+        """Return the most that a contact or rod lacks, in px/s."""
+        most = 0.0
+        for load in self.loads:
+            load.aim(self.stage)
+            most = max(most, load.rhs if load.c.jn == 0 else abs(load.rhs))
+        return max([most, *[abs(speed) for speed in self.lacking()]])
+
+    def lacking(self) -> list[float]:
+        """Return the speeds (px/s) that rods lack to keep their lengths."""
+        if self.stage.has_moved:
+            return [-rod.speed() for rod in self.rods]
+        h = self.stage.h
+        both = zip(self.rods, self.lengths, strict=True)
+        return [(length - length_after(rod, h)) / h for rod, length in both]
+
+    def press(self, lack: float) -> bool:
+        """Apply the impulses of the contacts that press, and of the rods, and return True.
+
+        Change nothing if more (px/s) would then lack than before, as where rods turn very far.
+        """
+        if self.network is None:
+            self.network = Network(self.rows)
+        for load in self.loads:
+            load.total = load.c.jn
+        return solve_within(
+            *(self.network, self.loads, self.aim, self.calm, self.stage.has_moved),
+            lambda: self.stage.has_moved or not self.rods or self.lack() <= lack,
+        )
+
+    def aim(self) -> None:
+        """Set each row's pivot and rhs."""
+        for load in self.loads:
+            load.aim(self.stage)
+        for rod, speed in zip(self.rods, self.lacking(), strict=True):
+            rod.ask(rod.speed() + speed)
+
+
+def lower(c: Contact, most: float) -> None:
+    """Lower the impulses of a contact until the normal one is at most this (kg px/s)."""
+    before, c.jn = c.jn, max(min(c.jn, most), 0.0)
+    if c.jn < before:
+        c.jt *= c.jn / before  # friction without its load would throw balls
+
+
+def length_after(rod: Joint, h: float) -> float:
+    """Return the length (px) of a rod after a move of h seconds."""
+    a, b = rod.end_a, rod.end_b
+    return hypot(b.x - a.x + (b.vx - a.vx) * h, b.y - a.y + (b.vy - a.vy) * h)

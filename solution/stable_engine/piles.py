@@ -1,0 +1,229 @@
+"""Find piles: where passes over contacts would leave much, as much presses on little."""
+
+from math import hypot, inf
+
+from .body import Body
+from .contact import Contact
+from .detection import Detection
+from .joint import Joint
+from .pile import HARDEST, HEAVY, SOFTEST, Load, Pile
+from .unload import in_touch
+
+TALL = 13.3  # weights of its effective mass; a contact that bears more carries a tower. Not whole,
+# so that rounding does not decide between towers of equal balls
+LEANING = 0.1  # a sine; a tower leans less
+SUNK = 0.01  # in units of the world; a contact that gives way by less sinks too little to be seen
+BEARING = 0.05  # weights of its effective mass; a contact with less bears nothing
+DEEP = 0.05  # of both radii; balls that overlap by more were thrown at each other
+TIED = 0.005  # the same for balls on rods: these take over what a push leaves
+RESTING = 30.0  # 1/s, in units of the world; a ball that bounces faster is left to impacts
+MOST_ROWS = 128  # contacts and rods of a pile; a larger one is left to passes
+FEW_ROWS = 32  # the same where balls were thrown at each other
+WEDGED = 0.9  # cosine; a ball between faces that turn less is pressed as by a heavier one
+PARALLEL = 1 - 1e-9  # cosine, of faces that are one
+OPPOSITE = -0.5  # cosine; faces that turn further apart clamp what is between them
+TURNING = 0.01  # rad in a substep; rods that turn by more pull at balls that contacts hold
+
+
+def find_piles(contacts: Detection, before: list[Pile], h: float) -> list[Pile]:
+    """Return the piles of a step with substeps of h seconds, and end those of the step before."""
+    world, balls = contacts.world, contacts.balls
+    gx, gy = world.g
+    weight = hypot(gx, gy) * h  # px/s, of 1 kg in a substep
+    tall = inf  # px/s, by mass; a contact that bears more is left to towers
+    if weight and balls.contacts:
+        sinks = (1 - balls.mass_scale) / balls.bias_rate  # px by px/s, if it is not
+        tall = max(TALL * weight, SUNK * world.unit / sinks)
+    is_odd = is_tall = False  # whether masses differ much or balls overlap deep; any tower
+    for c in contacts.touching:
+        is_odd = is_odd or c.ratio > HEAVY
+        if c.jn > tall * c.mn:
+            is_upright = abs(c.nx * gy - c.ny * gx) * h < LEANING * weight
+            is_tall = is_tall or (is_upright and c.a.touches <= 2 and c.b.touches <= 2)
+        else:
+            is_odd = is_odd or c.gap < -DEEP * (c.a.r + c.b.r)
+    for pile in before:
+        pile.end()
+    piles = find_heavy(contacts, is_odd, find_tied(contacts, h) if contacts.on_rods else set())
+    if is_tall:
+        piles += find_towers(contacts.touching, piles, tall, weight, world.unit)
+    return piles
+
+
+def find_tied(contacts: Detection, h: float) -> set[Contact]:
+    """Return the contacts that may work against rods: they land, overlap, or rods turn fast."""
+    tied: set[Contact] = set()
+    turning = contacts.rods.find_turning(TURNING / h) if contacts.rods else set()
+    for pair in contacts.on_rods:
+        c, a, b = pair.contact, pair.a, pair.b
+        if c:
+            ahead = c.gap - max(c.closing_speed(), 0.0) * h * contacts.world.substep_count
+            if ahead < -TIED * (a.r + b.r) or a in turning or b in turning:
+                tied.add(c)
+    return tied
+
+
+def find_heavy(contacts: Detection, is_odd: bool, tied: set[Contact]) -> list[Pile]:
+    """Return the piles where much presses on little, if there are any.
+
+    is_odd tells whether masses at any contact differ much, or balls overlap deep; `tied` are
+    contacts that may work against rods.
+    """
+    world, rods = contacts.world, contacts.rods
+    pull = hypot(*world.g)
+    loads = find_wedged(contacts.statics.contacts)  # kg, that press beside the bodies' own masses
+    for body, (fx, fy, _) in world.forces.items() if pull else []:
+        if hypot(fx, fy) > HEAVY * body.m * pull:
+            loads[body] = hypot(fx, fy) / pull
+    is_odd = is_odd or bool(loads or tied)
+    frames = rods.frames if rods and (is_odd or rods.any_heavy()) else []
+    if not (is_odd or frames):
+        return []
+    for frame in frames:
+        loads.update(dict.fromkeys(frame.ends, frame.load))
+    links: list[Joint] = [rod for frame in frames for rod in frame.rods]
+    return collect_piles(contacts.touching, links, loads, tied, world.unit)
+
+
+def collect_piles(
+    contacts: list[Contact],
+    rods: list[Joint],
+    loads: dict[Body, float],
+    tied: set[Contact],
+    unit: float,
+) -> list[Pile]:
+    """Return the piles in which a body, or a frame, is much heavier than a ball at its contact.
+
+    So are those with balls thrown at each other, unless they bounce or joints hold them. loads are
+    the masses (kg) that press where they are not the bodies' own, as in frames of rods. unit is
+    that of the world.
+    """
+    ratios = [ratio_of(c, loads) if loads else c.ratio for c in contacts]
+    firsts = find_firsts(contacts, ratios, loads, tied, unit)
+    if not firsts:
+        return []
+    count = len(contacts)
+    ends = [(c.a, c.b) for c in contacts] + [(rod.end_a, rod.end_b) for rod in rods]
+    beside: dict[Body, list[int]] = {}  # the places of each ball's contacts and rods
+    for place, (a, b) in enumerate(ends):
+        if a.inv_mass:
+            beside.setdefault(a, []).append(place)
+        if b.inv_mass:
+            beside.setdefault(b, []).append(place)
+    piles: list[Pile] = []
+    seen: set[int] = set()
+    for first, most in firsts:
+        if first not in seen:
+            places = sorted(places_from(ends[first], ends, beside, most))
+            seen.update(places)
+            if not 1 < len(places) <= most:
+                continue
+            bodies = [body for at in places for body in ends[at]]
+            if most == MOST_ROWS or not any([body.joint_count for body in bodies]):
+                rows = [Load(contacts[at], ratios[at]) for at in places if at < count]
+                held = [rods[at - count] for at in places if at >= count]
+                if not is_clamped(rows):
+                    piles.append(Pile(rows, held, unit, SOFTEST))
+    return piles
+
+
+def find_wedged(contacts: list[Contact]) -> dict[Body, float]:
+    """Return the balls between faces that are nearly parallel, as in a narrow or a flat V.
+
+    The impulse at each face grows as if the ball had the mass (kg) returned with it.
+    """
+    firsts: dict[Body, Contact] = {}
+    wedged: dict[Body, float] = {}
+    for c in contacts:
+        first = firsts.setdefault(c.a, c)
+        alike = abs(first.nx * c.nx + first.ny * c.ny)
+        if WEDGED < alike < PARALLEL:
+            wedged[c.a] = max(wedged.get(c.a, 0.0), c.a.m / (1 - alike))
+    return wedged
+
+
+def find_firsts(
+    contacts: list[Contact],
+    ratios: list[float],
+    loads: dict[Body, float],
+    tied: set[Contact],
+    unit: float,
+) -> list[tuple[int, int]]:
+    """Return the places of contacts that make a pile, each with the most rows it may have."""
+    heavy: list[tuple[int, int]] = []
+    deep: list[tuple[int, int]] = []
+    for place, (c, ratio) in enumerate(zip(contacts, ratios, strict=True)):
+        is_deep = c.gap < -DEEP * (c.a.r + c.b.r)
+        is_tied = c in tied and (c.a in loads or c.b in loads)
+        is_slow = not c.e or abs(c.closing_speed()) < RESTING * unit
+        if (ratio > HEAVY or is_tied) and is_slow:
+            heavy.append((place, MOST_ROWS))
+        elif is_deep and c.b.inv_mass and not c.e:
+            deep.append((place, FEW_ROWS))
+    return heavy + deep
+
+
+def find_towers(
+    contacts: list[Contact], piles: list[Pile], tall: float, weight: float, unit: float
+) -> list[Pile]:
+    """Return the piles of balls in a row that bear much, besides these other piles.
+
+    There each ball touches at most two others, and the row has no way round. A contact bears much
+    if its impulse is more than `tall` (px/s) times its mass. weight is that of 1 kg in a substep.
+    """
+    beside: dict[Body, list[Contact]] = {}
+    for c in contacts:
+        if c.a.touches <= 2 and c.b.touches <= 2:
+            for body in (c.a, c.b):
+                if body.inv_mass:
+                    beside.setdefault(body, []).append(c)
+    towers: list[Pile] = []
+    seen = {body for pile in piles for body in pile.bodies}
+    for first, near in beside.items():
+        if first not in seen and any([c.jn > tall * c.mn for c in near]):
+            balls = in_touch([first], beside)
+            rows = dict.fromkeys([c for ball in balls for c in beside[ball]])
+            seen.update(balls)
+            links = 2 * len([c for c in rows if c.b.inv_mass])
+            is_row = links == sum([b.touches for b in balls]) and links < 2 * len(balls)
+            if is_row and len(balls) <= MOST_ROWS and not any([b.joint_count for b in balls]):
+                loads = [
+                    Load(c, max(c.jn / (weight * c.mn), c.ratio))
+                    for c in rows
+                    if c.jn > BEARING * weight * c.mn
+                ]
+                if not is_clamped(loads):
+                    towers.append(Pile(loads, [], unit, HARDEST))
+    return towers
+
+
+def is_clamped(loads: list[Load]) -> bool:
+    """Return whether a kinematic body presses balls against another body that does not give way.
+
+    Then no impulses can stop the balls: a solution of all at once would grow without end.
+    """
+    firm = [load.c for load in loads if not load.c.b.inv_mass]
+    presses = [c for c in firm if c.b.is_kinematic]
+    return any([p.nx * c.nx + p.ny * c.ny < OPPOSITE for p in presses for c in firm])
+
+
+def ratio_of(c: Contact, loads: dict[Body, float]) -> float:
+    """Return the ratio of the masses (kg) that press at a contact."""
+    most = max(loads.get(c.a, 0.0), loads.get(c.b, 0.0))
+    return max(c.ratio, most / min(c.a.m, c.b.m or c.a.m)) if most else c.ratio
+
+
+def places_from(
+    both: tuple[Body, Body],
+    ends: list[tuple[Body, Body]],
+    beside: dict[Body, list[int]],
+    most: int,
+) -> set[int]:
+    """Return the places of all that balls connect to one of these two bodies, or more than most."""
+    found: set[int] = set()
+    ahead = set(both)
+    while ahead and len(found) <= most:
+        new = {place for body in ahead for place in beside.get(body, [])} - found
+        found |= new
+        ahead = {body for place in new for body in ends[place]}
+    return found
