@@ -35,7 +35,7 @@ ASKS = {  # the request by a part of the reason; the first match counts
     "nothing of the lab": "None of the lab's files were in what you sent: {reason}. "
     "Please send the whole folder of the lab in a zip.",
     "packed in": "Your archive cannot be opened here: {reason}. Please send a zip.",
-    "cut off": "Your archive arrived incomplete. Please make it anew and send it again.",
+    "cut off": "Your archive is empty or incomplete. Please make it anew and send it again.",
     "broken": "Your archive is broken. Please make it anew and send it again.",
     "too large": "Your archive is too large: {reason}. Please send the lab's files alone.",
     "empty": "Your files are empty: {reason}. Please send the ones with your work.",

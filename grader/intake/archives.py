@@ -39,7 +39,7 @@ MAX_CLASS = 20 * MAX_DIRECTORY  # the same, of the zip of a class
 LONGEST_PATH, SHORT = 2000, 30  # bytes of a path in the zip of a class, and of a folder that is cut
 DRIVE = re.compile(r"[A-Za-z]:")  # with which a name on Windows begins
 SPARED = 100  # files of the allowance for the lab's own alone
-OWN_WAY = "the zip is packed in an unusual way: ask for one as desktops make it"
+OWN_WAY = "the zip is packed in an unusual way: one as desktops make it is needed"
 CLOCK_PER_CPU = 4  # s on the clock for each of processor time: the last resort
 
 
@@ -73,7 +73,7 @@ class Bounds:
     def open_one(self) -> None:
         """Count an archive; raises CannotTake if there are too many."""
         if self.archives < 1:
-            raise CannotTake(f"more than {MAX_ARCHIVES} archives in one submission: ask for one")
+            raise CannotTake(f"more than {MAX_ARCHIVES} archives in one submission: one is needed")
         self.archives -= 1
 
     @property
@@ -93,7 +93,7 @@ def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
         bounds.left_out += too_large
         members = name_members(archive)
         if not members:
-            raise CannotTake("the archive holds no file, or is cut off")
+            raise CannotTake("the archive holds no file: it is empty or cut off")
         environments = {name.parent for name, _ in members if name.name == "pyvenv.cfg"}
         folder.mkdir(parents=True, exist_ok=True)
         wanted = (
@@ -192,7 +192,7 @@ def open_zip(path: Path, bounds: Bounds) -> Iterator[zipfile.ZipFile]:
     except NotImplementedError as error:
         raise CannotTake(f"{OWN_WAY} ({error})") from error
     except RuntimeError as error:
-        raise CannotTake("the zip is encrypted: ask for one without a password") from error
+        raise CannotTake("the zip is encrypted: one without a password is needed") from error
     except Exception as error:  # zipfile and zlib raise many kinds
         cut = path.suffix.lower() == ".zip" and not zipfile.is_zipfile(path)
         why = ": it is cut off, or no zip" if cut else ""
@@ -216,7 +216,7 @@ class ZipReader(io.BufferedReader):
         rest = size is None or size < 0
         content = super().read(self.most + 1 if rest else min(size or 0, self.most + 1))
         if len(content) > self.most:
-            raise CannotTake("the zip lists too many files: ask for the program alone")
+            raise CannotTake("the zip lists too many files: the program alone is needed")
         self.taken += len(content)
         return content
 
@@ -234,9 +234,9 @@ def name_members(archive: zipfile.ZipFile) -> list[tuple[PurePosixPath, zipfile.
         name = PurePosixPath(check_name(decode_name(member)))
         other, first = found.get(fold(name.as_posix()), (name, member))
         if other != name:
-            raise CannotTake(f"{other} and {name} differ in case alone: ask for other names")
+            raise CannotTake(f"{other} and {name} differ in case alone: other names are needed")
         if (first.CRC, first.file_size) != (member.CRC, member.file_size):
-            raise CannotTake(f"the archive holds two different files {name}: ask for one of them")
+            raise CannotTake(f"the archive holds two different files {name}: one of them is needed")
         found[fold(name.as_posix())] = name, member
     return list(found.values())
 

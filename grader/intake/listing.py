@@ -192,7 +192,7 @@ def mention_file(path: Path, intake: Intake, people: ClassList) -> None:
         words = f"{path.name} is no folder and no archive: put it into a folder"
         name = name or path.stem
     elif suffix in UNREAD:
-        words = f"{path.name} is packed in a way that is not read: ask for a zip"
+        words = f"{path.name} is packed in a way that is not read: a zip is needed"
         name = name or path.stem
     else:
         words = f"nothing of the lab was found: {path.name} is no folder and no archive"

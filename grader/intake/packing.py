@@ -53,7 +53,9 @@ def open_submission(
     It is read like one of a class. Raises CannotTake if it cannot be read.
     """
     if not path.exists():
-        raise CannotTake(f"there is no submission at {path}: name a folder or a Python file")
+        raise CannotTake(
+            f"there is no submission at {path}: name a folder, an archive or a Python file"
+        )
     real = path.resolve()
     name = real.name if real.is_dir() else cut_suffix(real)
     with work_folder() as temporary:
@@ -141,9 +143,10 @@ def find_empty_programs(files: list[tuple[str, bytes]], asked: Collection[str]) 
         raise CannotTake(f"all programs are empty: {shorten_list(sorted(held))}")
     for name, content in sorted(held.items()):
         if name.endswith(".py") and name not in empty and (words := name_type(content)):
-            raise CannotTake(f"{name} is {words}: ask for the program itself")
+            needed = "it is needed in UTF-8" if "UTF-8" in words else "the program itself is needed"
+            raise CannotTake(f"{name} is {words}: {needed}")
         if name.endswith(".py") and (flaw := find_bad_bytes(content)):
-            raise CannotTake(f"{name}, line {flaw.line}: {flaw.message}: ask for it in UTF-8")
+            raise CannotTake(f"{name}, line {flaw.line}: {flaw.message}: it is needed in UTF-8")
     alone = (f"{name} is empty" for name in sorted(empty) if "/" not in name)
     return list(alone)
 

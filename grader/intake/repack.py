@@ -52,7 +52,7 @@ def main(source: str, target: str, seconds: int = SECONDS) -> int:
                     continue
                 size += len(content)
                 if count >= MAX_MEMBERS or size > MAX_UNPACKED:
-                    raise CannotRepack("the archive holds too much: ask for the program alone")
+                    raise CannotRepack("the archive holds too much: the program alone is needed")
                 out.writestr(zipfile.ZipInfo(name), content)
     except CannotRepack as refusal:
         words = str(refusal)
@@ -113,7 +113,9 @@ def read_files(source: str) -> Files:
 
 def read_tar(source: str) -> Files:
     if not tarfile.is_tarfile(source):
-        raise CannotRepack("the archive is broken, or of no kind that is read here: ask for a zip")
+        raise CannotRepack(
+            "the archive is broken, or of no kind that is read here: a zip is needed"
+        )
     with tarfile.open(source) as archive:
         for member in archive:
             if member.isreg() and member.size > MAX_UPLOAD:
@@ -132,11 +134,11 @@ def read_7z(source: str) -> Files:
                     yield each.filename, None
             wanted = {e.filename: e.uncompressed for e in plain if e.uncompressed <= MAX_UPLOAD}
             if sum(wanted.values()) > MAX_UNPACKED or len(wanted) > MAX_MEMBERS:
-                raise CannotRepack("the archive holds too much: ask for the program alone")
+                raise CannotRepack("the archive holds too much: the program alone is needed")
             factory = py7zr.io.BytesIOFactory(MAX_UPLOAD + 1)
             archive.extract(targets=list(wanted), factory=factory)
     except py7zr.exceptions.PasswordRequired as error:
-        raise CannotRepack("the archive is encrypted: ask for one without a password") from error
+        raise CannotRepack("the archive is encrypted: one without a password is needed") from error
     except py7zr.exceptions.AbsolutePathError as error:
         raise CannotRepack(f"the archive reaches outside its folder ({error!s:.100})") from error
     for name, content in factory.products.items():
@@ -149,19 +151,20 @@ def read_rar(source: str) -> Files:
     try:
         with rarfile.RarFile(source, errors="strict") as archive:
             if archive.needs_password():
-                raise CannotRepack("the archive is encrypted: ask for one without a password")
+                raise CannotRepack("the archive is encrypted: one without a password is needed")
             for each in archive.infolist():
                 if each.is_file() and not each.file_redir:
                     too_large = each.file_size > MAX_UPLOAD
                     yield each.filename, None if too_large else archive.read(each)
     except rarfile.RarCannotExec as error:
         raise CannotRepack(
-            "this machine has nothing that unpacks a .rar: install one of unrar, unar and 7z, or "
-            "ask for a zip"
+            "this machine has nothing that unpacks a .rar: install one of unrar, unar and 7z; "
+            "without it, a zip is needed"
         ) from error
     except rarfile.Error as error:
         raise CannotRepack(
-            "the archive is broken, one part of several, or cannot be unpacked here: ask for a zip"
+            "the archive is broken, one part of several, or cannot be unpacked here: "
+            "a zip is needed"
         ) from error
 
 
@@ -171,7 +174,7 @@ def load_library(name: str, format: str) -> Any:
     except ImportError as error:
         raise CannotRepack(
             f"a {format} needs {name}, which is not installed: {sys.executable} -m pip install "
-            f"{name}, or ask for a zip"
+            f"{name}; without it, a zip is needed"
         ) from error
 
 

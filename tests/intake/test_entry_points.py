@@ -109,8 +109,8 @@ def test_a_right_submission_has_full_marks_however_it_is_handed_in(
 
 REVIEW = {
     "link": "nothing of the lab was found (integrators): it holds nothing but hidden files, links",
-    "latin-1": "this line is not in UTF-8, in which Python reads files: ask for it in UTF-8",
-    "two copies in a zip": "holds two different files integrators.py: ask for one of them",
+    "latin-1": "this line is not in UTF-8, in which Python reads files: it is needed in UTF-8",
+    "two copies in a zip": "holds two different files integrators.py: one of them is needed",
 }
 
 

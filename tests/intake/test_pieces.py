@@ -249,7 +249,7 @@ REFUSED: dict[str, tuple[packed.Files | bytes, str]] = {
     "a web page": ({"integrators.py": b"<!DOCTYPE html><html>"}, "integrators.py is a web page"),
     "rich text": ({"integrators.py": b"{\\rtf1\\ansi x}"}, "a text of a word processor"),
     "a zip": ({"integrators.py": packed.as_zip(WORK)}, "is a zip or an Office document"),
-    "utf-16": ({"integrators.py": "x".encode("utf-16")}, "text in UTF-16"),
+    "utf-16": ({"integrators.py": "x".encode("utf-16")}, "in UTF-16.* is needed in UTF-8"),
     "binary": ({"integrators.py": b"def x\0\0"}, "integrators.py is no text"),
     "a notebook": ({"integrators.py": b'{"cells": []}'}, "integrators.py is a notebook"),
     "empty": ({"integrators.py": b"", "mini_engine/__init__.py": b"\n"}, "programs are empty"),
@@ -269,6 +269,11 @@ def test_what_is_unclear_or_unreadable_is_for_a_person(tmp_path, case):
     files, words = REFUSED[case]
     with pytest.raises(CannotTake, match=words):
         read_package(write(tmp_path / "ann", files))
+
+
+def test_a_reason_can_be_shown_to_the_student_too():
+    for module in (KIT / "grader" / "intake").glob("*.py"):
+        assert "ask for" not in module.read_text(encoding="utf-8"), module
 
 
 def test_what_the_course_does_not_ask_for_decides_nothing(tmp_path):
