@@ -4,6 +4,7 @@ import csv
 import io
 import math
 import re
+import shlex
 import unicodedata
 from collections.abc import Callable, Iterable
 from datetime import datetime
@@ -36,6 +37,11 @@ def printable(words: str) -> str:
 def clean(words: str) -> str:
     """Return a submission's words on one line, without control characters."""
     return printable(words)[:MAX_WORDS]
+
+
+def name_command(words: str, folder: object) -> str:
+    """Return a command on a folder to type, such as `grader class grade 'lab 5'`."""
+    return f"grader {words} {shlex.quote(str(folder))}"
 
 
 def plural(number: int, noun: str) -> str:

@@ -35,7 +35,7 @@ from grader.intake.roster import list_name
 from grader.intake.systems import read_roster
 from grader.judge.course import Course
 from grader.report.files import write_whole
-from grader.text import printable
+from grader.text import name_command, printable
 
 TOKEN = "CANVAS_TOKEN"
 # Without https, others could read the token on its way, unless it stays on this machine.
@@ -191,7 +191,7 @@ def list_deliveries(known: ClassFolder, others_known: bool, plan: Plan) -> list[
     if "ID" not in roster.columns:
         raise Stop(
             f"{roster.path} has no column ID, Canvas's number of a student: export the gradebook "
-            f"of Canvas, and name it: grader class new {known.folder} --roster FILE"
+            f"of Canvas, and name it: {name_command('class new', known.folder)} --roster FILE"
         )
     key, entries = roster.choose_key(known.settings.key), read_class(results)
     write_dashboard(results, entries, course)

@@ -19,6 +19,7 @@ from grader.intake.roster import ClassList
 from grader.intake.systems import find_system, read_roster
 from grader.judge.course import Course, read_course
 from grader.report.files import write_whole
+from grader.text import name_command
 
 FILE = "class.toml"
 SEED_BITS = 128  # too many to try
@@ -81,7 +82,7 @@ class ClassFolder:
         if not self.submissions.exists():
             raise Stop(
                 f"there is nothing at {self.submissions}: put the export of the learning system "
-                f"there, or name it: grader class new {self.folder} --submissions FILE"
+                f"there, or name it: {name_command('class new', self.folder)} --submissions FILE"
             )
         return self.submissions
 
@@ -94,7 +95,7 @@ class ClassFolder:
         if self.roster is None:
             raise Stop(
                 f"{purpose} needs the class list, and {self.folder / FILE} names none: "
-                f"grader class new {self.folder} --roster FILE"
+                f"{name_command('class new', self.folder)} --roster FILE"
             )
         return self.roster
 
@@ -151,7 +152,8 @@ class ClassFolder:
     def find_results(self) -> Path:
         """Return the folder of results; raises Stop if they are of another course."""
         if not self.results.is_dir():
-            raise Stop(f"there are no results in {self.results}: grader class grade {self.folder}")
+            command = name_command("class grade", self.folder)
+            raise Stop(f"there are no results in {self.results}: {command}")
         self.refuse_other_course("grade the class again with --other-course")
         return self.results
 
@@ -201,7 +203,7 @@ def read_class_folder(folder: Path) -> ClassFolder:
     except OSError as error:
         raise Stop(
             f"there is no {path}: name the folder of a class, or make one: "
-            f"grader class new {folder} --roster FILE"
+            f"{name_command('class new', folder)} --roster FILE"
         ) from error
     return ClassFolder(folder, parse_settings(text, path))
 

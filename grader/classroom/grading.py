@@ -23,7 +23,7 @@ from grader.judge.course import Course
 from grader.judge.result import is_bonus
 from grader.judge.task import Options
 from grader.judge.wall.outer import Exceeded, Failed, Lost
-from grader.text import printable
+from grader.text import plural, printable
 
 LONGEST = 300  # rows in a terminal; the table's file has all
 LONGEST_PAGE = 2000  # students on the page, which reads every result again
@@ -107,7 +107,7 @@ def show_class(run: Run, console: Console) -> None:
     for note in run.notes:
         console.print(printable(note), soft_wrap=True)
     counts = ", ".join(f"{count} {how}" for how, count in run.counts.items())
-    console.print(f"{len(run.outcomes)} submissions: {counts}")
+    console.print(f"{plural(len(run.outcomes), 'submission')}: {counts}")
     console.print(f"results: {run.book.folder}", soft_wrap=True)
     console.print(f"table:   {run.book.table}", soft_wrap=True)
 

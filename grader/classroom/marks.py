@@ -214,7 +214,7 @@ def mark_row(row: Row, student: str, scores: Scores, made: Marks) -> MarkRow:
         parts, marking = scores.parts[results[0]], scores.marking
         waiting = [name for name in marking.shares if name in parts and parts[name].waiting]
         if waiting and not scores.so_far:
-            words = f"no mark yet, {', '.join(waiting)} must be graded by hand"
+            words = f"no mark yet, needs manual review: {', '.join(waiting)}"
             made.notes.append(f"{student}: {words}")
         if mates := owners.mates.get(id(row)):
             made.notes.append(f"{student}: the mark of {' and '.join(mates)}, of the same group")

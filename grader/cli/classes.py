@@ -21,7 +21,7 @@ from grader.cli.shared import (
 from grader.errors import Stop
 from grader.judge.task import Options, shipped_reference
 from grader.judge.wall.starting import count_cores, start_server_ahead
-from grader.text import join_words, plural
+from grader.text import join_words, name_command, plural
 
 if TYPE_CHECKING:
     from grader.classroom.dashboard import Entry
@@ -79,7 +79,7 @@ def new_command(
     problems = find_problems(made)
     print_notes(describe_class(made))
     print_notes(problems or ["No problems found."])
-    print_note(f"The class is in {folder / FILE}. Next: grader class grade {folder}")
+    print_note(f"The class is in {folder / FILE}. Next: {name_command('class grade', folder)}")
     raise typer.Exit(1 if problems else 0)
 
 
@@ -152,8 +152,9 @@ def grade_folder(
         raise Stop(words) from None
     open_ones = [each for each in run.outcomes if each.mark is None]
     if open_ones and decisions is not None:
-        print_note(f"{len(open_ones)} need manual review: set points in {decisions}")
-        print_note(f"or decide on a page: grader class review {folder}")
+        needed = "1 needs" if len(open_ones) == 1 else f"{len(open_ones)} need"
+        print_note(f"{needed} manual review: set points in {decisions}")
+        print_note(f"or decide on a page: {name_command('class review', folder)}")
     raise typer.Exit(2 if open_ones else 0)
 
 
@@ -169,7 +170,7 @@ def review_command(folder: Folder = Path(".")) -> None:
         try:
             server.serve_forever()
         except KeyboardInterrupt:
-            print_note(f"Ended. Next: grader class grade {folder}")
+            print_note(f"Ended. Next: {name_command('class grade', folder)}")
 
 
 @class_app.command("mail")
@@ -314,7 +315,7 @@ def feedback_command(
     else:
         for file, content in made.files.items():
             write_whole(content, target / file)
-    print_notes([*made.notes, f"{len(made.files)} files are in {target}"])
+    print_notes([*made.notes, f"wrote {plural(len(made.files), 'file')} to {target}"])
     raise typer.Exit(1 if made.notes else 0)
 
 

@@ -28,7 +28,7 @@ from grader.cli.shared import (
 from grader.errors import Stop
 from grader.judge.course import Course, WrongCourse, read_course
 from grader.judge.task import KIT, Options, shipped_reference
-from grader.text import clean
+from grader.text import clean, plural
 
 app = typer.Typer()
 course_app = typer.Typer(
@@ -73,7 +73,7 @@ def course_command(
     files = make_course(course, renew, release, read_course(asked))
     if asked is not None and asked != course / COURSE:
         (course / COURSE).write_bytes(asked.read_bytes())
-    console.print(f"{len(files)} files are in {course / 'source' / ASSIGNMENT}")
+    console.print(f"wrote {plural(len(files), 'file')} to {course / 'source' / ASSIGNMENT}")
     console.print(f"Next, in {course}: nbgrader generate_assignment {ASSIGNMENT}")
 
 
@@ -153,7 +153,7 @@ def roster_command(roster: Gradebook, course: CourseFolder = Path("."), key: Key
     names = read_roster(roster)
     column = names.choose_key(key)
     write_names(course, names, column)
-    console.print(f"{len(names.rows)} students are in the gradebook, by {column}")
+    console.print(f"the gradebook has {plural(len(names.rows), 'student')}, by {column}")
 
 
 @app.command("gradescope")

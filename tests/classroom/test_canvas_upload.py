@@ -92,7 +92,7 @@ def test_a_first_run_sends_nothing_and_a_second_run_nothing_again(lab: Path, ser
     said, status = upload(lab, "--send")
     assert "4 sent, 0 unchanged, 2 skipped" in said and status == 1
     assert "Finn, A (finn): skipped, Canvas has no student 6" in said
-    assert "eve: no mark yet, engine must be graded by hand" in said
+    assert "eve: no mark yet, needs manual review: engine" in said
     assert scores(server) == [2.5, 6.0, 10.0, 0.0, None]  # those of the gradebook
     said, _ = upload(lab, "--send")
     assert "0 sent, 4 unchanged" in said and server.graded == [1, 2, 3, 4]

@@ -113,6 +113,14 @@ def test_another_course_over_results_is_refused_unless_it_is_wanted(place: Path)
     assert "3 submissions" in call_class("grade", lab, "--other-course")
 
 
+def test_commands_that_a_message_names_can_be_typed(place: Path):
+    spaced = place / "lab 5"
+    assert f"grader class grade '{spaced}'" in call_class("new", spaced)
+    assert f"grader class new '{place / 'no lab'}' --roster" in call_class(
+        "grade", place / "no lab"
+    )
+
+
 def test_lines_that_a_person_wrote_stay(place: Path):
     lab = make(place)
     file = lab / "class.toml"
@@ -157,10 +165,10 @@ def test_what_needs_review_names_the_file_of_decisions_and_takes_them(place: Pat
     classes.put(place / "export" / "dora.zip", b"PK broken")
     lab = make(place)
     (place / "export").rename(lab / "submissions")
-    assert f"1 need manual review: set points in {lab / 'decisions.toml'}" in call_class(
+    assert f"1 needs manual review: set points in {lab / 'decisions.toml'}" in call_class(
         "grade", lab
     )
     decision = '[[adjust]]\nstudent = "Dora Lee"\npoints = 9\nreason = "shown in the lab"\n'
     (lab / "decisions.toml").write_text(decision, encoding="utf-8")
-    assert "need manual review" not in call_class("grade", lab)
+    assert "manual review" not in call_class("grade", lab)
     assert "4 of 4 marks" in call_class("marks", lab)
