@@ -3,6 +3,7 @@
 import shlex
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import classes
@@ -181,9 +182,29 @@ def test_a_wrong_call_ends_in_a_sentence_before_any_work(call: str, place: Path)
     ],
 )
 def test_make_does_not_pass_over_what_it_does_not_know(call: str, words: str):
-    command = ["make", "--dry-run", *call.split()]
-    done = subprocess.run(command, cwd=KIT, capture_output=True, text=True)
+    done = call_make(KIT, call)
     assert done.returncode == 2 and words in done.stderr and not done.stdout
+
+
+def call_make(folder: Path, call: str) -> "subprocess.CompletedProcess[str]":
+    command = ["make", "--dry-run", *call.split()]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True)
+
+
+@needs_make
+@pytest.mark.parametrize("call", ["check TOD=3", "check al=1", "hint TODO=3 LEVL=2"])
+def test_make_of_students_does_not_pass_over_what_it_does_not_know(call: str):
+    done = call_make(KIT / "starter", call)
+    assert done.returncode == 2 and "; it knows PYTHON TODO ALL" in done.stderr
+    assert call_make(KIT / "starter", "check TODO=3 ALL=1 PYTHON=python3").returncode == 0
+    assert call_make(KIT / "starter", "check todo=3").returncode == 0
+
+
+def test_a_missing_package_is_a_sentence():
+    command = [sys.executable, "-S", "-m", "grader", "class", "grade", "lab3"]
+    done = subprocess.run(command, cwd=KIT, capture_output=True, text=True)
+    assert done.returncode == 2 and "is not installed for" in done.stderr
+    assert "make setup" in done.stderr and "Traceback" not in done.stderr
 
 
 @needs_make
