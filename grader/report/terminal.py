@@ -105,7 +105,7 @@ def locate_replay(
     if path is None:
         return [], []
     rerun, replay = (
-        wrap(f"{' ' * MARGIN}{name:<{NAMES}}{words}", console, indent=2, whole=True)
+        wrap_command(f"{' ' * MARGIN}{name:<{NAMES}}", words, console)
         for name, words in (
             ("Run it", f"{python_command()} {path.removesuffix('.html')}.py"),
             ("See it", path),
@@ -228,6 +228,12 @@ def wrap(words: str, console: Console, indent: int = 0, whole: bool = False) -> 
         break_on_hyphens=False,
         break_long_words=not whole,
     )
+
+
+def wrap_command(name: str, words: str, console: Console) -> list[str]:
+    """Return a named command on one line, so that it can be copied; the name may stand above."""
+    line = name + words
+    return [line] if len(line) <= min(console.width, MAX_COLUMNS) else [name.rstrip(), f"  {words}"]
 
 
 def write(line: str, console: Console, style: str = "") -> None:

@@ -19,6 +19,7 @@ from grader.judge.rubric import load_rubric
 from grader.judge.task import KIT, Options
 from grader.judge.wording import command
 from grader.report.progress import CheckProgress
+from grader.report.terminal import wrap_command
 from grader.source.definitions import statements
 from grader.source.regions import replace_regions, shape_of
 
@@ -75,7 +76,8 @@ def test_a_check_leaves_replays_of_what_failed_and_nothing_else(hand_in, monkeyp
     monkeypatch.chdir(tree / "mini_engine")
     monkeypatch.setenv("COLUMNS", "200")
     out = check(Path(), "8b")
-    assert max(map(len, out.splitlines())) <= 80
+    to_wrap = [line for line in out.splitlines() if not line.startswith("  python ")]
+    assert max(map(len, to_wrap)) <= 80
     assert re.search(r"^ {14}\S", out, re.MULTILINE)  # continuation lines are indented
     replays = re.findall(r"See it\s+(\S+)", out)
     assert replays and all(path.startswith("../build/replays/8b-") for path in replays)
@@ -220,6 +222,13 @@ def test_lines_fit_a_narrow_terminal(hand_in):
     in_one_piece = re.compile(r"/replays/|Run it|^(A hint|All): ")  # to be copied
     words = [line for line in narrow.splitlines() if not in_one_piece.search(line)]
     assert max(map(len, words)) <= 76
+
+
+def test_a_command_that_is_too_long_for_its_line_stays_in_one_piece():
+    console = Console(width=80)
+    assert wrap_command("    Run it    ", "python a.py", console) == ["    Run it    python a.py"]
+    path = f"python build/replays/1-{'a' * 60}.py"
+    assert wrap_command("    Run it    ", path, console) == ["    Run it", f"  {path}"]
 
 
 def test_the_path_of_a_replay_is_in_one_piece_and_fits():
