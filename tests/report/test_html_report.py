@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
 from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers
 
@@ -52,6 +53,16 @@ def little_replay() -> str:
 def written(tmp_path: Path, made: Result) -> Reader:
     write_report(made, tmp_path / "report.html")
     return Reader((tmp_path / "report.html").read_text(encoding="utf-8"))
+
+
+def test_a_reason_that_checks_share_is_shown_once(tmp_path: Path):
+    made = result(words="'(' was never closed")
+    failed = [each for todo in made.todos for each in todo.checks if each.state == "error"]
+    twin = msgspec.structs.replace(failed[0], id="twin", title="Twin title", ran="another call")
+    made.todos[2].checks.append(twin)
+    text = written(tmp_path, made).text
+    assert "Twin title" in text and "another call" not in text
+    assert text.count("same as above") == 1
 
 
 def test_all_of_the_result_is_there(tmp_path: Path):

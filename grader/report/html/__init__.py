@@ -9,6 +9,7 @@ from grader.judge.wall.isolation import list_unconfined
 from grader.judge.wording import list_reasons
 from grader.player.page import clean_line, fill_template
 from grader.report.files import write_whole
+from grader.report.terminal import group_checks
 from grader.text import defuse
 
 TEMPLATES = Path(__file__).with_name("templates")
@@ -72,7 +73,18 @@ def render(result: Result, replays: Mapping[str, str], standing: Standing | None
         clean=clean_line,
         harmless=defuse,
         reasons=list_reasons,
+        repeated=find_repeated(result),
     )
+
+
+def find_repeated(result: Result) -> set[tuple[str, str]]:
+    """Return the TODO and check of each failure whose reason an earlier check of the TODO shows."""
+    return {
+        (todo.id, check.id)
+        for todo in result.todos_to_show
+        for first, *others in group_checks(todo.failed)
+        for check in others
+    }
 
 
 def list_failed_first(result: Result) -> list[TodoResult]:
