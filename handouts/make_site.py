@@ -44,7 +44,7 @@ def sources(folder, instructors, course):
     lay_out_touch(HERE, pages)
     shutil.copytree(OURS, pages / "site", ignore=shutil.ignore_patterns("*.yml"))
     if instructors:
-        only_pages = shutil.ignore_patterns("*.py", "*.toml", "__pycache__")
+        only_pages = shutil.ignore_patterns("*.py", "__pycache__")
         shutil.copytree(HERE / "instructor", pages / "instructor", ignore=only_pages)
     there = {page.relative_to(pages).as_posix() for page in pages.rglob("*.md")}
     (folder / "mkdocs.yml").write_text(settings(instructors, there), encoding="utf-8")

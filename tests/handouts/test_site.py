@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
+from urllib.parse import unquote
 
 import pytest
 from page_readers import Reader, Screen, barriers
@@ -55,6 +56,15 @@ def test_pages_load_nothing_from_elsewhere(sites: Path, name: str) -> None:
             assert not re.match(r"(https?:)?//", source), f"{page.name} loads {source}"
             if not source.startswith("data:"):
                 assert (page.parent / source.partition("#")[0]).is_file(), source
+
+
+@pytest.mark.parametrize("name", ["students", "instructors"])
+def test_every_link_leads_to_a_file(sites: Path, name: str) -> None:
+    for page in pages(sites / name):
+        for tag, attributes in Reader(page.read_text(encoding="utf-8")).tags:
+            link = unquote((attributes.get("href") or "").partition("#")[0])
+            if tag == "a" and link and not re.match(r"\w+:", link):
+                assert (page.parent / link).exists(), f"{page.name}: {link}"
 
 
 def test_students_get_nothing_of_the_instructors_part(sites: Path) -> None:
