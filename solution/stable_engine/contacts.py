@@ -204,7 +204,7 @@ class Contacts(Detection):
                 same = nx * c.nx + ny * c.ny
                 if b.inv_mass == 0 and same < SAME_DIRECTION:
                     continue
-                if same < 0:
+                if same < 0 or distance > 2 * (a.r + b.r):
                     c.jn = c.jt = 0.0
                 c.nx, c.ny = nx, ny
                 c.set_arms(distance - a.r - b.r)
