@@ -192,8 +192,8 @@ class Contacts(Detection):
     def turn_normals(self) -> None:
         """Take over the normals of round bodies after the move, or their spin would not be kept.
 
-        Balls that have passed each other drop their impulses: taken back from behind, these would
-        add energy. From a static body, a ball leaves the way it came.
+        Balls that have passed each other, or are far apart, drop their impulses: taken back there,
+        these would add energy. From a static body, a ball leaves the way it came.
         """
         for c in self.round:
             a, b = c.a, c.b

@@ -141,6 +141,30 @@ def test_balls_do_not_leave_their_cells_through_lines(seed):
     do_all_stay(seed, 190 if seed in (119, 776) else 100, Lines)
 
 
+def test_balls_that_a_tight_spring_throws_apart_gain_no_energy_by_friction():
+    """In one substep they are flung further apart than both are wide."""
+    cells = Lines(94)
+    start = whole_energy(cells.world)
+    for dt, _ in zip(cells.steps(), range(78), strict=False):
+        cells.world.step(dt)
+        assert whole_energy(cells.world) < start
+
+
+def whole_energy(world):
+    """Return the energy (kg px²/s²) of all motion, of all heights and in all springs."""
+    gx, gy = world.g
+    moving = [ball for ball in world.bodies if ball.inv_mass]
+    energy = sum(
+        ball.m * ((ball.vx**2 + ball.vy**2) / 2 - gx * ball.x - gy * ball.y)
+        + ball.w**2 / ball.inv_inertia / 2
+        for ball in moving
+    )
+    for spring in world.effects["Springs"].joints:
+        stretch = math.dist(spring.end_a.pos, spring.end_b.pos) - spring.rest
+        energy += spring.k * stretch**2 / 2
+    return energy
+
+
 @pytest.mark.soak  # three minutes each
 @pytest.mark.parametrize("make", [Cells, Seams, Lines])
 def test_balls_stay_in_a_thousand_grids_of_cells(make):
