@@ -54,8 +54,8 @@ class Sleep(Effect):
         """Return the sleeping balls in contacts, and those against which these may be thrown."""
         touched = [(c, body) for c in contacts.touching for body in (c.a, c.b) if body.sleeps]
         found = dict.fromkeys([body for _, body in touched])
-        # px, the longest way in a step: a ball that is hit flies off at most twice as fast. Two that
-        # have passed each other do not close in any more, but did
+        # px, the longest way in a step: a ball that is hit flies off at most twice as fast. This is
+        # their whole speed, as those that have passed each other no longer close in
         speeds = [hypot(c.a.vx - c.b.vx, c.a.vy - c.b.vy) for c, _ in touched]
         far = 2 * max(speeds, default=0.0) * contacts.last_dt
         ahead = list(found) if far > contacts.touching_gap else []
