@@ -14,7 +14,8 @@ from .effect import Effect
 from .friction import Friction
 from .kinematics import Kinematics
 from .rays import RayHit
-from .rods import Rod, Rods
+from .rod import Rod
+from .rods import Rods
 from .shapes import Box, Circle, Segment
 from .sleep import Sleep
 from .springs import Spring, Springs

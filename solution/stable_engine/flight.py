@@ -6,7 +6,8 @@ from .body import Body, State, state_of
 from .contact import Contact
 from .contacts import Contacts
 from .cores import CORE
-from .rods import Frame, Rods
+from .frame import Frame
+from .rods import Rods
 from .springs import Spring, Springs
 from .sweep import first_stop
 

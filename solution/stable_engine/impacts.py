@@ -1,7 +1,6 @@
 """Impacts: their order, those at one moment, and the positions afterwards."""
 
 from bisect import insort
-from collections.abc import Sequence
 from heapq import heappop, heappush
 from math import hypot, inf, sqrt
 
@@ -12,11 +11,11 @@ from .contacts import Contacts
 from .cores import CORE
 from .detection import FAR
 from .flight import BEFORE, DEEPEST, Flight
+from .frame import Frame
+from .hit import Hit, Rub, resolve_at_once
 from .joint import Joint
-from .limits import Limited, solve_within
-from .network import Network
 from .order import balls_of
-from .rods import Frame, Rods
+from .rods import Rods
 from .soft import SAME_DIRECTION
 from .springs import Springs
 from .sweep import NO_HIT, first_stop, moment_of_touch
@@ -548,73 +547,6 @@ class Impacts:
         least = LEAST * max([hit.wanted - hit.speed() for hit in hits])
         resolve_at_once(hits, rods, least)
         resolve_at_once([Rub(hit) for hit in hits if hit.mu * hit.total], rods, least)
-
-
-class Hit(Limited):
-    """A contact whose impact is resolved together with others of the same moment."""
-
-    __slots__ = ("mu", "wanted")
-
-    def __init__(self, c: Contact, law: tuple[float, float]) -> None:
-        super().__init__(c)
-        self.m = c.mn
-        self.wanted, share = law  # px/s, the speed at which to separate
-        self.mu = c.mu * share
-
-
-class Rub(Hit):
-    """The friction of a contact after its impact: it slows the slip, as far as a limit."""
-
-    __slots__ = ()
-
-    def __init__(self, hit: Hit) -> None:
-        super().__init__(hit.c, (0.0, 0.0))
-        c = hit.c
-        c.set_arms(c.gap)
-        self.m = c.mt
-        self.nx, self.ny = -self.ny, self.nx
-        self.arm_a, self.arm_b = c.arm_a, c.arm_b
-        if self.end_a is not c.a:
-            self.arm_a, self.arm_b = c.arm_b, c.arm_a
-        self.high = hit.mu * hit.total
-        self.low = -self.high
-
-    def speed(self) -> float:
-        rims = self.end_a.w * self.arm_a + self.end_b.w * self.arm_b
-        return super().speed() - rims
-
-    def apply_impulse(self, j: float) -> None:
-        super().apply_impulse(j)
-        self.end_a.w -= self.arm_a * j * self.end_a.inv_inertia
-        self.end_b.w -= self.arm_b * j * self.end_b.inv_inertia
-
-
-class Moment:
-    """Rows and rods whose impulses belong to one moment."""
-
-    def __init__(self, rows: Sequence[Hit], rods: list[Joint]) -> None:
-        self.rows = rows
-        self.rods = rods
-
-    def aim(self) -> None:
-        """Set each row's pivot and rhs. Rods are to keep their lengths."""
-        for row in self.rows:
-            row.ask(row.wanted)
-        for rod in self.rods:
-            rod.ask(0.0)
-
-
-def resolve_at_once(rows: Sequence[Hit], rods: list[Joint], least: float) -> None:
-    """Give the rows the impulses that they need together."""
-    if len(rows) == 1 and not rods:
-        row = rows[0]
-        row.ask(row.wanted)
-        row.take(max(row.low, min(row.rhs * row.m, row.high)), True)
-    elif rows:
-        moment = Moment(rows, rods)
-        network: Network[Joint] = Network([*rows, *rods])
-        for _ in range(2):  # the second takes back what firmness has left
-            solve_within(network, rows, moment.aim, least, True)
 
 
 def seen_from_start(a: Body, b: Body) -> tuple[float, float, float]:
