@@ -6,8 +6,6 @@ from .contact import Contact
 from .contacts import RESTING_SPEED, Contacts
 from .effect import Effect
 from .impacts import Impacts
-from .rods import Rods
-from .springs import Springs
 
 RESTING_STEPS = 3.7  # impacts slower than gravity's speed after so many do not bounce
 FAR_APART = 1e6  # radii: no step takes a ball as far
@@ -21,15 +19,12 @@ class Bounce(Effect):
     so what is drawn has bounced. Slower contacts stay with the solver, or a resting ball would hop.
     """
 
-    __slots__ = ("contacts", "rods", "slow", "springs")
+    __slots__ = ("contacts", "slow")
     rank = 6
 
     def attach(self) -> None:
         self.contacts: Contacts = self.world.need("Contacts", self)
         self.contacts.lets_none_pass = True
-        rods, springs = self.world.effects.get("Rods"), self.world.effects.get("Springs")
-        self.rods = rods if isinstance(rods, Rods) else None
-        self.springs = springs if isinstance(springs, Springs) else None
 
     def is_used(self) -> bool:
         return any(body.e > 0 for body in self.world.bodies)
@@ -42,7 +37,7 @@ class Bounce(Effect):
         touching, slow, lands = self.contacts.touching, self.slow, self.contacts.lands
         if not self.contacts.begun and all([abs(c.closing_speed()) <= slow for c in touching]):
             return
-        impacts = Impacts(self.contacts, self.rods, self.springs, slow, h)
+        impacts = Impacts(self.contacts, slow, h)
         impacts.find()
         if impacts.due:
             impacts.resolve_all()

@@ -6,7 +6,6 @@ from .body import Body, State, state_of
 from .contact import Contact, collide, the_way_it_came
 from .detection import Detection, pair_number
 from .soft import SAME_DIRECTION
-from .springs import Springs
 from .sweep import NO_HIT, first_hit, put_back
 
 CORE = 0.5  # radii
@@ -21,13 +20,11 @@ class Cores:
     the ball, so that a sliding ball does not catch on a seam.
     """
 
-    __slots__ = ("contacts", "springs", "world")
+    __slots__ = ("contacts", "world")
 
     def __init__(self, contacts: Detection) -> None:
         self.contacts = contacts
         self.world = contacts.world
-        springs = self.world.effects.get("Springs")
-        self.springs = springs if isinstance(springs, Springs) else None
 
     def keep_out(self, h: float) -> None:
         """Put balls back whose cores met a static body in this step, or are in one."""
@@ -130,8 +127,9 @@ class Cores:
     def pull(self, body: Body) -> tuple[float, float]:
         """Return the acceleration of a body (px/s²) by gravity, forces and soft springs."""
         x, y = self.world.acceleration(body)
-        if self.springs and body.joint_count:
-            by_x, by_y = self.springs.pull(body, self.contacts.h)
+        springs = self.contacts.springs
+        if springs and body.joint_count:
+            by_x, by_y = springs.pull(body, self.contacts.h)
             x, y = x + by_x, y + by_y
         return x, y
 

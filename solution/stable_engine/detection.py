@@ -10,6 +10,7 @@ from .effect import Effect
 from .order import Group
 from .rods import Rods
 from .soft import SAME_DIRECTION
+from .springs import Springs
 from .sweep import NO_HIT, hit_body, moment_of_touch
 from .validate import refuse
 
@@ -31,7 +32,7 @@ class Detection(Effect):
         *("on_hit", "on_part", "hits", "parted", "touching", "begun", "changed", "lets_none_pass"),
         *("last_dt", "flying", "hit_ago", "stopped", "ends", "broad_phase", "crowd", "early"),
         *("beside_static", "on_rods", "rods", "balls", "statics", "groups", "unpaired", "ignored"),
-        *("h", "touching_gap", "slow", "begin_contact_hooks"),
+        *("h", "touching_gap", "slow", "springs", "begin_contact_hooks"),
     )
 
     def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:
@@ -68,8 +69,7 @@ class Detection(Effect):
         self.touching_gap = TOUCHING * self.world.unit  # px
         self.slow = SPECULATIVE_SPEED * self.world.unit  # px/s
         self.begin_contact_hooks = self.world.hooks["begin_contact"]
-        rods = self.world.effects.get("Rods")
-        self.rods = rods if isinstance(rods, Rods) else None
+        self.rods, self.springs = self.world.find(Rods), self.world.find(Springs)
 
     def detect(self, h: float) -> None:
         world, phase, dt = self.world, self.broad_phase, h * self.world.substep_count

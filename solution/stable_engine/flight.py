@@ -8,7 +8,7 @@ from .contacts import Contacts
 from .cores import CORE
 from .frame import Frame
 from .rods import Rods
-from .springs import Spring, Springs
+from .springs import Spring
 from .sweep import first_stop
 
 DEEPEST = 2.0  # radii that a ball may fly into a wall off which it will bounce
@@ -22,9 +22,8 @@ class Flight:
     With semi-implicit Euler a velocity lags half a substep behind the position.
     """
 
-    def __init__(
-        self, contacts: Contacts, rods: Rods | None, springs: Springs | None, h: float
-    ) -> None:
+    def __init__(self, contacts: Contacts, h: float) -> None:
+        rods, springs = contacts.rods, contacts.springs
         self.contacts = contacts
         self.world = contacts.world
         self.h = h  # s, of a substep
@@ -212,7 +211,7 @@ class Flight:
             return self.world.g
         x, y = self.world.acceleration(body)
         for spring in self.springs_of.get(body, []) if body not in self.stiff else []:
-            other = spring.end_b if body is spring.end_a else spring.end_a
+            other = spring.other_end(body)
             if other in self.stiff:
                 continue  # it does not fly along, so momentum would be lost
             there = state_of(other)

@@ -15,9 +15,7 @@ from .frame import Frame
 from .hit import Hit, Rub, resolve_at_once
 from .joint import Joint
 from .order import balls_of
-from .rods import Rods
 from .soft import SAME_DIRECTION
-from .springs import Springs
 from .sweep import NO_HIT, first_stop, moment_of_touch
 
 MOVED = 0.01  # radii; a ball that was hit and moved by less meets nothing new
@@ -58,9 +56,7 @@ class Impacts:
     pass an impact on at once: they are rows beside the contacts, and all are solved together.
     """
 
-    def __init__(
-        self, contacts: Contacts, rods: Rods | None, springs: Springs | None, slow: float, h: float
-    ) -> None:
+    def __init__(self, contacts: Contacts, slow: float, h: float) -> None:
         self.touching = contacts.touching
         self.begun = set(contacts.begun)
         self.contacts = contacts
@@ -76,7 +72,7 @@ class Impacts:
         self.stops: dict[Body, State] = {}  # where walls stopped balls that `passes` let fly on
         self.beside: dict[Body, list[Contact]] = {}  # the contacts of each ball
         self.near: dict[Body, list[Pair]] = {}  # of balls that were hit
-        self.flight = Flight(contacts, rods, springs, h)
+        self.flight = Flight(contacts, h)
         self.frame_of = self.flight.frame_of
         self.number = 0  # of impacts found so far
         self.turned: list[Contact] = []  # contacts with the normal of their touch

@@ -71,6 +71,10 @@ class Joint:
         """
         return self.given
 
+    def other_end(self, body: Body) -> Body:
+        """Return the body at the other end."""
+        return self.end_b if body is self.end_a else self.end_a
+
     def fitting(self, length: float) -> float:
         """Return a length as a float. Raises ValueError if the joint cannot have it."""
         return not_negative(f"{type(self).__name__}.length", length)

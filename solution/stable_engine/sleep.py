@@ -32,25 +32,28 @@ class Sleep(Effect):
     its balls or joints, a static body that it touches or hangs on, or the gravity.
     """
 
-    __slots__ = ("rates", "shaken", "since", "steps", "supported", "wait")
+    __slots__ = ("contacts", "rates", "shaken", "since", "steps", "supported", "wait")
     rank = 4
 
     def __init__(self) -> None:
         self.since, self.steps = 0.0, 0  # s and steps since the last check
         self.wait = FIRST_LOOK  # steps from there to the next one
 
+    def attach(self) -> None:
+        self.contacts = self.world.find(Contacts)
+
     def detect(self, h: float) -> None:
         """Wake islands that an awake ball touches or may reach through others in this step."""
         world = self.world
         if len(world.awake) + len(world.statics) == len(world.bodies):
             return
-        contacts = world.effects.get("Contacts")
-        while isinstance(contacts, Contacts) and (touched := self.sleepers(contacts)):
+        contacts = self.contacts
+        while contacts and (touched := self.find_sleepers(contacts)):
             for body in touched:
                 body.wake()
             contacts.detect(h)
 
-    def sleepers(self, contacts: Contacts) -> list[Body]:
+    def find_sleepers(self, contacts: Contacts) -> list[Body]:
         """Return the sleeping balls in contacts, and those against which these may be thrown."""
         touched = [(c, body) for c in contacts.touching for body in (c.a, c.b) if body.sleeps]
         found = dict.fromkeys([body for _, body in touched])
@@ -107,8 +110,7 @@ class Sleep(Effect):
         """Put islands to sleep that lie still."""
         self.rates: dict[Body, float] = {}
         self.world.call("drag", self.rates)
-        contacts = self.world.effects.get("Contacts")
-        pile = contacts.balls.contacts if isinstance(contacts, Contacts) else []
+        pile = self.contacts.balls.contacts if self.contacts else []
         self.shaken = {body for c in pile for body in (c.a, c.b)}
         still = [i for i in self.find_islands() if self.is_still(i)]
         for island in still:

@@ -158,8 +158,7 @@ class Springs(Joints[Spring]):
         x = y = 0.0
         for spring in self.springs_of.get(body, []):
             if not spring.is_stiff(h):
-                other = spring.end_b if body is spring.end_a else spring.end_a
-                fx, fy = spring.pull_between(state_of(body), state_of(other))
+                fx, fy = spring.pull_between(state_of(body), state_of(spring.other_end(body)))
                 x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
         return x, y
 

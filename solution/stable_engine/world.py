@@ -18,6 +18,7 @@ HOOKS = [name for name in vars(Effect) if not name.startswith("_")]
 SUBSTEP = ("force", "warm_start", "solve", "press", "lag", "relax")  # hooks of the substeps
 
 Thing = TypeVar("Thing", bound=Body | Joint)
+Kind = TypeVar("Kind", bound=Effect)
 
 
 class World:
@@ -92,6 +93,11 @@ class World:
                 f"Declare it: World(effects=[..., {name}()])."
             )
         return self.effects[name]
+
+    def find(self, kind: type[Kind]) -> Kind | None:
+        """Return the effect of that class, or None if the scene does not declare it."""
+        effect = self.effects.get(kind.__name__)
+        return effect if isinstance(effect, kind) else None
 
     def __repr__(self) -> str:
         names = ", ".join(f"{name}()" for name in self.effects)
