@@ -39,7 +39,7 @@ class Bounce(Effect):
             return
         impacts = Impacts(self.contacts, slow, h)
         impacts.find()
-        if impacts.due:
+        if impacts.queue.due:
             impacts.resolve_all()
             for c in impacts.met:  # only the next step may push balls apart or stop them
                 if not c.b.is_static:

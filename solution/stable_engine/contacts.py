@@ -1,9 +1,9 @@
 """Contacts: bodies do not pass through each other."""
 
-from math import hypot, sqrt
+from math import hypot
 
 from .body import Body
-from .contact import Contact
+from .contact import Contact, turn_normals
 from .cores import Cores
 from .crowd import gather_crowd, part_crowd
 from .detection import REDETECT_DISTANCE, Detection, OnHit, OnPart
@@ -11,7 +11,7 @@ from .effect import Direction
 from .order import Group, give_places, put_in_order
 from .pile import Pile, Stage
 from .piles import BEARING, find_piles
-from .soft import SAME_DIRECTION, Pace, softness
+from .soft import Pace, softness
 from .unload import take_off
 
 FREQUENCY = 0.24  # of a contact of two balls, per substep; against a static body it is doubled
@@ -178,7 +178,7 @@ class Contacts(Detection):
 
     def relax(self, h: float) -> None:
         if self.changed:
-            self.turn_normals()
+            turn_normals(self.round)
         for group in self.groups:
             self.stop(group, group.in_turn, h)
             for tie in group.ties:
@@ -188,26 +188,6 @@ class Contacts(Detection):
             for pile in self.piles:
                 if pile.rods or not self.has_friction:  # else friction settles it
                     pile.settle(self.stage)
-
-    def turn_normals(self) -> None:
-        """Take over the normals of round bodies after the move, or their spin would not be kept.
-
-        Balls that have passed each other, or are far apart, drop their impulses: taken back there,
-        these would add energy. From a static body, a ball leaves the way it came.
-        """
-        for c in self.round:
-            a, b = c.a, c.b
-            dx, dy = b.x - a.x, b.y - a.y
-            distance = sqrt(dx * dx + dy * dy)
-            if distance > 0:
-                nx, ny = dx / distance, dy / distance
-                same = nx * c.nx + ny * c.ny
-                if b.inv_mass == 0 and same < SAME_DIRECTION:
-                    continue
-                if same < 0 or distance > 2 * (a.r + b.r):
-                    c.jn = c.jt = 0.0
-                c.nx, c.ny = nx, ny
-                c.set_arms(distance - a.r - b.r)
 
     def stop(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Stop bodies that still come together, and take back the speed of a push."""

@@ -3,7 +3,7 @@
 from math import hypot, inf
 
 from .body import Body, State, state_of
-from .contact import Contact, collide, the_way_it_came
+from .contact import Contact, collide, leave_as_entered
 from .detection import Detection, pair_number
 from .soft import SAME_DIRECTION
 from .sweep import NO_HIT, first_hit, put_back
@@ -64,7 +64,7 @@ class Cores:
         unless the ball went through the body.
         """
         a, b = c.a, c.b
-        nx, ny, now = the_way_it_came(c, *collide(a, b))
+        nx, ny, now = leave_as_entered(c, *collide(a, b))
         if nx * c.nx + ny * c.ny < SAME_DIRECTION and self.went_through(c):
             nx, ny, now = c.nx, c.ny, gap
         back = min(c.found, -CORE * a.r) - now
@@ -78,10 +78,10 @@ class Cores:
         ways.remove((back, closing, nx, ny))
         if ways:
             back_2, closing_2, x, y = max(ways)
-            back, back_2 = parts(back, back_2, nx * x + ny * y)
-            closing, closing_2 = parts(closing, closing_2, nx * x + ny * y)
-            push(body, x, y, back_2, closing_2)
-        push(body, nx, ny, back, closing)
+            back, back_2 = split(back, back_2, nx * x + ny * y)
+            closing, closing_2 = split(closing, closing_2, nx * x + ny * y)
+            move_out(body, x, y, back_2, closing_2)
+        move_out(body, nx, ny, back, closing)
 
     def went_through(self, c: Contact) -> bool:
         """Return whether the centre of a ball was in a static body at any time in this step."""
@@ -134,7 +134,7 @@ class Cores:
         return x, y
 
 
-def push(body: Body, nx: float, ny: float, back: float, closing: float) -> None:
+def move_out(body: Body, nx: float, ny: float, back: float, closing: float) -> None:
     """Move a ball back (px) along a normal, and take a speed (px/s) along it away."""
     body.x -= nx * back
     body.y -= ny * back
@@ -142,7 +142,7 @@ def push(body: Body, nx: float, ny: float, back: float, closing: float) -> None:
     body.vy -= ny * closing
 
 
-def parts(one: float, other: float, cosine: float) -> tuple[float, float]:
+def split(one: float, other: float, cosine: float) -> tuple[float, float]:
     """Return the lengths along two directions that together reach as far along both as asked."""
     rest = 1 - cosine * cosine
     if one <= cosine * other or rest < SEAM:

@@ -5,7 +5,7 @@ from math import inf, sqrt
 
 from .body import Body, State
 from .broad_phase import BroadPhase, Pair
-from .contact import Contact, collide, the_way_it_came
+from .contact import Contact, collide, leave_as_entered
 from .effect import Effect
 from .order import Group
 from .rods import Rods
@@ -176,7 +176,7 @@ class Detection(Effect):
             if c is None:
                 c = pair.contact = self.make_contact(a, b, nx, ny)
             if not b.r:
-                nx, ny, gap = the_way_it_came(c, nx, ny, gap)
+                nx, ny, gap = leave_as_entered(c, nx, ny, gap)
             if nx * c.nx + ny * c.ny < SAME_DIRECTION:
                 c.jn = c.jt = 0.0
             c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap

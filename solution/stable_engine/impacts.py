@@ -1,44 +1,25 @@
 """Impacts: their order, those at one moment, and the positions afterwards."""
 
-from bisect import insort
-from heapq import heappop, heappush
 from math import hypot, inf, sqrt
 
 from .body import Body, State, state_of
 from .broad_phase import Pair
-from .contact import Contact, collide, is_at_face, the_way_it_came
+from .contact import Contact, collide, is_at_face, leave_as_entered
 from .contacts import Contacts
 from .cores import CORE
 from .detection import FAR
 from .flight import BEFORE, DEEPEST, Flight
 from .frame import Frame
 from .hit import Hit, Rub, resolve_at_once
+from .impact_queue import ImpactQueue
 from .joint import Joint
 from .order import balls_of
 from .soft import SAME_DIRECTION
 from .sweep import NO_HIT, first_stop, moment_of_touch
 
 MOVED = 0.01  # radii; a ball that was hit and moved by less meets nothing new
-MOST_IMPACTS = 100  # of a contact in one step
 ARC = 1.1  # ratio by which the touch may lie further back for flights on an arc
-SAME = 1e-6  # share by which the speeds of mirrored impacts may differ
 LEAST = 1e-9  # share of the speed of the hardest impact of a moment; less may be left
-
-Entry = tuple[float, int, Contact]  # in a queue: s from now, so below 0, and an impact's number
-
-
-class Impact:
-    """An impact that is due: how long ago (s) the two touched, and their closing speed (px/s).
-
-    number tells it from others of the same contact.
-    """
-
-    __slots__ = ("ago", "number", "speed")
-
-    def __init__(self, ago: float, speed: float, number: int) -> None:
-        self.ago = ago
-        self.speed = speed
-        self.number = number
 
 
 class Impacts:
@@ -64,17 +45,12 @@ class Impacts:
         self.dt = h * contacts.world.substep_count  # s
         self.reach = contacts.slow * self.dt  # px, a gap that slow ones close at once
         self.slow = slow  # px/s, slower impacts are ignored
-        self.due: dict[Contact, Impact] = {}
-        self.queue: list[Entry] = []  # of those due, the earliest first
-        self.early: list[Entry] = []  # of those due, at the moment that was taken last
-        self.counts: dict[Contact, int] = {}  # of impacts so far
-        self.fastest = 0.0  # px/s, of all impacts
+        self.queue = ImpactQueue(self.touching_gap)
         self.stops: dict[Body, State] = {}  # where walls stopped balls that `passes` let fly on
         self.beside: dict[Body, list[Contact]] = {}  # the contacts of each ball
         self.near: dict[Body, list[Pair]] = {}  # of balls that were hit
         self.flight = Flight(contacts, h)
         self.frame_of = self.flight.frame_of
-        self.number = 0  # of impacts found so far
         self.turned: list[Contact] = []  # contacts with the normal of their touch
         self.met: list[Contact] = []  # contacts that began through an impact
 
@@ -110,7 +86,7 @@ class Impacts:
         self.put(body, end)
         for c in walls:
             self.look(c, c in self.begun)
-        known = {c for c in walls if c in self.due and self.due[c].ago > 0}
+        known = {c for c in walls if c in self.queue.due and self.queue.due[c].ago > 0}
         sunk = [c for c in walls if self.sunk(c) > self.touching_gap]
         if known and known.issuperset(sunk):
             self.stops[body] = stop
@@ -134,7 +110,7 @@ class Impacts:
 
     def look(self, c: Contact, is_new: bool = False) -> None:
         """Note an impact if the pair closes in fast, or did before it passed each other."""
-        self.due.pop(c, None)
+        self.queue.due.pop(c, None)
         speed, ago = c.closing_speed(), 0.0
         if not is_new and (speed <= self.slow or self.is_open(c)):
             return
@@ -145,11 +121,8 @@ class Impacts:
             if speed <= self.slow:
                 c.nx, c.ny, c.gap = now
         is_late = ago > 0 or not self.is_open(c)
-        if speed > self.slow and is_late and self.counts.get(c, 0) < MOST_IMPACTS:
-            self.number += 1
-            self.due[c] = Impact(ago, speed, self.number)
-            heappush(self.queue, (-ago, self.number, c))
-            self.fastest = max(self.fastest, speed)
+        if speed > self.slow and is_late:
+            self.queue.add(c, ago, speed)
 
     def is_open(self, c: Contact) -> bool:
         """Return whether a pair is still to meet: they are apart, far or fast."""
@@ -217,7 +190,7 @@ class Impacts:
         """Resolve all impacts, and those that they cause, until no pair closes in fast."""
         if not self.beside:
             self.link(self.touching)
-        while self.due:
+        while self.queue.due:
             self.resolve_first()
         self.put_back(list(self.stops))
         for c in self.turned:
@@ -281,7 +254,9 @@ class Impacts:
 
     def resolve_first(self) -> None:
         """Resolve the first impacts, and find those that they cause."""
-        group, ago = self.take_first()
+        group, ago = self.queue.take_first()
+        for c in group if self.contacts.crowd else []:
+            self.contacts.crowd.pop(c, None)  # they overlapped because they met
         if len(group) == 1 and self.is_alone(group[0]):
             hit = self.resolve_alone(group[0], ago)
         else:
@@ -416,7 +391,7 @@ class Impacts:
             x, y, far = body.x - body.last_x, body.y - body.last_y, MOVED * body.r
             if x * x + y * y > far * far:
                 if body not in self.near:
-                    balls = [*hit, *balls_of(list(self.due))]
+                    balls = [*hit, *balls_of(list(self.queue.due))]
                     balls = [ball for ball in balls if ball not in self.near]
                     self.near.update(self.contacts.broad_phase.pairs_of(balls))
                 for pair in self.near[body]:
@@ -464,43 +439,6 @@ class Impacts:
             self.faces[c] = c.nx, c.ny, reach
             if c.jn > 0 and abs(c.closing_speed()) <= self.slow:
                 self.flight.bearing.setdefault(c.a, []).append(c)
-
-    def take_first(self) -> tuple[list[Contact], float]:
-        """Return the hardest of the earliest impacts, and how long (s) ago they touched."""
-        due = self.due
-        early = self.find_early()
-        earliest = early[0][0]
-        group = [early[0][2]]
-        self.early = []
-        if len(early) > 1:
-            # touching_gap in px/s as well: rounding would decide between slow ones
-            hard = max([due[c].speed for _, _, c in early])
-            hard -= max(SAME * hard, self.touching_gap)
-            group = [c for _, _, c in early if due[c].speed >= hard]
-            self.early = [entry for entry in early if due[entry[2]].speed < hard]
-        for c in group:
-            if self.contacts.crowd:
-                self.contacts.crowd.pop(c, None)  # they overlapped because they met
-            del due[c]
-            self.counts[c] = self.counts.get(c, 0) + 1
-        return group, -earliest
-
-    def find_early(self) -> list[Entry]:
-        """Return the earliest impacts, in order: first those left of the moment before."""
-        queue, fastest, gap = self.queue, self.fastest, self.touching_gap
-        early = [entry for entry in self.early if self.is_due(entry)]
-        while queue and (not early or (queue[0][0] - early[0][0]) * fastest <= gap):
-            entry = heappop(queue)
-            if self.is_due(entry):
-                insort(early, entry)
-        while (early[-1][0] - early[0][0]) * fastest > gap:
-            heappush(queue, early.pop())
-        return early
-
-    def is_due(self, entry: Entry) -> bool:
-        """Return whether an entry of the queue is neither over nor found anew."""
-        impact = self.due.get(entry[2])
-        return impact is not None and impact.number == entry[1]
 
     def frames_of(self, group: list[Contact]) -> list[Frame]:
         """Return each frame of rods that a ball of these contacts is in."""
@@ -551,7 +489,7 @@ def seen_from_start(a: Body, b: Body) -> tuple[float, float, float]:
     a.x, a.y = a.last_x, a.last_y
     before.nx, before.ny, _ = collide(a, b)
     a.x, a.y = x, y
-    return the_way_it_came(before, *collide(a, b))
+    return leave_as_entered(before, *collide(a, b))
 
 
 def speed_at_touch(c: Contact, closing: float, g: float, lag: float) -> float:
