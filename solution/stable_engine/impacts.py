@@ -8,6 +8,7 @@ from .contact import Contact, collide, is_at_face, leave_as_entered
 from .contacts import Contacts
 from .cores import CORE
 from .detection import FAR
+from .faces import Faces
 from .flight import BEFORE, DEEPEST, Flight
 from .frame import Frame
 from .hit import Hit, Rub, resolve_at_once
@@ -51,12 +52,13 @@ class Impacts:
         self.near: dict[Body, list[Pair]] = {}  # of balls that were hit
         self.flight = Flight(contacts, h)
         self.frame_of = self.flight.frame_of
+        self.faces = Faces(self.flight, slow)
         self.turned: list[Contact] = []  # contacts with the normal of their touch
         self.met: list[Contact] = []  # contacts that began through an impact
 
     def find(self) -> None:
         """Find all impacts. For a new contact, the moment of its touch counts."""
-        self.find_faces()
+        self.faces.find(self.touching)
         if self.contacts.ends:
             self.let_pass()
         for c in self.touching:
@@ -87,7 +89,7 @@ class Impacts:
         for c in walls:
             self.look(c, c in self.begun)
         known = {c for c in walls if c in self.queue.due and self.queue.due[c].ago > 0}
-        sunk = [c for c in walls if self.sunk(c) > self.touching_gap]
+        sunk = [c for c in walls if self.faces.added_depth(c) > self.touching_gap]
         if known and known.issuperset(sunk):
             self.stops[body] = stop
             return True
@@ -106,7 +108,7 @@ class Impacts:
         if body in self.flight.before:
             self.flight.before[body] = state
         for c in self.beside.get(body, []):
-            self.look_where(c)
+            self.faces.look(c)
 
     def look(self, c: Contact, is_new: bool = False) -> None:
         """Note an impact if the pair closes in fast, or did before it passed each other."""
@@ -163,7 +165,7 @@ class Impacts:
         closing = c.closing_speed()
         speed = (speed_at_touch(c, closing, g, lag) + closing + lag) / 2
         deeper = -c.gap - speed * since
-        before = min(self.depths.get(c, 0.0), 0.0)
+        before = min(self.faces.depths.get(c, 0.0), 0.0)
         if c.gap >= 0 or deeper > self.touching_gap + abs(g) * since * since - before:
             return 0.0
         return since if deeper >= 0 else -c.gap / speed
@@ -195,12 +197,12 @@ class Impacts:
         self.put_back(list(self.stops))
         for c in self.turned:
             self.turn_on(c, 0.0)
-        for c in self.faces:
-            self.look_where(c)
-        deep = [c for c in self.faces if c.gap < 0]
+        for c in self.faces.normals:
+            self.faces.look(c)
+        deep = [c for c in self.faces.normals if c.gap < 0]
         for c in sorted(deep, key=lambda c: c.gap) if deep else []:
-            self.look_where(c)
-            self.lift(c)
+            self.faces.look(c)
+            self.faces.lift(c)
         self.flight.pass_on()
         self.keep_inside()
 
@@ -239,12 +241,12 @@ class Impacts:
     def resolve_alone(self, c: Contact, ago: float) -> list[Body]:
         """Resolve an impact, some seconds ago, that affects no other contact. Return its balls."""
         hit = [c.a] if c.b.is_static else [c.a, c.b]
-        is_free = c in self.faces and c.a not in self.flight.stiff
+        is_free = c in self.faces.normals and c.a not in self.flight.stiff
         is_stopped = is_free and self.contacts.was_stopped(c.a)
         if ago > 0 and (is_stopped or self.flight.can_all_go_back(hit)):
             late = self.contacts.last_dt - self.contacts.stopped.pop(c.a) if is_stopped else 0.0
             self.resolve_at_touch([c], hit, ago, [], late)
-            self.look_where(c)
+            self.faces.look(c)
             for body in hit:
                 self.contacts.note_impact(body, ago + late)
         else:
@@ -314,7 +316,7 @@ class Impacts:
         for body in hit if self.stops else []:
             self.stops.pop(body, None)
         for c in group:
-            self.look_where(c)
+            self.faces.look(c)
         self.resolve(group, frames)
         for wall, (x, y) in walls.items():
             wall.x, wall.y = x, y
@@ -327,39 +329,8 @@ class Impacts:
         around = list(dict.fromkeys([c for body in hit for c in self.beside[body]]))
         for c in around:
             if ago > 0:
-                self.look_where(c)
+                self.faces.look(c)
             self.look(c, is_new=ago > 0)
-
-    def lift(self, c: Contact) -> None:
-        """Put a ball onto a face that stops it, but not higher than it was at first.
-
-        One that leaves the face pays with its speed, as if it had risen there.
-        """
-        up = self.sunk(c)
-        if up > 0:
-            g, lag = self.flight.pull(c)
-            speed = -c.closing_speed() - lag
-            if speed > 0:
-                slower = speed - sqrt(max(speed * speed - 2 * g * up, 0.0))
-                c.a.vx += c.nx * slower
-                c.a.vy += c.ny * slower
-            c.a.x -= c.nx * up
-            c.a.y -= c.ny * up
-            c.gap = c.found = c.gap + up
-
-    def sunk(self, c: Contact) -> float:
-        """Return by how much (px) a ball is deeper in a face than it was at first."""
-        return min(self.depths[c], 0.0) - c.gap
-
-    def look_where(self, c: Contact) -> None:
-        """Find normal and gap of a contact anew. A ball stays on its side of a face."""
-        nx, ny, gap = collide(c.a, c.b)
-        if c in self.faces:
-            face_x, face_y, reach = self.faces[c]
-            below = (c.b.x - c.a.x) * face_x + (c.b.y - c.a.y) * face_y - reach
-            if below < 0 and nx * face_x + ny * face_y < SAME_DIRECTION:
-                nx, ny, gap = face_x, face_y, below
-        c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
 
     def link(self, contacts: list[Contact]) -> None:
         """Add to the contacts of each ball, and to the balls that static bodies hold."""
@@ -367,7 +338,7 @@ class Impacts:
             self.beside.setdefault(c.a, []).append(c)
             if not c.b.is_static:
                 self.beside.setdefault(c.b, []).append(c)
-            elif c not in self.faces or c.a.is_bullet:
+            elif c not in self.faces.normals or c.a.is_bullet:
                 self.flight.held.add(c.a)
 
     def follow(self, moved: list[Body]) -> None:
@@ -401,7 +372,7 @@ class Impacts:
         self.met += met
         self.begun.update(met)
         for c in met:
-            self.note_face(c, 0.0)
+            self.faces.note(c, 0.0)
         self.link(met)
         for body in hit:
             end = self.flight.cut_short.get(body)
@@ -420,25 +391,6 @@ class Impacts:
                 return
             if gap < 0 or self.contacts.have_passed(a, b, gap):
                 met.append(self.contacts.meet(pair, nx, ny, gap))
-
-    def find_faces(self) -> None:
-        """Find the contacts at flat faces, and the faces that bear balls."""
-        # their normals, and how far (px) along it the centres are at a touch
-        self.faces: dict[Contact, tuple[float, float, float]] = {}
-        self.depths: dict[Contact, float] = {}  # px, the gap before
-        for c in self.touching:
-            self.note_face(c, c.gap)
-
-    def note_face(self, c: Contact, depth: float) -> None:
-        """Note the face that a ball is at, if any, and the gap before (px) as its depth."""
-        if c.b.is_static and is_at_face(c) and c.a not in self.flight.pivots:
-            self.depths[c] = depth
-            if not c.a.is_bullet:
-                self.flight.walls.setdefault(c.a, []).append(c.b)
-            reach = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
-            self.faces[c] = c.nx, c.ny, reach
-            if c.jn > 0 and abs(c.closing_speed()) <= self.slow:
-                self.flight.bearing.setdefault(c.a, []).append(c)
 
     def frames_of(self, group: list[Contact]) -> list[Frame]:
         """Return each frame of rods that a ball of these contacts is in."""
