@@ -34,7 +34,7 @@ class Bounce(Effect):
 
     def impact(self, h: float) -> None:
         self.slow = self.slow_speed(h * self.world.substep_count)
-        touching, slow, lands = self.contacts.touching, self.slow, self.contacts.lands
+        touching, slow, lands = self.contacts.touching, self.slow, self.contacts.landings.lands
         if not self.contacts.begun and all([abs(c.closing_speed()) <= slow for c in touching]):
             return
         impacts = Impacts(self.contacts, slow, h)

@@ -7,11 +7,12 @@ from .body import Body, State
 from .broad_phase import BroadPhase, Pair
 from .contact import Contact, collide, leave_as_entered
 from .effect import Effect
+from .landings import Landings
 from .order import Group
 from .rods import Rods
 from .soft import SAME_DIRECTION
 from .springs import Springs
-from .sweep import NO_HIT, hit_body, moment_of_touch
+from .sweep import moment_of_touch
 from .validate import refuse
 
 # lengths are in units of the world, see World.unit
@@ -30,8 +31,8 @@ class Detection(Effect):
 
     __slots__ = (
         *("on_hit", "on_part", "hits", "parted", "touching", "begun", "changed", "lets_none_pass"),
-        *("last_dt", "flying", "hit_ago", "stopped", "ends", "broad_phase", "crowd", "early"),
-        *("beside_static", "on_rods", "rods", "balls", "statics", "groups", "unpaired", "ignored"),
+        *("last_dt", "flying", "hit_ago", "stopped", "ends", "broad_phase", "crowd"),
+        *("beside_static", "landings", "rods", "balls", "statics", "groups", "unpaired", "ignored"),
         *("h", "touching_gap", "slow", "springs", "begin_contact_hooks"),
     )
 
@@ -56,9 +57,6 @@ class Detection(Effect):
         self.ends: dict[Body, tuple[State, State]] = {}
         self.broad_phase = BroadPhase()
         self.crowd: dict[Contact, None] = {}  # of balls that part_crowd separates
-        # contacts of balls on rods that will touch: the speeds (px/s) at which they will meet
-        self.early: dict[Contact, float] = {}
-        self.on_rods: list[Pair] = []  # near pairs with a ball on rods, or on springs beside these
         self.beside_static: dict[Body, None] = {}  # balls that are near static bodies
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
         self.groups: list[Group] = []  # of these two, those with any contact
@@ -69,6 +67,7 @@ class Detection(Effect):
         self.touching_gap = TOUCHING * self.world.unit  # px
         self.slow = SPECULATIVE_SPEED * self.world.unit  # px/s
         self.begin_contact_hooks = self.world.hooks["begin_contact"]
+        self.landings = Landings(self)
         self.rods, self.springs = self.world.find(Rods), self.world.find(Springs)
 
     def detect(self, h: float) -> None:
@@ -87,8 +86,8 @@ class Detection(Effect):
                 body = one.body
                 body.last_x, body.last_y = body.x, body.y
                 body.touches = 0
-            if self.early:
-                self.end_early()
+            if self.landings.speeds:
+                self.landings.end()
             self.find_contacts(dt)
 
     def any_moved(self) -> bool:
@@ -107,7 +106,7 @@ class Detection(Effect):
         """Find the near pairs that are new, and keep the contacts of bodies that still touch."""
         phase, g = self.broad_phase, self.world.g
         if phase.is_stale:  # all pairs are new
-            self.beside_static, self.on_rods = {}, []
+            self.beside_static, self.landings.pairs = {}, []
             for c in self.touching:
                 self.unpaired[pair_number(c.a, c.b)] = c
         bearing = self.touching if g != (0.0, 0.0) else []
@@ -132,7 +131,7 @@ class Detection(Effect):
         for pair in found if self.rods and self.rods.awake else []:
             a, b = pair.a, pair.b
             if (a.joint_count or b.joint_count) and pair_number(a, b) not in self.ignored:
-                self.on_rods.append(pair)
+                self.landings.pairs.append(pair)
 
     def find_contacts(self, dt: float) -> None:
         """Find the present contacts of all bodies, with the impulses they had before.
@@ -192,47 +191,13 @@ class Detection(Effect):
         self.touching, self.balls.contacts, self.statics.contacts = touching, balls, statics
         was_idle = not self.groups
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
-        if self.on_rods or self.early:
-            self.foresee(dt)
+        if self.landings.pairs or self.landings.speeds:
+            self.landings.foresee(dt)
         if (not self.groups) != was_idle:
             self.world.update_hooks()
         self.broad_phase.add_looks(len(self.broad_phase.pairs) - len(touching), dt)
         if self.unpaired:
             self.end_unpaired()
-
-    def lands(self, a: Body, b: Body) -> bool:
-        """Return whether one of these is on rods, and they will not bounce off each other."""
-        if self.rods is None or (self.lets_none_pass and a.e and b.e):
-            return False
-        return self.rods.holds(a) or self.rods.holds(b)
-
-    def foresee(self, dt: float) -> None:
-        """Begin the contacts of balls on rods that will land on something in dt seconds.
-
-        In an overlap, rods would work against the push out of it. So these contacts begin before
-        their bodies meet, and it is noted at which speed (px/s) they will.
-        """
-        if self.early:
-            self.early = {c: self.early[c] for c in self.touching if c in self.early}
-        for pair in self.on_rods:
-            a, b = pair.a, pair.b
-            if pair.contact is None and self.lands(a, b):
-                gx, gy = self.world.g if b.is_static else (0.0, 0.0)
-                dx, dy = (a.vx - b.vx + gx * dt) * dt, (a.vy - b.vy + gy * dt) * dt
-                nx, ny, gap = collide(a, b)
-                is_near = gap > self.touching_gap and gap * gap < dx * dx + dy * dy
-                if is_near and hit_body(b, a.r, a.x - b.x, a.y - b.y, dx, dy) < NO_HIT:
-                    c = self.meet(pair, nx, ny, gap, is_early=True)
-                    speed = c.closing_speed()
-                    square = speed * speed + 2 * gap * (gx * nx + gy * ny)
-                    self.early[c] = sqrt(max(square, 0.0))
-
-    def end_early(self) -> None:
-        """Note the hits of contacts that were foreseen, once their bodies press each other."""
-        for c in [c for c in self.early if c.jn > 0 or c.last > 0]:
-            speed = self.early.pop(c)
-            if self.on_hit:
-                self.hits.append((c.a, c.b, speed))
 
     def make_contact(
         self, a: Body, b: Body, nx: float, ny: float, is_early: bool = False
@@ -277,7 +242,7 @@ class Detection(Effect):
     def end_contact(self, pair: Pair) -> None:
         """End the contact of two bodies that have parted."""
         c, pair.contact = pair.contact, None
-        if self.on_part and c not in self.early:
+        if self.on_part and c not in self.landings.speeds:
             self.parted.append((pair.a, pair.b))
 
     def end_unpaired(self) -> None:
@@ -289,7 +254,7 @@ class Detection(Effect):
         for number, c in unpaired.items():
             if c.a.sleeps and c.b.idle:
                 self.unpaired[number] = c
-            elif c not in self.early and self.on_part:
+            elif c not in self.landings.speeds and self.on_part:
                 self.parted.append((c.a, c.b))
 
     def have_passed(self, a: Body, b: Body, gap: float) -> bool:
@@ -404,7 +369,8 @@ class Detection(Effect):
         for c in self.touching:
             c.a.is_pressed = c.b.is_pressed = False
         self.touching = [c for c in self.touching if not ends <= {c.a, c.b}]
-        self.early = {c: v for c, v in self.early.items() if not ends <= {c.a, c.b}}
+        speeds = self.landings.speeds.items()
+        self.landings.speeds = {c: v for c, v in speeds if not ends <= {c.a, c.b}}
         self.unpaired = {n: c for n, c in self.unpaired.items() if not ends <= {c.a, c.b}}
         self.broad_phase.bounds = []
 

@@ -44,7 +44,8 @@ def find_piles(contacts: Detection, before: list[Pile], h: float) -> list[Pile]:
             is_odd = is_odd or c.gap < -DEEP * (c.a.r + c.b.r)
     for pile in before:
         pile.end()
-    piles = find_heavy(contacts, is_odd, find_tied(contacts, h) if contacts.on_rods else set())
+    tied = find_tied(contacts, h) if contacts.landings.pairs else set()
+    piles = find_heavy(contacts, is_odd, tied)
     if is_tall:
         piles += find_towers(contacts.touching, piles, tall, weight, world.unit)
     return piles
@@ -54,7 +55,7 @@ def find_tied(contacts: Detection, h: float) -> set[Contact]:
     """Return the contacts that may work against rods: they land, overlap, or rods turn fast."""
     tied: set[Contact] = set()
     turning = contacts.rods.find_turning(TURNING / h) if contacts.rods else set()
-    for pair in contacts.on_rods:
+    for pair in contacts.landings.pairs:
         c, a, b = pair.contact, pair.a, pair.b
         if c:
             ahead = c.gap - max(c.closing_speed(), 0.0) * h * contacts.world.substep_count

@@ -1,0 +1,61 @@
+"""Foresee the landings of balls on rods."""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import TYPE_CHECKING
+
+from .body import Body
+from .broad_phase import Pair
+from .contact import Contact, collide
+from .sweep import NO_HIT, hit_body
+
+if TYPE_CHECKING:
+    from .detection import Detection
+
+
+class Landings:
+    """Landings of balls on rods: their contacts begin before the bodies meet.
+
+    In an overlap, rods would work against the push out of it.
+    """
+
+    __slots__ = ("contacts", "pairs", "speeds")
+
+    def __init__(self, contacts: Detection) -> None:
+        self.contacts = contacts
+        self.pairs: list[Pair] = []  # near ones with a ball on rods, or on springs beside these
+        # of contacts whose bodies do not press each other yet: at which speed (px/s) they will meet
+        self.speeds: dict[Contact, float] = {}
+
+    def lands(self, a: Body, b: Body) -> bool:
+        """Return whether one of these is on rods, and they will not bounce off each other."""
+        contacts = self.contacts
+        if contacts.rods is None or (contacts.lets_none_pass and a.e and b.e):
+            return False
+        return contacts.rods.holds(a) or contacts.rods.holds(b)
+
+    def foresee(self, dt: float) -> None:
+        """Begin the contacts of balls on rods that will land on something in dt seconds."""
+        contacts, world = self.contacts, self.contacts.world
+        if self.speeds:
+            self.speeds = {c: self.speeds[c] for c in contacts.touching if c in self.speeds}
+        for pair in self.pairs:
+            a, b = pair.a, pair.b
+            if pair.contact is None and self.lands(a, b):
+                gx, gy = world.g if b.is_static else (0.0, 0.0)
+                dx, dy = (a.vx - b.vx + gx * dt) * dt, (a.vy - b.vy + gy * dt) * dt
+                nx, ny, gap = collide(a, b)
+                is_near = gap > contacts.touching_gap and gap * gap < dx * dx + dy * dy
+                if is_near and hit_body(b, a.r, a.x - b.x, a.y - b.y, dx, dy) < NO_HIT:
+                    c = contacts.meet(pair, nx, ny, gap, is_early=True)
+                    speed = c.closing_speed()
+                    square = speed * speed + 2 * gap * (gx * nx + gy * ny)
+                    self.speeds[c] = sqrt(max(square, 0.0))
+
+    def end(self) -> None:
+        """Note the hits of contacts that were foreseen, once their bodies press each other."""
+        for c in [c for c in self.speeds if c.jn > 0 or c.last > 0]:
+            speed = self.speeds.pop(c)
+            if self.contacts.on_hit:
+                self.contacts.hits.append((c.a, c.b, speed))
