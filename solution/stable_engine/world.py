@@ -63,7 +63,8 @@ class World:
             name = type(effect).__name__
             if not isinstance(effect, Effect):
                 refuse("World.effects", effect, "a list of effects, as in [Contacts()]")
-            require(name not in self.effects, "World.effects", f"with {name}() twice", "without")
+            found = f"a list with {name}() twice"
+            require(name not in self.effects, "World.effects", found, "one of each effect")
             self.effects[name] = effect
         self.ranked = sorted(self.effects.values(), key=lambda effect: effect.rank)
         self.hooks = {name: find_hooks(name, self.ranked) for name in HOOKS}
@@ -297,6 +298,7 @@ class World:
         is_known = h == self.lag_h and self.forces.keys() == self.pushed.keys()
         if self.pushed and self.forces != self.pushed:
             self.end_pushes()
+            is_known = is_known and self.substep_count == 1  # then forces may follow positions
         if is_known:
             self.lag_behind()
         has_changed = self.has_changed

@@ -315,6 +315,20 @@ def test_a_force_ends_once(gravity):
     assert unloads.count == 1
 
 
+@pytest.mark.parametrize("substeps", [2, 4])
+def test_forces_that_change_give_their_impulse(substeps: int):
+    """m v is the sum of F dt: forces that cancel leave nothing, however they change."""
+    world = World((0, G), substeps)
+    ball = world.add(Body(Circle(10), (0, 0), mass=2))
+    forces = [(120, 0), (-120, 40), (0, -40), *((each, 0) for each in range(120))]
+    for each in forces:
+        ball.apply_force(each)
+        world.step(DT)
+    time, impulse = len(forces) * DT, sum(x for x, _ in forces) * DT
+    assert tuple(ball.vel) == pytest.approx((impulse / 2, G * time))
+    assert ball.pos.y == pytest.approx(G * time**2 / 2 + (1.5 * 40 - 0.5 * 40) / 2 * DT**2)
+
+
 def test_a_pull_that_follows_the_position_keeps_an_orbit_in_single_short_substeps():
     """As the page of effects says: within 1 px of a circle of 200 px, for ten rounds."""
     world = World((0, 0), substeps=1)
