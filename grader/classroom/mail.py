@@ -8,7 +8,7 @@ import hashlib
 from collections.abc import Iterator
 from email import message_from_bytes
 from email.message import EmailMessage
-from email.policy import SMTP
+from email.policy import SMTP, SMTPUTF8
 from pathlib import Path
 
 from grader.classroom.adjustments import Adjustments
@@ -94,7 +94,7 @@ def write_mail(roster: Roster, key: str, outcomes: list[Outcome], title: str) ->
 
 def make_draft(address: str, subject: str, body: str) -> bytes:
     """Return a mail without a sender or date, which mail programs open as a draft."""
-    message = EmailMessage(policy=SMTP)
+    message = EmailMessage(policy=SMTP if address.isascii() else SMTPUTF8)
     message["To"] = address
     message["Subject"] = subject
     message["X-Unsent"] = "1"

@@ -24,6 +24,7 @@ from grader.classroom import grading
 from grader.classroom.comments import LONGEST_LINE, Comment, place_comment, write_comment
 from grader.classroom.decisions import DecisionsFile
 from grader.classroom.folder import read_class_folder
+from grader.classroom.mail import is_unedited, make_draft, write_body
 from grader.classroom.review import (
     MOST_LINES,
     Request,
@@ -411,6 +412,18 @@ def test_who_must_send_work_again_gets_a_draft(lab: Path):
     with open(lab / "mail.csv", encoding="utf-8-sig", newline="") as table:
         rows = {row["address"]: row for row in csv.DictReader(table)}
     assert set(rows) == set(drafts) and "save it as UTF-8" in rows["hana@x.edu"]["text"]
+
+
+def test_an_address_beyond_ascii_stays_one():
+    draft = make_draft("gábor@x.edu", "Übung", "Hello Gábor,")
+    assert "To: gábor@x.edu\r\n".encode() in draft and is_unedited(draft)
+    assert not is_unedited(draft.replace(b"Hello", b"Dear"))
+
+
+@pytest.mark.parametrize("reason", ["it is empty or cut off", "text in UTF-16, not in UTF-8"])
+def test_a_draft_asks_the_student_and_not_the_teacher(reason: str):
+    body = write_body("Ann", f"work.zip: {reason}", "Lab")
+    assert "ask for" not in body and ("empty or incomplete" in body or "save it as UTF-8" in body)
 
 
 def test_an_edited_draft_stays(lab: Path):
