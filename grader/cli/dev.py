@@ -11,6 +11,7 @@ from grader.cli.shared import (
     check_todos,
     console,
     print_note,
+    print_notes,
     require_checkout,
     require_folder_target,
 )
@@ -18,6 +19,7 @@ from grader.judge.course import read_course
 from grader.judge.rubric import load_rubric
 from grader.judge.task import KIT
 
+MAKING_TAB = "making the page for a browser (minutes; seconds if nothing changed)"
 FRESH = "Grade every member of the bank, also those that build/verify holds a result of."
 
 MembersAtATime = Annotated[
@@ -94,8 +96,9 @@ def release_command(
     require_folder_target(out, "--out")
     for path in release(out, console, fresh, read_course(course)):
         print_note(f"made {path}")
-    for note in add_tab(out / "tab", read_course(course), cffi):
-        print_note(note)
+    with console.status(MAKING_TAB):
+        notes = add_tab(out / "tab", read_course(course), cffi)
+    print_notes(notes)
 
 
 @app.command("tab")
@@ -114,8 +117,9 @@ def tab_command(
     from grader.release.tab_page import make_tab
 
     require_folder_target(out, "--out")
-    for path in make_tab(out, read_course(course), cffi):
-        print_note(f"made {path}")
+    with console.status(MAKING_TAB):
+        made = make_tab(out, read_course(course), cffi)
+    print_notes([f"made {path}" for path in made])
 
 
 @app.command("mutants")

@@ -69,7 +69,7 @@ def make_questions(folder: Path, course: Course) -> tuple[Sheet, Path]:
 
 def print_sheet(sheet: Sheet, target: Path) -> None:
     """Print the number of questions, and why some TODOs have none."""
-    print_notes([f"not asked: {words}" for words in sheet.dropped])
+    print_notes([f"Skipped a question on {words}." for words in sheet.dropped])
     if not sheet.questions:
         console.print("none of your TODOs passes its checks yet: ask again when one does")
         return

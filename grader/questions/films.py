@@ -195,7 +195,7 @@ def choose_changes(program: Program, able: list[Change], scene: int) -> dict[Cha
             films[each] = film
         if len(films) == COUNT:
             return films
-    raise CannotAsk(f"only {len(films)} of its films differ clearly")
+    raise CannotAsk(f"only {len(films)} films of the scene differ clearly")
 
 
 def can_tell_apart(films: Mapping[Change, Film]) -> bool:

@@ -47,8 +47,8 @@ from grader.source.regions import python_files, read_source
 NAME = "physics-engine"
 MEASURING = "accuracy.ipynb"  # runs the engines to explore
 UNPROVEN = (
-    "This version of the kit has not graded {count} submissions of the bank yet: run "
-    "`grader verify`, once for all courses. The release goes on."
+    "The marks of {count} submissions of the bank are not proven for this version of the kit: run "
+    "`make verify` once (up to an hour). The release goes on."
 )
 EXTRA = ("engines", "ci")  # archives to be unpacked over the lab
 SECOND_ONE = "315532800"  # the same, in s

@@ -439,7 +439,7 @@ def test_a_sound_kit_is_released_and_an_older_one_replaced(tmp_path: Path, monke
     (tmp_path / "out" / "a.zip").write_text("old", encoding="utf-8")
     told = io.StringIO()
     written = releases.release(tmp_path / "out", Console(file=told, width=300))
-    assert "has not graded 3 submissions" in told.getvalue()
+    assert "marks of 3 submissions of the bank are not proven" in told.getvalue()
     assert [path.name for path in written] == ["a.zip", "bundle"]
     assert written[0].read_text(encoding="utf-8") == "new"
     assert [path.name for path in written[1].iterdir()] == ["new"]
