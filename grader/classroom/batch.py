@@ -30,6 +30,7 @@ from grader.report.html import Remark
 from grader.report.progress import Counter
 
 NONE = Adjustments()
+COUNTED = ("graded", "kept", "not graded")  # what a run says of its submissions
 
 
 @dataclass
@@ -51,7 +52,7 @@ class Run:
     people: ClassList = field(default_factory=ClassList)
     outcomes: list[Outcome] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
-    counts: dict[str, int] = field(default_factory=lambda: {"graded": 0, "kept": 0, "trouble": 0})
+    counts: dict[str, int] = field(default_factory=lambda: dict.fromkeys(COUNTED, 0))
     same: dict[str, dict[tuple[str, ...], str]] = field(default_factory=dict)  # names, by files
     prints: list[Prints] = field(default_factory=list)  # to compare
     package_notes: dict[str, list[str]] = field(default_factory=dict)  # by name
@@ -105,7 +106,7 @@ class Run:
 
     def record_trouble(self, found: Work, words: str) -> None:
         self.book.keep_earlier(found.name)
-        self.record("trouble", found, Outcome(found.name, words))
+        self.record("not graded", found, Outcome(found.name, words))
 
     def record(self, how: str, found: Work, outcome: Outcome) -> None:
         """Apply the rules and decisions to an outcome, and count it."""

@@ -28,8 +28,8 @@ ASKS = {  # the request by a part of the reason; the first match counts
     "Please send it again with the one that counts.",
     "handed in more than once": "You handed in more than one version: {reason}. "
     "Please send one submission, with the work that counts.",
-    "not in UTF-8": "One of your files is not saved as UTF-8, so Python cannot read it: {reason}. "
-    "Please save it as UTF-8 and send your work again.",
+    "needed in UTF-8": "One of your files is not saved as UTF-8, so Python cannot read "
+    "it: {reason}. Please save it as UTF-8 and send your work again.",
     "a text or a link": "A text or a link came from you, and no file. "
     "Please send your files in a zip.",
     "nothing of the lab": "None of the lab's files were in what you sent: {reason}. "

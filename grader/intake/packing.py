@@ -143,7 +143,9 @@ def find_empty_programs(files: list[tuple[str, bytes]], asked: Collection[str]) 
         raise CannotTake(f"all programs are empty: {shorten_list(sorted(held))}")
     for name, content in sorted(held.items()):
         if name.endswith(".py") and name not in empty and (words := name_type(content)):
-            needed = "it is needed in UTF-8" if "UTF-8" in words else "the program itself is needed"
+            needed = (
+                "it is needed in UTF-8" if "UTF-16" in words else "the program itself is needed"
+            )
             raise CannotTake(f"{name} is {words}: {needed}")
         if name.endswith(".py") and (flaw := find_bad_bytes(content)):
             raise CannotTake(f"{name}, line {flaw.line}: {flaw.message}: it is needed in UTF-8")

@@ -383,5 +383,5 @@ def name_type(content: bytes) -> str:
         if head.startswith(sign):
             return words
     if content.startswith((b"\xff\xfe", b"\xfe\xff")):
-        return "text in UTF-16, not in UTF-8"
+        return "text in UTF-16"
     return "no text" if b"\0" in content else ""

@@ -420,7 +420,9 @@ def test_an_address_beyond_ascii_stays_one():
     assert not is_unedited(draft.replace(b"Hello", b"Dear"))
 
 
-@pytest.mark.parametrize("reason", ["it is empty or cut off", "text in UTF-16, not in UTF-8"])
+@pytest.mark.parametrize(
+    "reason", ["it is empty or cut off", "text in UTF-16: it is needed in UTF-8"]
+)
 def test_a_draft_asks_the_student_and_not_the_teacher(reason: str):
     body = write_body("Ann", f"work.zip: {reason}", "Lab")
     assert "ask for" not in body and ("empty or incomplete" in body or "save it as UTF-8" in body)

@@ -274,7 +274,7 @@ def test_points_by_hand_replace_points_and_bonus(tmp_path: Path):
     course = Course(bonus=3, todos=("8a", "8b", "B1"), points={"8a": 50, "8b": 49})
     run = Run(Intake([]), Book(Path("x")), "", load_adjustments(path, course), course)
     run.record("graded", Work("ann", ()), Outcome("ann", todos={"B1": 9}, max_points=99))
-    run.record("trouble", Work("ben", ()), Outcome("ben", "broken"))
+    run.record("not graded", Work("ben", ()), Outcome("ben", "broken"))
     run.record_absent(["ann"])
     assert [(each.mark, each.reasons) for each in run.scale_by_hand(run.outcomes)] == [
         (101, ["seen: set to 101"]),
