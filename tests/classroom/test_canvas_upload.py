@@ -14,17 +14,18 @@ from points_pool import Inline
 
 from grader.classroom import grading
 
-pytest.importorskip(
-    "canvasapi", reason="needs the extra `canvas`, whose library sends marks to Canvas"
-)
-
-
-from grader.classroom import canvas
-
 COURSE = 'title = "Lab 3"\ntodos = ["8a"]\nout_of = 10\n[points]\n8a = 20\n'
 POINTS = {"ann": 5, "ben": 10, "cem": 20, "finn": 7}
 STUDENTS = ("ann", "ben", "cem", "dora", "eve", "finn")  # 1 to 6 in Canvas
 DECISION = '[[adjust]]\nstudent = "ben"\nadd = %d\nreason = "shown in the lab"\n'
+
+
+@pytest.fixture(scope="module", autouse=True)
+def library() -> None:
+    """Import the library. While tests are collected, that would slow down every fork."""
+    pytest.importorskip(
+        "canvasapi", reason="needs the extra `canvas`, whose library sends marks to Canvas"
+    )
 
 
 @pytest.fixture
@@ -59,7 +60,7 @@ def lab(
 ) -> Path:
     """Copy the class, whose marks Canvas does not have yet."""
     monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
-    monkeypatch.setattr(canvas.time, "sleep", lambda seconds: None)
+    monkeypatch.setattr("grader.classroom.canvas.time.sleep", lambda seconds: None)
     monkeypatch.setenv("CANVAS_TOKEN", TOKEN)
     lab = shutil.copytree(graded_class, tmp_path / "lab")
     said, _ = upload(lab, "--to", f"{server.base}/courses/7/assignments/9?module_item_id=3")

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pytest
 from rich.console import Console
@@ -27,15 +28,19 @@ from grader.judge.rubric import load_rubric
 from grader.judge.task import KIT, Options, shipped_reference
 from grader.report.files import as_json
 
-distributed = pytest.importorskip("distributed", reason="needs the extra `cluster`")
-
 QUIET = Console(quiet=True)
 ONLY_8A = Options(shipped_reference(), only=frozenset({"8a"}))
 SIZE = 8
 
 
+@pytest.fixture(scope="module", autouse=True)
+def distributed() -> Any:
+    """Return the library. Imported while tests are collected, it would slow down every fork."""
+    return pytest.importorskip("distributed", reason="needs the extra `cluster`")
+
+
 @pytest.fixture(scope="module")
-def workers() -> Iterator["distributed.LocalCluster"]:
+def workers(distributed: Any) -> Iterator[Any]:
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
     ) as local:
@@ -64,7 +69,7 @@ def grade_files(classroom: Path, out: str, **how: object) -> dict[str, bytes]:
 
 
 @pytest.mark.soak
-def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(workers, classroom):
+def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(distributed, workers, classroom):
     here = grade_files(classroom, "here", jobs=1)
     with distributed.Client(workers, set_as_default=False) as client:
         victim = next(iter(client.run(os.getpid).values()))
@@ -97,7 +102,7 @@ def test_what_never_answers_is_no_scheduler(monkeypatch):
             pass
 
 
-def test_workers_with_another_grader_are_refused(workers, classroom):
+def test_workers_with_another_grader_are_refused(distributed, workers, classroom):
     with distributed.Client(workers, set_as_default=False) as client:
         client.run(setattr, fingerprint, "fingerprint", partial(str, "another"))
         try:
