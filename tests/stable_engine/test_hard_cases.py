@@ -53,8 +53,13 @@ def build_stable(scene, substeps):
 
 STABLE = Contestant("stable", "stable engine", build_stable)
 MUST_HOLD = [row for row in list_rows() if not find_reason(row.title)]
+LONG = "closed box"  # its first half second is below
 ROWS = [
-    pytest.param(row, marks=() if row.quick else pytest.mark.soak, id=row.title)
+    pytest.param(
+        row,
+        marks=() if row.quick and not row.title.startswith(LONG) else pytest.mark.soak,
+        id=row.title,
+    )
     for row in MUST_HOLD
 ]
 
@@ -82,7 +87,7 @@ def test_a_normal_that_turned_takes_no_impulse_along():
 def test_a_pile_comes_to_rest_with_many_substeps_too():
     """Contacts without restitution take energy away; nothing gives any."""
     world = build(pile(20, 120.0), substeps=48)
-    run(world, 4)
+    run(world, 2.5)
     assert sum(ball.m * speed(ball) ** 2 / 2 for ball in balls(world)) < 0.5 * 1.0**2  # 1 kg
 
 
@@ -131,6 +136,11 @@ def leaks(scene, steps):
         ends = [(engine.read(i), scene.bodies[i].radius) for i in scene.moving()]
         depths.append(max((max(abs(s.x), abs(s.y)) - half) / radius for s, radius in ends))
     return max(depths) >= 1 or depths[-1] >= 0
+
+
+def test_no_ball_leaves_a_closed_box_of_masses_1000_to_1_rods_and_overlaps():
+    """Overlaps push hardest at the start; the leaderboard's row goes on for two seconds."""
+    assert not leaks(closed_box(0), [DT] * 60)
 
 
 def wild_box(seed):

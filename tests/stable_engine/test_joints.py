@@ -37,7 +37,7 @@ def energy_error(scene, seconds):
     return max(abs(now - start) for now in seen) / (depth * G)
 
 
-@pytest.mark.parametrize("bob", [1.0, 10.0, 100.0])
+@pytest.mark.parametrize("bob", sample([1.0, 10.0, 100.0], 2))
 @pytest.mark.parametrize("angles", [(170, 10), (120, -60), (90, 90)])
 def test_a_double_pendulum_with_a_heavier_bob_keeps_its_energy(bob, angles):
     """Nothing takes or gives energy: 1 % of the greatest fall in 20 s. Angles are from plumb."""
@@ -99,16 +99,19 @@ def test_a_closed_frame_of_rods_turns_with_its_energy():
 # ---------------------------------------------------------------- springs hang at their stretch
 
 
-CORNERS = {(1e2, 1e6, 4), (1e9, 0.0, 4)}
+CORNERS = [(1e2, 1e6, 4, 0.5), (1e9, 0.0, 4, 0.5)]
 STARS = [
-    pytest.param(*each, marks=[] if each in CORNERS else pytest.mark.soak)
+    pytest.param(*each, 5, marks=pytest.mark.soak)
     for each in product([1e2, 1e4, 1e6, 1e9], [0.0, 1.0, 1e3, 1e6], [1, 4])
 ]
 
 
-@pytest.mark.parametrize(("stiffness", "damping", "substeps"), STARS)
-def test_a_star_of_springs_never_gains_energy(stiffness, damping, substeps):
-    """Thirty springs on one ball must behave like one spring of their sum."""
+@pytest.mark.parametrize(("stiffness", "damping", "substeps", "seconds"), [*CORNERS, *STARS])
+def test_a_star_of_springs_never_gains_energy(stiffness, damping, substeps, seconds):
+    """Thirty springs on one ball must behave like one spring of their sum.
+
+    A solver that takes them one by one throws the ball out in its first step.
+    """
     ring = [
         Ball((100 * math.cos(i * math.tau / 30), 100 * math.sin(i * math.tau / 30)), mass=0)
         for i in range(30)
@@ -117,7 +120,8 @@ def test_a_star_of_springs_never_gains_energy(stiffness, damping, substeps):
     scene = Scene([*ring, Ball((5, 3))], ("Springs",), springs=springs, gravity=(0, 0))
     engine = Stable(scene, substeps)
     (ball,) = balls(engine.world)
-    assert max(watch(engine, 5, lambda: math.hypot(ball.x, ball.y))) < 1.5 * math.hypot(5, 3)
+    most = max(watch(engine, seconds, lambda: math.hypot(ball.x, ball.y)))
+    assert most < 1.5 * math.hypot(5, 3)
 
 
 @pytest.mark.parametrize("seed", [0, 24, 26])
