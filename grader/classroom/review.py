@@ -14,7 +14,7 @@ from urllib.parse import quote, urlencode
 
 import msgspec
 
-from grader.classroom.book import Outcome
+from grader.classroom.book import NOTHING, Outcome
 from grader.classroom.comments import (
     Comment,
     place_comment,
@@ -318,6 +318,8 @@ def render_class(review: Review) -> str:
         "review.html",
         known=review.known,
         waiting=[row for row in rows if row[2]],
+        absent=review.absent,
+        NOTHING=NOTHING,
         others=[row for row in rows if not row[2]],
         decided=decided,
     )

@@ -107,7 +107,7 @@ def test_no_report_outlives_its_submission(tmp_path: Path):
     stale.write_text("of an earlier run")
     write_dashboard(tmp_path / "class", read_class(tmp_path / "class"))
     source = stale.read_text(encoding="utf-8")
-    assert "No points yet: a person must look at this first." in source and page.is_file()
+    assert "No points yet: this needs manual review." in source and page.is_file()
 
 
 def test_a_students_page_has_the_mark_the_dates_and_what_was_decided(tmp_path: Path):

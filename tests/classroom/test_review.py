@@ -275,9 +275,10 @@ def test_nobody_else_reads_the_page_and_no_other_page_sends_a_form(server: Revie
 def test_what_a_person_decides_on_the_page_counts(server: ReviewServer, lab: Path):
     listed = Reader(ask(server, "/").body).text
     assert (
-        "Needs a person: 6" in listed
+        "Needs manual review: 6" in listed
         and "encrypted" in listed
         and "not in the class list" in listed
+        and "nothing was handed in" in listed
     )
     forms: list[tuple[str, dict[str, object]]] = [
         ("/points", {"name": "dora", "kind": "points", "points": 8, "reason": "wrong"}),
@@ -297,7 +298,7 @@ def test_what_a_person_decides_on_the_page_counts(server: ReviewServer, lab: Pat
     assert 'student = "gil@x.edu"\ntake = "Gil_77"\nreason = "his number"' in text
     assert "2 need manual review" in call_class("grade", lab)
     with open_review(read_class_folder(lab)) as again:
-        assert "Needs a person: 2" in Reader(ask(again, "/").body).text
+        assert "Needs manual review: 2" in Reader(ask(again, "/").body).text
     with open(lab / "results.class.csv", encoding="utf-8-sig") as table:
         points = {line.split(",")[0]: line.split(",")[2] for line in table}
     wanted = {"ann": "4", "ben": "9", "dora": "9", "finn": "5", "gil@x.edu": "8"}
