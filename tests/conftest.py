@@ -2,6 +2,7 @@
 
 import gc
 import os
+import pickle
 import shutil
 import sys
 import time
@@ -25,6 +26,7 @@ from grader.judge.task import Options, shipped_reference
 from grader.player import replay
 from grader.questions.program import open_program
 from grader.release import practice
+from grader.release.leaks import Secret, find_secrets
 from grader.release.pages import write_pages
 from grader.report.files import write_json
 
@@ -143,6 +145,17 @@ def handout_pages(once: Once) -> Path:
         write_pages(KIT / "handouts", folder, FULL, measured=True)
 
     return once("pages", fill)
+
+
+@pytest.fixture(scope="session")
+def secrets(once: Once) -> list[Secret]:
+    """Find the statements that no release may contain."""
+
+    def fill(folder: Path) -> None:
+        (folder / "secrets").write_bytes(pickle.dumps(find_secrets(KIT)))
+
+    found: list[Secret] = pickle.loads((once("secrets", fill) / "secrets").read_bytes())
+    return found
 
 
 @pytest.fixture(scope="session")

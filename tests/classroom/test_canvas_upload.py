@@ -17,6 +17,7 @@ from grader.classroom import grading
 COURSE = 'title = "Lab 3"\ntodos = ["8a"]\nout_of = 10\n[points]\n8a = 20\n'
 POINTS = {"ann": 5, "ben": 10, "cem": 20, "finn": 7}
 STUDENTS = ("ann", "ben", "cem", "dora", "eve", "finn")  # 1 to 6 in Canvas
+IN_CANVAS = [1, 2, 3, 4, 5]  # finn has left the course
 DECISION = '[[adjust]]\nstudent = "ben"\nadd = %d\nreason = "shown in the lab"\n'
 
 
@@ -28,17 +29,26 @@ def library() -> None:
     )
 
 
-@pytest.fixture
-def server() -> Iterator[Canvas]:
-    made = Canvas([1, 2, 3, 4, 5])  # finn has left the course
+@pytest.fixture(scope="module")
+def listening() -> Iterator[Canvas]:
+    made = Canvas()
     yield made
     made.shutdown()
     made.server_close()
 
 
+@pytest.fixture
+def server(listening: Canvas) -> Canvas:
+    listening.begin(IN_CANVAS)
+    return listening
+
+
 @pytest.fixture(scope="module")
-def graded_class(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Make a graded class: dora handed in nothing, and eve's work needs review."""
+def graded_class(tmp_path_factory: pytest.TempPathFactory, listening: Canvas) -> Path:
+    """Make a graded class: dora handed in nothing, and eve's work needs review.
+
+    Canvas does not have its marks yet, but its address is known.
+    """
     rows = [f'"{name.title()}, A",{n},{name},' for n, name in enumerate(STUDENTS, 1)]
     lines = ["Student,ID,SIS Login ID,Section", "    Points Possible,,,", *rows, ""]
     lab = tmp_path_factory.mktemp("class")
@@ -48,24 +58,24 @@ def graded_class(tmp_path_factory: pytest.TempPathFactory) -> Path:
         classes.put(lab / "submissions" / f"{name}.zip", packed.as_zip(classes.work(points)))
     classes.put(lab / "submissions" / "eve.zip", b"PK broken")
     run_grader("class", "new", lab)
+    listening.begin(IN_CANVAS)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(grading, "open_executor", lambda wanted: Inline())
+        patch.setenv("CANVAS_TOKEN", TOKEN)
         decide(lab, 2)
+        address = f"{listening.base}/courses/7/assignments/9?module_item_id=3"
+        said, _ = upload(lab, "--to", address)
+    assert "4 to send, 0 unchanged, 2 skipped" in said
     return lab
 
 
 @pytest.fixture
-def lab(
-    graded_class: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, server: Canvas
-) -> Path:
-    """Copy the class, whose marks Canvas does not have yet."""
+def lab(graded_class: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Copy the class."""
     monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
     monkeypatch.setattr("grader.classroom.canvas.time.sleep", lambda seconds: None)
     monkeypatch.setenv("CANVAS_TOKEN", TOKEN)
-    lab = shutil.copytree(graded_class, tmp_path / "lab")
-    said, _ = upload(lab, "--to", f"{server.base}/courses/7/assignments/9?module_item_id=3")
-    assert "4 to send, 0 unchanged, 2 skipped" in said
-    return lab
+    return shutil.copytree(graded_class, tmp_path / "lab")
 
 
 def decide(lab: Path, points: int) -> None:

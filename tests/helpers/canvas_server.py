@@ -19,8 +19,13 @@ FORBIDDEN = {"status": "unauthorized", "errors": [{"message": "user not authoriz
 class Canvas(ThreadingHTTPServer):
     """An assignment with students; `troubles` answer the next requests, by method."""
 
-    def __init__(self, users: list[int]) -> None:
+    def __init__(self) -> None:
         super().__init__(("127.0.0.1", 0), Handler)
+        self.begin([])
+        threading.Thread(target=self.serve_forever, args=(0.01,), daemon=True).start()
+
+    def begin(self, users: list[int]) -> None:
+        """Begin an assignment that nothing was sent to yet."""
         self.users = {user: {"entered_score": None, "submission_comments": []} for user in users}
         self.files: dict[int, dict[str, object]] = {}
         self.points, self.kind, self.deducted = 10.0, "points", None
@@ -28,7 +33,6 @@ class Canvas(ThreadingHTTPServer):
             tuple[str, int | str]
         ] = []  # a status, or the point where the connection is cut
         self.graded: list[int] = []  # students, in the order of requests
-        threading.Thread(target=self.serve_forever, args=(0.01,), daemon=True).start()
 
     @property
     def base(self) -> str:

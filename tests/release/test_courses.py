@@ -13,10 +13,11 @@ from grader.judge.course import Course, faults_between
 from grader.judge.rubric import drop_hidden, load_rubric
 from grader.judge.task import KIT
 from grader.release import build as releases
+from grader.release import leaks
 from grader.release.build import Refused, prove_cut
 from grader.release.handed_out import make_students_tree
 from grader.release.handouts import make_handouts
-from grader.release.leaks import find_given_answers, find_hidden_secrets, read_texts
+from grader.release.leaks import Secret, find_given_answers, find_hidden_secrets, read_texts
 from grader.release.notebooks import make_notebooks
 from grader.release.students_copy import cut_checks, cut_course_files
 from grader.source.cut import list_defined, list_uses
@@ -52,6 +53,12 @@ def find_missing(texts: dict[str, str]) -> list[str]:
     ]
 
 
+@pytest.fixture
+def known_secrets(secrets: list[Secret], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Find the secrets of the full course once."""
+    monkeypatch.setattr(leaks, "find_secrets", lambda kit: secrets)
+
+
 @pytest.mark.parametrize("todos", [("1", "B4"), ("4", "B2"), ("3", "7c", "B2")], ids=",".join)
 def test_a_bonus_task_keeps_what_it_takes_from_another_file(todos):
     texts = cut_checks(drop_hidden(Course(todos=todos).rubric))
@@ -79,6 +86,7 @@ def test_the_copy_of_an_odd_course_grades(tmp_path: Path, monkeypatch):
     assert list(tmp_path.iterdir()) == [note]
 
 
+@pytest.mark.usefixtures("known_secrets")
 def test_a_course_that_cannot_be_released_is_a_problem_of_it(monkeypatch, tmp_path: Path):
     def refuse(course: Course) -> None:
         raise Refused(f"{len(course.rubric.todos)} TODO gives the starter 1 / 2")
@@ -119,6 +127,7 @@ def write_artefacts(course: Course) -> Iterator[tuple[str, str]]:
     yield from cut_course_files(course).items()
 
 
+@pytest.mark.usefixtures("known_secrets")
 def test_a_given_todo_that_answers_an_asked_one_is_a_problem():
     (words,) = find_given_answers(KIT, Course(todos=("7d",)))
     assert words.startswith("TODO 6 is given, and has a line that TODO 7d asks for, accumulator +=")

@@ -41,7 +41,7 @@ from grader.release.build import (
     strip_build_packages,
 )
 from grader.release.handed_out import FOR_CI
-from grader.release.leaks import Secret, find_leaks_in_text, find_secrets, read_texts
+from grader.release.leaks import Secret, find_leaks_in_text, read_texts
 from grader.release.pages import MEASURED, make_page
 from grader.release.students_copy import Tree, cut_checks, list_hidden_checks, record_answers
 from grader.source.cut import prune, replace_bodies
@@ -156,11 +156,6 @@ def released(once, expected_runs: bytes, practice_file: bytes, secrets: list[Sec
 def recorded_for_some(wrong: Iterable[Tree], rubric: Rubric) -> recorded.RecordedAnswers:
     """Record the answers of the TODOs in ASKED only."""
     return record_answers(wrong, Rubric([todo for todo in rubric.todos if todo.id in ASKED]))
-
-
-@pytest.fixture(scope="session")
-def secrets() -> list[Secret]:
-    return find_secrets(KIT)
 
 
 # ---------------------------------------------------------------- the students' grader

@@ -35,7 +35,7 @@ from grader.judge.task import KIT
 from grader.release import students_copy, tab_page
 from grader.release.build import Refused, make_command
 from grader.release.handed_out import make_students_tree
-from grader.release.leaks import find_leaks, find_secrets
+from grader.release.leaks import Secret, find_leaks
 from grader.release.recordings import Recordings
 from grader.release.tab_page import (
     CACHE,
@@ -512,10 +512,10 @@ def test_a_few_members_get_the_same_without_pymunk(tmp_path: Path, monkeypatch: 
 
 
 @SOAK
-def test_no_file_of_the_page_gives_the_solution_away(site: Path):
+def test_no_file_of_the_page_gives_the_solution_away(site: Path, secrets: list[Secret]):
     for packed in ("lab.zip", "more.zip"):
         assert not [name for name in list_unpacked(site / packed) if "mistakes" in name]
-    found = find_leaks(site, find_secrets(KIT, FULL))
+    found = find_leaks(site, secrets)
     assert {each.file for each in found if not each.file.startswith(tab_page.PUBLISHED)} == set()
 
 
@@ -579,10 +579,10 @@ def test_the_same_page_is_built_once(tmp_path: Path, monkeypatch: pytest.MonkeyP
         assert len(built) == times
 
 
-def test_a_leak_stops_the_build(tmp_path: Path):
+def test_a_leak_stops_the_build(tmp_path: Path, secrets: list[Secret]):
     shutil.copyfile(KIT / "solution" / "mini_engine" / "contacts.py", tmp_path / "lab.py")
     with pytest.raises(Refused, match=r"lab\.py, line \d+, gives away TODO 1"):
-        tab_page.look_for_own_leaks(tmp_path, find_secrets(KIT, FULL))
+        tab_page.look_for_own_leaks(tmp_path, secrets)
 
 
 def test_sections_ask_for_no_film_that_the_page_does_not_play():
