@@ -93,7 +93,7 @@ class Body:
         self.flown = inf
         self.is_marked = False  # while BroadPhase.pairs_of runs
         self.touches = 0  # the contacts of a ball with other balls
-        self.calm = 0.0, 0.0, 0.0  # px/s: vx, vy and the speed of its rim when that began
+        self.calm = 0.0, 0.0, 0.0  # px/s: vx, vy and the speed of its rim at the last look
         self.kept = 0.0  # s, how long it has stayed where it is
         self.place = inf, 0.0, 0.0  # x, y and angle when that began
         # compiled attributes are fast if they are set before any method runs

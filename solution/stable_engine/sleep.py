@@ -9,7 +9,7 @@ from .network import connected
 
 # lengths are in units of the world, see World.unit
 STILL_TIME, STILL_SPEED = 0.5, 0.5  # s; 1/s, of the centre and of the rim
-CHANGED_SPEED = 0.03  # 1/s, in STILL_TIME; more is an acceleration, so forces do not balance
+LEAST_PULL = 0.06  # 1/s²; what speeds up by more is in motion, as forces do not balance
 SHAKEN_TIME, SHAKEN_SPEED = 5.0, 3.0  # s; 1/s, of a ball that is shaken where it lies in a pile
 SHAKEN_DISTANCE = 1.0  # within which it stays
 FIRST_LOOK = 7  # steps between checks: a check of all awake balls costs as much as moving them
@@ -19,11 +19,11 @@ TWO_LOOKS = 16  # steps; 7 and 9 in turns, so that no swing is at the same point
 class Sleep(Effect):
     """Put islands to sleep that have lain still: balls that touch each other or share a joint.
 
-    A ball lies still if for 0.5 s it is slower than 0.5 px/s and keeps its velocity to 0.03 px/s.
-    So whatever rolls or slides at a steady 0.5 px/s goes on for ever, and so does what starts or
-    turns back with an acceleration of 0.06 px/s². A ball that touches another one may be shaken,
-    and lies still if it stays within 1 px for 5 s. No ball lies still if it would speed up by
-    0.06 px/s² without drag: springs of angular frequency omega draw it on until it is within
+    A ball lies still if for 0.5 s it is slower than 0.5 px/s and its velocity changes by less than
+    0.06 px/s². So whatever rolls or slides at a steady 0.5 px/s goes on for ever, and so does what
+    starts, swings or turns back with more acceleration. A ball that touches another one may be
+    shaken, and lies still if it stays within 1 px for 5 s. No ball lies still if it would speed up
+    by 0.06 px/s² without drag: springs of angular frequency omega draw it on until it is within
     0.06 px/s² / omega² of rest. All these lengths are in units of the world.
 
     Only whole islands sleep: a single ball would hang in the air when its neighbours moved on. An
@@ -93,11 +93,13 @@ class Sleep(Effect):
     def look_at(self, body: Body, dt: float) -> None:
         """Measure how long a ball has kept its velocity, and how long its position."""
         unit = self.world.unit
-        slow, most, near = STILL_SPEED * unit, CHANGED_SPEED * unit, SHAKEN_DISTANCE * unit
+        slow, near = STILL_SPEED * unit, SHAKEN_DISTANCE * unit
+        most = LEAST_PULL * unit * dt
         vx, vy, rim = body.vx, body.vy, body.w * body.r
-        calm_x, calm_y, calm_rim = body.calm
-        if hypot(vx - calm_x, vy - calm_y) > most or abs(rim - calm_rim) > most:
-            body.still, body.calm = 0.0, (vx, vy, rim)
+        before_x, before_y, before_rim = body.calm
+        body.calm = vx, vy, rim
+        if hypot(vx - before_x, vy - before_y) > most or abs(rim - before_rim) > most:
+            body.still = 0.0
         elif hypot(vx, vy) < slow and abs(rim) < slow:
             body.still += dt
         x, y, angle = body.place
@@ -139,7 +141,7 @@ class Sleep(Effect):
 
     def is_driven(self, body: Body) -> bool:
         """Return whether a force moves a ball against drag, so that its velocity stays the same."""
-        most = CHANGED_SPEED * self.world.unit / STILL_TIME  # px/s²
+        most = LEAST_PULL * self.world.unit  # px/s²
         return self.rates.get(body, 0.0) * hypot(body.vx, body.vy) > most
 
     def find_islands(self) -> list[list[Body]]:

@@ -29,6 +29,7 @@ from stable_engine import (
     Damping,
     Friction,
     Rod,
+    Rods,
     Sleep,
     Spring,
     Springs,
@@ -145,6 +146,17 @@ def test_a_swinging_pendulum_does_not_fall_asleep():
     scene = chain(1, (100, 0))
     world = build(scene, "Rods", "Sleep")
     assert all(watch(world, 10, lambda: bool(world.awake)))
+
+
+@pytest.mark.parametrize(("long", "wide"), [(100, 0.02), (200, 0.05), (400, 0.1), (400, 0.2)])
+def test_a_pendulum_falls_asleep_where_nothing_draws_it_on(long, wide):
+    """That is within 0.06 px/s² / omega² of its lowest point; at its fastest it keeps its speed."""
+    world = World((0, 980), effects=[Rods(), Sleep()])
+    peg = world.add(Body(Circle(3), (0, 0)))
+    bob = world.add(Body(Circle(5), (wide, long), mass=1))
+    world.add(Rod(peg, bob))
+    run(world, 8, 1 / 60)
+    assert abs(bob.x) < 0.06 * long / 980 or not bob.asleep
 
 
 # ---------------------------------------------------------------- slow is not at rest
