@@ -48,7 +48,8 @@ def test_the_lines_of_the_guide_say_what_cannot_be_graded(tmp_path: Path):
     done = run(example(), tmp_path)
     assert done.returncode == 1
     assert done.stderr == (
-        "cannot grade: there is no submission at submissions/ann: name a folder or a Python file\n"
+        "cannot grade: there is no submission at submissions/ann: name a folder, an archive or "
+        "a Python file\n"
     )
 
 
