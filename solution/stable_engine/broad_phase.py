@@ -261,26 +261,9 @@ class BroadPhase:
 
     def sweep(self, margin: float) -> None:
         """Add all pairs of boxes within margin px, if at least one can move."""
-        left, right, top, bottom = self.find_hull(self.widest + margin)
-        taller = (bottom - top) / (right - left)
-        upright = taller > (1 / WIDER if self.upright else WIDER)
-        self.is_listed = False
-        for one in self.bounds:
-            one.near = False
-            one.update_box(upright, margin)
-        breadth = 0.0  # px, the sum over all boxes
-        for one in self.moving:
-            breadth += one.side_high - one.side_low
-        lane = max(self.narrowest, breadth / len(self.moving))
-        self.sort(upright)
-        if upright:
-            left, right, top, bottom = top, bottom, left, right
-        self.hull = left, right, top, bottom
-        count = min(int((bottom - top) / lane), int(sqrt(len(self.bounds)))) + 1
-        self.lanes_per_px = count / (bottom - top)
-        lanes: list[list[Bounds]] = [[] for _ in range(count + 1)]
+        self.make_lanes(margin)
+        lanes, (left, right, top, bottom) = self.lanes, self.hull
         begun: list[list[Bounds]] = [[] for _ in lanes]  # the boxes in each that have not ended
-        self.lanes = lanes
         for rank, one in enumerate(self.bounds):
             one.rank = rank
             low, side_low, side_high = one.low, one.side_low, one.side_high
@@ -302,6 +285,27 @@ class BroadPhase:
                         self.pair_up(one, other)
                 met.append(one)
                 lanes[index].append(one)
+
+    def make_lanes(self, margin: float) -> None:
+        """Choose the axis of the sweep, work out all boxes, and make empty lanes along it."""
+        left, right, top, bottom = self.find_hull(self.widest + margin)
+        taller = (bottom - top) / (right - left)
+        upright = taller > (1 / WIDER if self.upright else WIDER)
+        self.is_listed = False
+        for one in self.bounds:
+            one.near = False
+            one.update_box(upright, margin)
+        breadth = 0.0  # px, the sum over all boxes
+        for one in self.moving:
+            breadth += one.side_high - one.side_low
+        lane = max(self.narrowest, breadth / len(self.moving))
+        self.sort(upright)
+        if upright:
+            left, right, top, bottom = top, bottom, left, right
+        self.hull = left, right, top, bottom
+        count = min(int((bottom - top) / lane), int(sqrt(len(self.bounds)))) + 1
+        self.lanes_per_px = count / (bottom - top)
+        self.lanes = [[] for _ in range(count + 1)]
 
     def find_lanes(self, one: Bounds) -> None:
         """Find the lanes that a box crosses."""

@@ -155,21 +155,11 @@ class Frame:
             most = max(most, MOST_WORK // len(self.rods))
         count, done = PARTS, 0  # equal parts done so far
         while done < count <= most:
-            part = h / count
-            self.fall(part / 2)
-            if not self.find_impulses(part, bias, SLOW if 2 * count <= most else 1.0):
-                self.fall(-part / 2)
+            if self.move_on(h / count, bias, SLOW if 2 * count <= most else 1.0):
+                self.scale_speeds(energy + self.fallen())
+                done += 1
+            else:
                 count, done = 2 * count, 2 * done
-                continue
-            for ball in self.balls:
-                ball.x += ball.vx * part
-                ball.y += ball.vy * part
-            self.fall(part / 2)
-            self.hold()
-            for rod in self.rods:
-                rod.j += rod.rhs
-            self.scale_speeds(energy + self.fallen())
-            done += 1
         self.fall(-h / 2)
         for ball, (x, y), velocity in before:
             if count <= most:
@@ -185,6 +175,21 @@ class Frame:
                 rod.j = j
         self.parts = count if self.is_uneven else 1
         return count <= most
+
+    def move_on(self, part: float, bias: float, slow: float) -> bool:
+        """Move on by a part of a substep (s). If rods turn too far in it, return False and stay."""
+        self.fall(part / 2)
+        if not self.find_impulses(part, bias, slow):
+            self.fall(-part / 2)
+            return False
+        for ball in self.balls:
+            ball.x += ball.vx * part
+            ball.y += ball.vy * part
+        self.fall(part / 2)
+        self.hold()
+        for rod in self.rods:
+            rod.j += rod.rhs
+        return True
 
     def flies_past(self, h: float) -> bool:
         """Return whether an end of a rod moves further than its length within h seconds."""

@@ -75,6 +75,32 @@ def always() -> bool:
     return True
 
 
+def solve_between(
+    network: Network[Joint],
+    limited: Sequence[Limited],
+    aim: Callable[[], None],
+    taken: dict[Joint, float],
+    has_moved: bool,
+) -> None:
+    """Take rows at a limit there, and solve for all others. Add their impulses to those taken."""
+    for row in limited:
+        if row.at:
+            j = row.excess()
+            taken[row] += j
+            row.take(j, has_moved)
+    aim()
+    for row in limited:
+        if row.at:
+            row.pivot, row.rhs = FREE, 0.0
+    network.solve()
+    for row in limited:
+        if row.at:
+            row.rhs = 0.0
+    for one in network.joints:
+        taken[one] += one.rhs
+        one.take(one.rhs, has_moved)
+
+
 def solve_within(
     network: Network[Joint],
     limited: Sequence[Limited],
@@ -97,22 +123,7 @@ def solve_within(
         row.begin(least)
     fewest, patience = len(limited) + 1, TURNS
     for _ in range(MOST_TURNS):
-        for row in limited:
-            if row.at:
-                j = row.excess()
-                taken[row] += j
-                row.take(j, has_moved)
-        aim()
-        for row in limited:
-            if row.at:
-                row.pivot, row.rhs = FREE, 0.0
-        network.solve()
-        for row in limited:
-            if row.at:
-                row.rhs = 0.0
-        for one in network.joints:
-            taken[one] += one.rhs
-            one.take(one.rhs, has_moved)
+        solve_between(network, limited, aim, taken, has_moved)
         aim()
         wrong = [row for row in limited if row.is_wrong(least)]
         if not wrong:

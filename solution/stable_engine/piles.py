@@ -105,12 +105,7 @@ def collect_piles(
         return []
     count = len(contacts)
     ends = [(c.a, c.b) for c in contacts] + [(rod.end_a, rod.end_b) for rod in rods]
-    beside: dict[Body, list[int]] = {}  # the places of each ball's contacts and rods
-    for place, (a, b) in enumerate(ends):
-        if a.inv_mass:
-            beside.setdefault(a, []).append(place)
-        if b.inv_mass:
-            beside.setdefault(b, []).append(place)
+    beside = places_at(ends)
     piles: list[Pile] = []
     seen: set[int] = set()
     for first, most in firsts:
@@ -212,6 +207,17 @@ def ratio_of(c: Contact, loads: dict[Body, float]) -> float:
     """Return the ratio of the masses (kg) that press at a contact."""
     most = max(loads.get(c.a, 0.0), loads.get(c.b, 0.0))
     return max(c.ratio, most / min(c.a.m, c.b.m or c.a.m)) if most else c.ratio
+
+
+def places_at(ends: list[tuple[Body, Body]]) -> dict[Body, list[int]]:
+    """Return the places of each ball's contacts and rods, in the list of their ends."""
+    beside: dict[Body, list[int]] = {}
+    for place, (a, b) in enumerate(ends):
+        if a.inv_mass:
+            beside.setdefault(a, []).append(place)
+        if b.inv_mass:
+            beside.setdefault(b, []).append(place)
+    return beside
 
 
 def places_from(
