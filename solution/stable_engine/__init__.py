@@ -1,7 +1,12 @@
 """Simulate rolling balls, and stay stable. A scene declares its effects.
 
 Read in this order: shapes, body, effect, world, detection, contacts, order, pile, friction, bounce,
-then any other effect.
+then any other effect. Effects with more than one file:
+
+- Contacts finds in detection, by broad_phase (bounds), contact and landings. It solves in contacts,
+  by order and piles (pile, unload). It keeps balls out of walls in cores (sweep) and crowd.
+- Bounce: bounce, impacts, impact_queue, flight, faces, hit.
+- Rods and Springs: rods (rod, frame) and springs, by joint and network; limits is for all rows.
 """
 
 from .body import Body
