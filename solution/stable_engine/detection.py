@@ -174,6 +174,7 @@ class Detection(Effect):
             c = pair.contact
             if c is None:
                 c = pair.contact = self.make_contact(a, b, nx, ny)
+                self.note_hit(c)
             if not b.r:
                 nx, ny, gap = leave_as_entered(c, nx, ny, gap)
             if nx * c.nx + ny * c.ny < SAME_DIRECTION:
@@ -199,9 +200,7 @@ class Detection(Effect):
         if self.unpaired:
             self.end_unpaired()
 
-    def make_contact(
-        self, a: Body, b: Body, nx: float, ny: float, is_early: bool = False
-    ) -> Contact:
+    def make_contact(self, a: Body, b: Body, nx: float, ny: float) -> Contact:
         """Return a new contact with this normal, filled in by the other effects."""
         c = Contact(a, b)
         c.nx, c.ny = nx, ny
@@ -210,9 +209,12 @@ class Detection(Effect):
         self.begun.append(c)
         if (a.is_fresh or (b.inv_mass and b.is_fresh)) and c.closing_speed() > -self.slow:
             a.is_pressed = b.is_pressed = True
-        if self.on_hit and not is_early:
-            self.hits.append((a, b, self.meeting_speed(c)))
         return c
+
+    def note_hit(self, c: Contact) -> None:
+        """Note that two bodies began to touch, if the program asks for that."""
+        if self.on_hit:
+            self.hits.append((c.a, c.b, self.meeting_speed(c)))
 
     def meeting_speed(self, c: Contact) -> float:
         """Return the speed (px/s) at which A and B came together when they began to touch."""
@@ -224,11 +226,11 @@ class Detection(Effect):
         since = self.h / 2 - ago if falls else 0.0  # s, as velocities lag half a substep behind
         return (a.vx - b.vx + gx * since) * nx + (a.vy - b.vy + gy * since) * ny
 
-    def meet(self, pair: Pair, nx: float, ny: float, gap: float, is_early: bool = False) -> Contact:
+    def meet(self, pair: Pair, nx: float, ny: float, gap: float) -> Contact:
         """Add the contact of two bodies that meet, beside those found, and wake them."""
         pair.a.wake()
         pair.b.wake()
-        c = pair.contact = self.make_contact(pair.a, pair.b, nx, ny, is_early)
+        c = pair.contact = self.make_contact(pair.a, pair.b, nx, ny)
         c.gap = c.found = gap
         self.touching.append(c)
         group = self.balls if c.b.inv_mass else self.statics

@@ -47,29 +47,25 @@ class Rub(Hit):
         self.end_b.w -= self.arm_b * j * self.end_b.inv_inertia
 
 
-class Moment:
-    """Rows and rods whose impulses belong to one moment."""
-
-    def __init__(self, rows: Sequence[Hit], rods: list[Joint]) -> None:
-        self.rows = rows
-        self.rods = rods
-
-    def aim(self) -> None:
-        """Set each row's pivot and rhs. Rods are to keep their lengths."""
-        for row in self.rows:
-            row.ask(row.wanted)
-        for rod in self.rods:
-            rod.ask(0.0)
-
-
 def resolve_at_once(rows: Sequence[Hit], rods: list[Joint], least: float) -> None:
-    """Give the rows the impulses that they need together."""
+    """Give the rows the impulses that they need together. Rods are to keep their lengths."""
     if len(rows) == 1 and not rods:
         row = rows[0]
         row.ask(row.wanted)
         row.take(max(row.low, min(row.rhs * row.m, row.high)), True)
     elif rows:
-        moment = Moment(rows, rods)
-        network: Network[Joint] = Network([*rows, *rods])
-        for _ in range(2):  # the second takes back what firmness has left
-            solve_within(network, rows, moment.aim, least, True)
+        solve_together(rows, rods, least)
+
+
+def solve_together(rows: Sequence[Hit], rods: list[Joint], least: float) -> None:
+    """Solve for the impulses of all rows and rods."""
+
+    def aim() -> None:
+        for row in rows:
+            row.ask(row.wanted)
+        for rod in rods:
+            rod.ask(0.0)
+
+    network: Network[Joint] = Network([*rows, *rods])
+    for _ in range(2):  # the second takes back what firmness has left
+        solve_within(network, rows, aim, least, True)

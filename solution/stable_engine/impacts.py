@@ -390,7 +390,9 @@ class Impacts:
             if gap > 0 and gap * gap > dx * dx + dy * dy:
                 return
             if gap < 0 or self.contacts.have_passed(a, b, gap):
-                met.append(self.contacts.meet(pair, nx, ny, gap))
+                c = self.contacts.meet(pair, nx, ny, gap)
+                self.contacts.note_hit(c)
+                met.append(c)
 
     def frames_of(self, group: list[Contact]) -> list[Frame]:
         """Return each frame of rods that a ball of these contacts is in."""

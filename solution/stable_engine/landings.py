@@ -48,7 +48,7 @@ class Landings:
                 nx, ny, gap = collide(a, b)
                 is_near = gap > contacts.touching_gap and gap * gap < dx * dx + dy * dy
                 if is_near and hit_body(b, a.r, a.x - b.x, a.y - b.y, dx, dy) < NO_HIT:
-                    c = contacts.meet(pair, nx, ny, gap, is_early=True)
+                    c = contacts.meet(pair, nx, ny, gap)
                     speed = c.closing_speed()
                     square = speed * speed + 2 * gap * (gx * nx + gy * ny)
                     self.speeds[c] = sqrt(max(square, 0.0))

@@ -70,11 +70,6 @@ class Limited(Joint):
         self.at = 0.0 if self.at else -1.0 if self.total < self.low else 1.0
 
 
-def always() -> bool:
-    """Accept any solution."""
-    return True
-
-
 def solve_between(
     network: Network[Joint],
     limited: Sequence[Limited],
@@ -107,7 +102,7 @@ def solve_within(
     aim: Callable[[], None],
     least: float,
     has_moved: bool,
-    accepts: Callable[[], bool] = always,
+    accepts: Callable[[], bool] | None = None,
 ) -> bool:
     """Find the impulses of all rows together: those of `limited` stay within their limits.
 
@@ -127,7 +122,7 @@ def solve_within(
         aim()
         wrong = [row for row in limited if row.is_wrong(least)]
         if not wrong:
-            if accepts():
+            if accepts is None or accepts():
                 return True
             break
         patience -= 1

@@ -161,10 +161,9 @@ class Pile:
             self.network = Network(self.rows)
         for load in self.loads:
             load.total = load.c.jn
-        return solve_within(
-            *(self.network, self.loads, self.aim, self.calm, self.stage.has_moved),
-            lambda: self.stage.has_moved or not self.rods or self.lack() <= lack,
-        )
+        has_moved = self.stage.has_moved
+        accepts = None if has_moved or not self.rods else lambda: self.lack() <= lack
+        return solve_within(self.network, self.loads, self.aim, self.calm, has_moved, accepts)
 
     def aim(self) -> None:
         """Set each row's pivot and rhs."""
