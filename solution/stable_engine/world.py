@@ -32,7 +32,7 @@ class World:
     """
 
     __slots__ = (
-        *("lengths", "substep_count", "g", "bodies", "awake", "statics", "added", "effects"),
+        *("lengths", "substep_count", "g", "bodies", "awake", "statics", "added", "declared"),
         *("ranked", "hooks", "has_changed", "lag_h", "unchecked", "warned", "forces", "pushed"),
     )
 
@@ -56,7 +56,7 @@ class World:
         self.warned: set[str] = set()  # the effects that a step has warned of
         self.forces: dict[Body, Push] = {}  # of the next step
         self.pushed: dict[Body, Push] = {}  # the forces of the step before
-        self.effects: dict[str, Effect] = {}
+        self.declared: dict[str, Effect] = {}
         if not isinstance(effects, Iterable):
             refuse("World.effects", effects, "a list of effects")
         for effect in effects:
@@ -64,11 +64,11 @@ class World:
             if not isinstance(effect, Effect):
                 refuse("World.effects", effect, "a list of effects, as in [Contacts()]")
             found = f"a list with {name}() twice"
-            require(name not in self.effects, "World.effects", found, "one of each effect")
-            self.effects[name] = effect
-        self.ranked = sorted(self.effects.values(), key=lambda effect: effect.rank)
+            require(name not in self.declared, "World.effects", found, "one of each effect")
+            self.declared[name] = effect
+        self.ranked = sorted(self.declared.values(), key=lambda effect: effect.rank)
         self.hooks = {name: find_hooks(name, self.ranked) for name in HOOKS}
-        for effect in self.effects.values():
+        for effect in self.declared.values():
             name, found = f"World.effects' {effect!r}", "in another world already"
             require(not hasattr(effect, "world"), name, found, "a new one: each world has its own")
             effect.world = self
@@ -88,22 +88,27 @@ class World:
 
     def need(self, name: str, user: object) -> Any:
         """Return the effect of that name. Raises ValueError when the scene does not declare it."""
-        if name not in self.effects:
+        if name not in self.declared:
             raise ValueError(
                 f"{type(user).__name__} needs {name}(), which this scene does not declare. "
                 f"Declare it: World(effects=[..., {name}()])."
             )
-        return self.effects[name]
+        return self.declared[name]
 
     def find(self, kind: type[Kind]) -> Kind | None:
         """Return the effect of that class, or None if the scene does not declare it."""
-        effect = self.effects.get(kind.__name__)
+        effect = self.declared.get(kind.__name__)
         return effect if isinstance(effect, kind) else None
 
     def __repr__(self) -> str:
-        names = ", ".join(f"{name}()" for name in self.effects)
+        names = ", ".join(f"{name}()" for name in self.declared)
         moving = len(self.bodies) - len(self.statics)
         return f"World({moving} moving, {len(self.statics)} static, effects=[{names}])"
+
+    @property
+    def effects(self) -> dict[str, Effect]:
+        """Return the declared effects by name, which stay the same: `world.effects["Contacts"]`."""
+        return self.declared
 
     @property
     def gravity(self) -> tuple[float, float]:
@@ -209,7 +214,7 @@ class World:
         self.has_changed = True
 
     def remove_joint(self, joint: Joint) -> None:
-        effect = self.effects.get(joint.effect)
+        effect = self.declared.get(joint.effect)
         ours = joint in getattr(effect, "joints", [])
         require(ours, f"World.remove's {type(joint).__name__}", joint, "one that is in this world")
         for body in (joint.a, joint.b):

@@ -156,7 +156,7 @@ SETTABLE = {
 FIXED = [
     *("Body.shape", "Body.radius", "Body.asleep", "Body.is_static", "Body.kinematic"),
     *("Rod.a", "Rod.b", "Rod.impulse", "Spring.a", "Spring.b", "Spring.impulse"),
-    *("World.unit", "Circle.radius", "Box.half"),
+    *("World.unit", "World.effects", "Circle.radius", "Box.half"),
     *("Segment.start", "Segment.end", "Segment.radius"),
 ]
 SHAPES = ["Circle", "Box", "Segment"]
