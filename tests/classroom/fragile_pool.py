@@ -45,7 +45,7 @@ def stand_in(package: Package, options: Options) -> Answer:
 class FragilePool(Pool):
     module = "grader.judge.wall.outer"
     work = staticmethod(stand_in)
-    allowance = Allowance("grading it", cpu=2, memory=200)
+    allowance = Allowance("grading it", cpu=1, memory=200)
 
 
 def count_checks(package: Package, options: Options) -> Answer:

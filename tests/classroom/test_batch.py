@@ -241,8 +241,8 @@ def test_names_that_are_no_text_are_graded(classroom):
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="one of them forks")
 def test_a_judge_that_reaches_a_limit_leaves_the_others_as_they_were(classroom, tmp_path):
     limits = {
-        "looper": "2 s of processor time",
-        "worker": "2 s of processor time",
+        "looper": "1 s of processor time",
+        "worker": "1 s of processor time",
         "eater": "200 MB of memory",
         "gulper": "200 MB of memory",
     }
@@ -264,7 +264,7 @@ def test_a_judge_that_reaches_a_limit_leaves_the_others_as_they_were(classroom, 
 def test_a_limit_that_one_reached_is_not_said_of_the_next():
     with FragilePool(Options(), 1) as pool:
         words = [str(pool.submit(Package(name, [])).exception()) for name in ("looper", "killer")]
-        assert "2 s of processor" in words[0] and "twice" in words[1]
+        assert "1 s of processor" in words[0] and "twice" in words[1]
         assert pool.submit(Package("ann", [])).exception() is None
     with ImpatientPool(Options(), 1) as pool:
         future = pool.submit(Package("sleeper", []))
