@@ -36,6 +36,7 @@ from grader.judge.wall.children import WarmWorker, Worker, start_worker
 from grader.judge.wall.processes import begin_process
 from grader.judge.wall.starting import count_cores
 from grader.report.progress import Counter
+from grader.text import plural
 
 One = TypeVar("One")
 Found = TypeVar("Found")
@@ -403,7 +404,8 @@ def summarize(report: Report) -> Iterator[str]:
     right, none = named["right"], named["none"]
     yield f"mistakes named rightly: {right}, not named: {none}, named wrongly: {named['wrong']}"
     count, earlier = len(report.verdicts), sum(v.earlier for v in report.verdicts)
-    yield f"{count} members: {count - earlier} graded now, {earlier} taken from an earlier run"
+    taken = f"{count - earlier} graded now, {earlier} taken from an earlier run"
+    yield f"{plural(count, 'member')}: {taken}"
     if report.halfway:
         helped = sum(not state.complaint for state in report.halfway)
         again = sum(state.earlier for state in report.halfway)

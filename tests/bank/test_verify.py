@@ -164,8 +164,8 @@ def test_verify_grades_once_and_says_so(tmp_path: Path, monkeypatch: pytest.Monk
         console = Console(file=io.StringIO(), width=120)
         assert verify.verify(1, "8a-position-first", console).sound
         told.append(console.file.getvalue())  # type: ignore[attr-defined]
-    assert "1 members: 1 graded now, 0 taken from an earlier run" in told[0]
-    assert "1 members: 0 graded now, 1 taken from an earlier run" in told[1]
+    assert "1 member: 1 graded now, 0 taken from an earlier run" in told[0]
+    assert "1 member: 0 graded now, 1 taken from an earlier run" in told[1]
     table = re.compile("│ wrong.*")
     assert table.findall(told[0]) == table.findall(told[1]) != []
 
