@@ -34,7 +34,8 @@ class Bullets(Users):
         self.starts = [(bullet, bullet.x, bullet.y) for bullet in self.bodies]
 
     def finish(self, h: float) -> None:
+        cores = self.contacts.cores
         for bullet, x, y in self.starts:
             if hypot(bullet.x - x, bullet.y - y) > SWEEP_FROM * bullet.r:
                 overlap = OVERLAP * bullet.r
-                self.contacts.cores.sweep(bullet, (x, y), bullet.r, overlap, h)
+                cores.sweep(bullet, (x, y), bullet.r, overlap, h)
