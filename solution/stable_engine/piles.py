@@ -34,18 +34,18 @@ def find_piles(contacts: Detection, before: list[Pile], h: float) -> list[Pile]:
     if weight and balls.contacts:
         sinks = (1 - balls.mass_scale) / balls.bias_rate  # px by px/s, if it is not
         tall = max(TALL * weight, SUNK * world.unit / sinks)
-    is_odd = is_tall = False  # whether masses differ much or balls overlap deep; any tower
+    is_heavy = is_tall = False  # whether masses differ much or balls overlap deep; any tower
     for c in contacts.touching:
-        is_odd = is_odd or c.ratio > HEAVY
+        is_heavy = is_heavy or c.ratio > HEAVY
         if c.jn > tall * c.mn:
             is_upright = abs(c.nx * gy - c.ny * gx) * h < LEANING * weight
             is_tall = is_tall or (is_upright and c.a.touches <= 2 and c.b.touches <= 2)
         else:
-            is_odd = is_odd or c.gap < -DEEP * (c.a.r + c.b.r)
+            is_heavy = is_heavy or c.gap < -DEEP * (c.a.r + c.b.r)
     for pile in before:
         pile.end()
     tied = find_tied(contacts, h) if contacts.landings.pairs else set()
-    piles = find_heavy(contacts, is_odd, tied)
+    piles = find_heavy(contacts, is_heavy, tied)
     if is_tall:
         piles += find_towers(contacts.touching, piles, tall, weight, world.unit)
     return piles
@@ -64,10 +64,10 @@ def find_tied(contacts: Detection, h: float) -> set[Contact]:
     return tied
 
 
-def find_heavy(contacts: Detection, is_odd: bool, tied: set[Contact]) -> list[Pile]:
+def find_heavy(contacts: Detection, is_heavy: bool, tied: set[Contact]) -> list[Pile]:
     """Return the piles where much presses on little, if there are any.
 
-    is_odd tells whether masses at any contact differ much, or balls overlap deep; `tied` are
+    is_heavy tells whether masses at any contact differ much, or balls overlap deep; `tied` are
     contacts that may work against rods.
     """
     world, rods = contacts.world, contacts.rods
@@ -76,9 +76,9 @@ def find_heavy(contacts: Detection, is_odd: bool, tied: set[Contact]) -> list[Pi
     for body, (fx, fy, _) in world.forces.items() if pull else []:
         if hypot(fx, fy) > HEAVY * body.m * pull:
             loads[body] = hypot(fx, fy) / pull
-    is_odd = is_odd or bool(loads or tied)
-    frames = rods.frames if rods and (is_odd or rods.any_heavy()) else []
-    if not (is_odd or frames):
+    is_heavy = is_heavy or bool(loads or tied)
+    frames = rods.frames if rods and (is_heavy or rods.any_heavy()) else []
+    if not (is_heavy or frames):
         return []
     for frame in frames:
         loads.update(dict.fromkeys(frame.ends, frame.load))
