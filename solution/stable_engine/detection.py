@@ -128,10 +128,12 @@ class Detection(Effect):
         for pair in found:
             if pair.b.is_static:
                 self.beside_static[pair.a] = None
-        for pair in found if self.rods and self.rods.awake else []:
-            a, b = pair.a, pair.b
-            if (a.joint_count or b.joint_count) and pair_number(a, b) not in self.ignored:
-                self.landings.pairs.append(pair)
+        rods = self.rods
+        if rods and rods.awake:
+            for pair in found:
+                a, b = pair.a, pair.b
+                if (rods.holds(a) or rods.holds(b)) and pair_number(a, b) not in self.ignored:
+                    self.landings.pairs.append(pair)
 
     def find_contacts(self, dt: float) -> None:
         """Find the present contacts of all bodies, with the impulses they had before.

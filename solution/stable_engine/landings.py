@@ -24,7 +24,7 @@ class Landings:
 
     def __init__(self, contacts: Detection) -> None:
         self.contacts = contacts
-        self.pairs: list[Pair] = []  # near ones with a ball on rods, or on springs beside these
+        self.pairs: list[Pair] = []  # near ones with a ball on rods
         # of contacts whose bodies do not press each other yet: at which speed (px/s) they will meet
         self.speeds: dict[Contact, float] = {}
 
