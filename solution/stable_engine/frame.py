@@ -351,7 +351,8 @@ class Frame:
     def end_parts(self, h: float) -> None:
         """Give balls their velocities after all parts, and what contacts have added.
 
-        The way in a straight line took that from other places: this turn is given back.
+        The way in a straight line took that from other places: this turn is given back, but not to
+        a torn frame, which may be so small that it would spin wildly.
         """
         lost = 0.0  # kg px²/s, angular momentum
         for b, (way_x, way_y), (vx, vy) in self.later:
@@ -359,7 +360,7 @@ class Frame:
             lost += b.m * h * (dvx * (way_y - vy) - dvy * (way_x - vx))
             b.vx, b.vy = vx + dvx, vy + dvy
         self.later = []
-        if lost and not self.hangs:
+        if lost and not self.hangs and self.is_whole():
             x, y, _ = self.spin(0.0, 0.0)
             change = lost / sum([b.m * squares(b.x - x, b.y - y) for b in self.balls])  # rad/s
             for b in self.balls:
@@ -368,14 +369,15 @@ class Frame:
 
     def take_back_stretching(self, h: float) -> None:
         """Remove all speed along the rods, in their present directions (RATTLE)."""
-        if self.later:
-            self.end_parts(h)
         for rod in self.rods:
             nx, ny, rod.given = rod.nx, rod.ny, rod.j + rod.pushed
             rod.pushed = 0.0
             rod.measure()
             if nx * rod.nx + ny * rod.ny < SAME_DIRECTION:
                 rod.j = 0.0
+        if self.later:
+            self.end_parts(h)
+        for rod in self.rods:
             rod.ask(0.0)
         if self.most < 0:
             self.apply()
