@@ -34,7 +34,8 @@ class Contacts(Detection):
     Each stage solves contacts of static bodies last, so that these hold best. Where passes would
     leave much, all that balls connect is then solved together, see Pile: where a body is more than
     2.5 times as heavy as a ball that it touches, or kinematic, in a narrow or flat V, in a tall
-    tower, where balls on rods land or overlap, and where balls were thrown at each other.
+    tower, where balls on rods land or overlap, where stiff springs press balls, and where balls
+    were thrown at each other.
     """
 
     __slots__ = (

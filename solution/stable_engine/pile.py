@@ -4,8 +4,9 @@ from math import hypot
 
 from .contact import Contact, is_at_face
 from .joint import Joint
-from .limits import Limited, solve_within
+from .limits import FREE, Limited, solve_within
 from .network import Network, bodies_of
+from .springs import Spring
 
 HEAVY = 2.5  # times the lightest ball at a contact
 CALM = 0.5  # 1/s, in units of the world, by the square of that ratio: passes may leave this speed
@@ -68,21 +69,22 @@ class Load(Limited):
 
 
 class Pile:
-    """Contacts, and rods of frames, that balls connect.
+    """Contacts, rods of frames, and stiff springs, that balls connect.
 
     A pass over contacts takes from a body of mass M only the share m / (M + m) of its speed, if the
     ball below has mass m. So what a pass leaves is solved exactly, for the contacts that press.
     """
 
     __slots__ = (
-        *("bodies", "calm", "is_wild", "lengths", "loads", "network", "rods", "rows", "stage"),
-        *("tries", "turning"),
+        *("bodies", "calm", "is_wild", "lengths", "loads", "network", "rods", "rows", "springs"),
+        *("stage", "tries", "turning"),
     )
 
-    def __init__(self, loads: list[Load], rods: list[Joint], unit: float, softest: float) -> None:
+    def __init__(self, loads: list[Load], joints: list[Joint], unit: float, softest: float) -> None:
         self.loads = loads
-        self.rods = rods
-        self.rows: list[Joint] = [*loads, *rods]
+        self.springs = [joint for joint in joints if isinstance(joint, Spring)]
+        rods = self.rods = [joint for joint in joints if not isinstance(joint, Spring)]
+        self.rows: list[Joint] = [*loads, *joints]
         self.bodies = bodies_of(self.rows)
         masses = [body.m for body in self.bodies if body.m]
         ratio = max(max(masses) / min(masses), *[load.ratio for load in self.loads])
@@ -93,7 +95,7 @@ class Pile:
         self.calm = CALM * unit / min(ratio, STEEPEST) ** 2  # px/s
         self.lengths: list[float] = []  # px, of its rods after the move
         self.tries = TRIES if rods else 1
-        turning = [load for load in loads if not (rods and is_at_face(load.c))]
+        turning = [load for load in loads if not (joints and is_at_face(load.c))]
         self.turning = bodies_of(turning)  # at contacts that are other ones once these moved far
         self.is_wild = False  # whether they move far in this substep
         self.network: Network[Joint] | None = None  # of all rows, once it was needed
@@ -142,6 +144,10 @@ class Pile:
         for load in self.loads:
             load.aim(self.stage)
             most = max(most, load.rhs if load.c.jn == 0 else abs(load.rhs))
+        if not self.stage.has_moved:
+            for spring in self.springs:
+                spring.aim()
+                most = max(most, abs(spring.rhs))
         return max([most, *[abs(speed) for speed in self.lacking()]])
 
     def lacking(self) -> list[float]:
@@ -171,6 +177,10 @@ class Pile:
             load.aim(self.stage)
         for rod, speed in zip(self.rods, self.lacking(), strict=True):
             rod.ask(rod.speed() + speed)
+        for spring in self.springs:
+            spring.aim()
+            if self.stage.has_moved:  # a spring acts before the move alone
+                spring.pivot, spring.rhs = FREE, 0.0
 
 
 def lower(c: Contact, most: float) -> None:

@@ -7,6 +7,7 @@ from .contact import Contact
 from .detection import Detection
 from .joint import Joint
 from .pile import HARDEST, HEAVY, SOFTEST, Load, Pile
+from .springs import Spring
 from .unload import in_touch
 
 TALL = 13.3  # weights of its effective mass; a contact that bears more carries a tower. Not whole,
@@ -45,7 +46,8 @@ def find_piles(contacts: Detection, before: list[Pile], h: float) -> list[Pile]:
     for pile in before:
         pile.end()
     tied = find_tied(contacts, h) if contacts.landings.pairs else set()
-    piles = find_heavy(contacts, is_heavy, tied)
+    springs = contacts.springs.find_stiff(h) if contacts.springs else []
+    piles = find_heavy(contacts, is_heavy, tied, springs)
     if is_tall:
         piles += find_towers(contacts.touching, piles, tall, weight, world.unit)
     return piles
@@ -64,11 +66,13 @@ def find_tied(contacts: Detection, h: float) -> set[Contact]:
     return tied
 
 
-def find_heavy(contacts: Detection, is_heavy: bool, tied: set[Contact]) -> list[Pile]:
+def find_heavy(
+    contacts: Detection, is_heavy: bool, tied: set[Contact], springs: list[Spring]
+) -> list[Pile]:
     """Return the piles where much presses on little, if there are any.
 
     is_heavy tells whether masses at any contact differ much, or balls overlap deep; `tied` are
-    contacts that may work against rods.
+    contacts that may work against rods, and `springs` the stiff ones.
     """
     world, rods = contacts.world, contacts.rods
     pull = hypot(*world.g)
@@ -76,19 +80,22 @@ def find_heavy(contacts: Detection, is_heavy: bool, tied: set[Contact]) -> list[
     for body, (fx, fy, _) in world.forces.items() if pull else []:
         if hypot(fx, fy) > HEAVY * body.m * pull:
             loads[body] = hypot(fx, fy) / pull
-    is_heavy = is_heavy or bool(loads or tied)
+    held = {body for spring in springs for body in (spring.end_a, spring.end_b) if body.inv_mass}
+    pulled = {c for c in contacts.touching if c.a in held or c.b in held} if held else set()
+    is_heavy = is_heavy or bool(loads or tied or pulled)
     frames = rods.frames if rods and (is_heavy or rods.any_heavy()) else []
     if not (is_heavy or frames):
         return []
     for frame in frames:
         loads.update(dict.fromkeys(frame.ends, frame.load))
     links: list[Joint] = [rod for frame in frames for rod in frame.rods]
-    return collect_piles(contacts.touching, links, loads, tied, world.unit)
+    tied = {c for c in tied if c.a in loads or c.b in loads} | pulled
+    return collect_piles(contacts.touching, [*links, *springs], loads, tied, world.unit)
 
 
 def collect_piles(
     contacts: list[Contact],
-    rods: list[Joint],
+    joints: list[Joint],
     loads: dict[Body, float],
     tied: set[Contact],
     unit: float,
@@ -100,11 +107,11 @@ def collect_piles(
     that of the world.
     """
     ratios = [ratio_of(c, loads) if loads else c.ratio for c in contacts]
-    firsts = find_firsts(contacts, ratios, loads, tied, unit)
+    firsts = find_firsts(contacts, ratios, tied, unit)
     if not firsts:
         return []
     count = len(contacts)
-    ends = [(c.a, c.b) for c in contacts] + [(rod.end_a, rod.end_b) for rod in rods]
+    ends = [(c.a, c.b) for c in contacts] + [(joint.end_a, joint.end_b) for joint in joints]
     beside = places_at(ends)
     piles: list[Pile] = []
     seen: set[int] = set()
@@ -117,7 +124,7 @@ def collect_piles(
             bodies = [body for at in places for body in ends[at]]
             if most == MOST_ROWS or not any([body.joint_count for body in bodies]):
                 rows = [Load(contacts[at], ratios[at]) for at in places if at < count]
-                held = [rods[at - count] for at in places if at >= count]
+                held = [joints[at - count] for at in places if at >= count]
                 if not is_clamped(rows):
                     piles.append(Pile(rows, held, unit, SOFTEST))
     return piles
@@ -141,7 +148,6 @@ def find_wedged(contacts: list[Contact]) -> dict[Body, float]:
 def find_firsts(
     contacts: list[Contact],
     ratios: list[float],
-    loads: dict[Body, float],
     tied: set[Contact],
     unit: float,
 ) -> list[tuple[int, int]]:
@@ -150,7 +156,7 @@ def find_firsts(
     deep: list[tuple[int, int]] = []
     for place, (c, ratio) in enumerate(zip(contacts, ratios, strict=True)):
         is_deep = c.gap < -DEEP * (c.a.r + c.b.r)
-        is_tied = c in tied and (c.a in loads or c.b in loads)
+        is_tied = c in tied
         is_slow = not c.e or abs(c.closing_speed()) < RESTING * unit
         if (ratio > HEAVY or is_tied) and is_slow:
             heavy.append((place, MOST_ROWS))

@@ -68,6 +68,16 @@ class Spring(Joint):
         """Return whether it, with all springs at its ends, swings too fast for substeps of h s."""
         return (self.crowd * h + self.rate) * h > STIFF
 
+    def aim(self) -> None:
+        """Set pivot and rhs for Network.solve: the impulse that its stretch after the move asks."""
+        give = 1 / self.drag
+        self.pivot = 1 / self.m + give
+        self.rhs = (self.pull - self.given) * give - self.speed()
+
+    def take(self, j: float, has_moved: bool) -> None:
+        super().take(j, has_moved)
+        self.given += j
+
     def sway(self, h: float) -> float:
         """Return the drag (kg) across it with which a light end swings no faster than h allows.
 
@@ -153,6 +163,11 @@ class Springs(Joints[Spring]):
             ends = spring.end_a, spring.end_b
             spring.tied = any([not end.is_static and len(self.springs_of[end]) > 1 for end in ends])
 
+    def find_stiff(self, h: float) -> list[Spring]:
+        """Return the springs that are stiff in substeps of h seconds."""
+        self.find_networks()
+        return [spring for spring in self.awake if spring.is_stiff(h)]
+
     def pull(self, body: Body, h: float) -> tuple[float, float]:
         """Return the acceleration (px/s²) of a body by its springs that are not stiff."""
         x = y = 0.0
@@ -178,14 +193,11 @@ class Springs(Joints[Spring]):
 
     def solve(self, h: float) -> None:
         for spring in self.awake:
-            give = 1 / spring.drag
-            spring.pivot = 1 / spring.m + give
-            spring.rhs = (spring.pull - spring.given) * give - spring.speed()
+            spring.aim()
         for network in self.networks:
             network.solve()
         for spring in self.awake:
-            spring.apply_impulse(spring.rhs)
-            spring.given += spring.rhs
+            spring.take(spring.rhs, has_moved=False)
         drags = [(spring, spring.sway(h)) for spring in self.awake if spring.tied]
         sways = [Sway(spring, drag) for spring, drag in drags if drag]
         for across in connect(sways) if sways else []:
