@@ -1,6 +1,6 @@
 """Keep fast and hard-pressed balls out of static bodies."""
 
-from math import hypot, inf
+from math import hypot, inf, sqrt
 
 from .body import Body, State, state_of
 from .contact import Contact, collide, leave_as_entered
@@ -116,7 +116,11 @@ class Cores:
         """Put a ball back to where it was after this fraction of its way (px), and note when."""
         contacts = self.contacts
         end = state_of(body)
+        springs = contacts.springs if body.joint_count else None
+        stored = springs.stiff_energy(body, h) if springs else 0.0
         put_back(body, way, fraction, self.pull, h)
+        if springs:
+            lose_energy(body, springs.stiff_energy(body, h) - stored)
         if not body.is_bullet:
             contacts.ends[body] = state_of(body), contacts.ends.get(body, (end, end))[1]
         before = contacts.stopped.get(body, contacts.last_dt)
@@ -141,6 +145,14 @@ def move_out(body: Body, nx: float, ny: float, back: float, closing: float) -> N
     body.y -= ny * back
     body.vx -= nx * closing
     body.vy -= ny * closing
+
+
+def lose_energy(body: Body, energy: float) -> None:
+    """Take an energy (kg px²/s²) from the motion of a ball, as far as it has any."""
+    speed2 = body.vx * body.vx + body.vy * body.vy
+    if energy > 0 and speed2:
+        share = sqrt(max(1 - 2 * energy * body.inv_mass / speed2, 0.0))
+        body.vx, body.vy = body.vx * share, body.vy * share
 
 
 def split(one: float, other: float, cosine: float) -> tuple[float, float]:

@@ -177,6 +177,16 @@ class Springs(Joints[Spring]):
                 x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
         return x, y
 
+    def stiff_energy(self, body: Body, h: float) -> float:
+        """Return the energy (kg px²/s²) in the stiff springs of a body."""
+        energy = 0.0
+        for spring in self.springs_of.get(body, []):
+            if spring.is_stiff(h):
+                a, b = spring.end_a, spring.end_b
+                stretch = hypot(b.x - a.x, b.y - a.y) - spring.rest
+                energy += spring.k * stretch * stretch / 2
+        return energy
+
     def warm_start(self, h: float) -> None:
         for spring in self.awake:
             spring.measure()
