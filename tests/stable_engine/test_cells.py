@@ -9,6 +9,7 @@ import warnings
 from itertools import pairwise
 
 import pytest
+from worlds_for_tests import whole_energy
 
 import stable_engine
 from experiments.steps import at_random, hiccups, lasting
@@ -136,6 +137,15 @@ def test_balls_do_not_leave_their_cells_at_seams():
 @pytest.mark.parametrize("seed", [21, 52, 137])
 def test_balls_do_not_leave_their_cells_through_lines(seed):
     do_all_stay(seed, 100, Lines)
+
+
+def test_balls_that_a_tight_spring_throws_apart_gain_no_energy_by_friction():
+    """In one substep they are flung further apart than both are wide."""
+    cells = Lines(94)
+    start = whole_energy(cells.world)
+    for dt, _ in zip(cells.steps(), range(78), strict=False):
+        cells.world.step(dt)
+        assert whole_energy(cells.world) < start
 
 
 @pytest.mark.soak  # three minutes each

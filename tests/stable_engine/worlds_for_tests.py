@@ -1,5 +1,6 @@
 """Make worlds for tests of the stable engine, beside the experiments' scenes."""
 
+import math
 from dataclasses import replace
 
 import stable_engine
@@ -63,3 +64,19 @@ def lying(count, still):
     """Make separate balls on a floor, and more that fly far above them."""
     row = [Ball((100 * i, -10)) for i in range(count)]
     return Scene([floor(), *row, *(Ball((100 * i, -9000)) for i in range(still))])
+
+
+def whole_energy(world):
+    """Return the energy (kg px²/s²) of all motion, of all heights and in all springs."""
+    gx, gy = world.g
+    energy = sum(
+        ball.m * (ball.vel.length_squared() / 2 - gx * ball.x - gy * ball.y)
+        + ball.omega**2 / ball.inv_inertia / 2
+        for ball in world.bodies
+        if ball.inv_mass
+    )
+    springs = world.effects.get("Springs")
+    for spring in springs.joints if springs else []:
+        stretch = math.dist(spring.a.pos, spring.b.pos) - spring.length
+        energy += spring.stiffness * stretch**2 / 2
+    return energy
