@@ -1,12 +1,12 @@
 """Keep fast and hard-pressed balls out of static bodies."""
 
-from math import hypot, inf, sqrt
+from math import hypot, inf
 
 from .body import Body, State, state_of
 from .contact import Contact, collide, leave_as_entered
 from .detection import Detection, pair_number
 from .soft import SAME_DIRECTION
-from .sweep import NO_HIT, first_hit, put_back
+from .sweep import NO_HIT, first_hit, put_back, share_left
 
 CORE = 0.5  # radii
 SEAM = 1e-9  # a squared sine; faces that turn less are one
@@ -149,9 +149,9 @@ def move_out(body: Body, nx: float, ny: float, back: float, closing: float) -> N
 
 def lose_energy(body: Body, energy: float) -> None:
     """Take an energy (kg px²/s²) from the motion of a ball, as far as it has any."""
-    speed2 = body.vx * body.vx + body.vy * body.vy
-    if energy > 0 and speed2:
-        share = sqrt(max(1 - 2 * energy * body.inv_mass / speed2, 0.0))
+    if energy > 0:
+        speed2 = body.vx * body.vx + body.vy * body.vy
+        share = share_left(speed2, 2 * energy * body.inv_mass)
         body.vx, body.vy = body.vx * share, body.vy * share
 
 

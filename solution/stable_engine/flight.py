@@ -41,9 +41,8 @@ class Flight:
         self.springs_of: dict[Body, list[Spring]] = {}
         self.stiff: set[Body] = set()  # bodies whose springs swing too fast to follow
         if springs:
-            springs.find_networks()
+            stiff = springs.find_stiff(h)
             self.springs_of = springs.springs_of
-            stiff = [spring for spring in springs.awake if spring.is_stiff(h)]
             self.stiff = {body for spring in stiff for body in (spring.end_a, spring.end_b)}
         # of bodies on springs: mirrored impacts, resolved in turn, must not see each other's moves
         self.before = {body: state_of(body) for body in self.springs_of}

@@ -178,9 +178,10 @@ class Pile:
         for rod, speed in zip(self.rods, self.lacking(), strict=True):
             rod.ask(rod.speed() + speed)
         for spring in self.springs:
-            spring.aim()
             if self.stage.has_moved:  # a spring acts before the move alone
                 spring.pivot, spring.rhs = FREE, 0.0
+            else:
+                spring.aim()
 
 
 def lower(c: Contact, most: float) -> None:

@@ -30,8 +30,13 @@ def put_back(
     ux, uy = body.vx + ax * h / 2, body.vy + ay * h / 2  # velocities lag half a substep behind
     gained = ((ax + 4 * mx + bx) * dx + (ay + 4 * my + by) * dy) / 3  # px²/s², by Simpson's rule
     speed2 = ux * ux + uy * uy
-    share = sqrt(max(1 - gained / speed2, 0.0)) if speed2 else 1.0
+    share = share_left(speed2, gained)
     body.vx, body.vy = ux * share - bx * h / 2, uy * share - by * h / 2
+
+
+def share_left(speed2: float, lost: float) -> float:
+    """Return the share that is left of a speed, if its square (px²/s²) loses so much."""
+    return sqrt(max(1 - lost / speed2, 0.0)) if speed2 else 1.0
 
 
 def moment_of_touch(a: Body, b: Body, dt: float) -> tuple[float, float, float]:

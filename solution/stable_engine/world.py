@@ -303,7 +303,7 @@ class World:
         is_known = h == self.lag_h and self.forces.keys() == self.pushed.keys()
         if self.pushed and self.forces != self.pushed:
             self.end_pushes()
-            is_known = is_known and self.substep_count == 1  # then forces may follow positions
+            is_known = is_known and self.substep_count == 1  # else their impulse would not be whole
         if is_known:
             self.lag_behind()
         has_changed = self.has_changed
