@@ -139,7 +139,7 @@ class RepeatedStep:
             self.reset()
             engine.step(DT)
         for _ in range(2 if kind == "still" else 0):  # after the first, normals stay as well
-            with mock.patch.object(contacts.Contacts, "any_moved", lambda _: False):
+            with mock.patch.object(contacts.Contacts, "note_moved", lambda _: False):
                 self.reset()
                 engine.step(DT)
 

@@ -44,7 +44,7 @@ class Bounce(Effect):
             for c in impacts.met:  # only the next step may push balls apart or stop them
                 if not c.b.is_static:
                     c.gap = FAR_APART * c.a.r
-        self.contacts.changed = True
+        self.contacts.changed, self.contacts.renewed = True, touching
         for c in touching:
             if c.gap < 0 and self.is_separating(c):
                 c.gap = 0.0

@@ -55,10 +55,9 @@ class Contact:
         a, b = self.a, self.b
         half = gap / 2 if b.inv_mass else 0.0
         self.arm_a, self.arm_b = a.r + half, b.r + half
-        if self.mu:
-            turn_a, turn_b = self.arm_a * self.arm_a, self.arm_b * self.arm_b
-            spin = turn_a * a.inv_inertia + turn_b * b.inv_inertia
-            self.mt = 1 / (a.inv_mass + b.inv_mass + spin)
+        turn_a, turn_b = self.arm_a * self.arm_a, self.arm_b * self.arm_b
+        spin = turn_a * a.inv_inertia + turn_b * b.inv_inertia
+        self.mt = 1 / (a.inv_mass + b.inv_mass + spin)
 
     def __repr__(self) -> str:
         return f"Contact({self.a!r}, {self.b!r})"
@@ -140,7 +139,8 @@ def turn_normals(contacts: list[Contact]) -> None:
             if same < 0 or distance > 2 * (a.r + b.r):
                 c.jn = c.jt = 0.0
             c.nx, c.ny = nx, ny
-            c.set_arms(distance - a.r - b.r)
+            if c.mu:
+                c.set_arms(distance - a.r - b.r)
 
 
 def circle_box(a: Body, b: Body) -> tuple[float, float, float]:

@@ -80,12 +80,15 @@ class Contacts(Detection):
             for c in self.crowd:  # they just touch, so that the solver does not push them apart
                 c.gap = max(c.gap, self.touching_gap)
         self.find_order()
-        self.round = [*self.balls.contacts, *[c for c in self.statics.contacts if c.b.r]]
-        for c in self.touching:
+        if self.begun:  # impulses may reach all others
+            self.renewed = self.touching
+        self.round = [c for c in self.renewed if c.b.r]
+        for c in self.renewed:
             a, b = c.a, c.b
             distance = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny
             c.reach = distance - c.gap
-            c.set_arms(distance - a.r - b.r)
+            if c.mu:
+                c.set_arms(distance - a.r - b.r)
         self.piles = find_piles(self, self.piles, h)
 
     def find_order(self) -> None:
@@ -119,7 +122,8 @@ class Contacts(Detection):
         for group in self.groups:
             moves_b = group.moves_b
             for c in group.contacts:
-                a, b, jn, jt = c.a, c.b, c.jn, c.jt
+                a, b = c.a, c.b
+                jn, jt = c.jn, c.jt
                 jx, jy = c.nx * jn - c.ny * jt, c.ny * jn + c.nx * jt
                 a.vx -= jx * a.inv_mass
                 a.vy -= jy * a.inv_mass
@@ -194,7 +198,8 @@ class Contacts(Detection):
         """Stop bodies that still come together, and take back the speed of a push."""
         moves_b = group.moves_b
         for c in contacts:
-            a, b, nx, ny = c.a, c.b, c.nx, c.ny
+            a, b = c.a, c.b
+            nx, ny = c.nx, c.ny
             speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
             before = c.jn
             if not before:

@@ -30,10 +30,10 @@ class Detection(Effect):
     """The part of Contacts that finds them, once per step, and tells the program of new ones."""
 
     __slots__ = (
-        *("on_hit", "on_part", "hits", "parted", "touching", "begun", "changed", "lets_none_pass"),
-        *("last_dt", "flying", "hit_ago", "stopped", "ends", "broad_phase", "crowd"),
-        *("beside_static", "landings", "rods", "balls", "statics", "groups", "unpaired", "ignored"),
-        *("h", "touching_gap", "slow", "springs", "begin_contact_hooks"),
+        *("on_hit", "on_part", "hits", "parted", "touching", "begun", "renewed", "changed"),
+        *("lets_none_pass", "last_dt", "flying", "hit_ago", "stopped", "ends", "broad_phase"),
+        *("crowd", "beside_static", "landings", "rods", "balls", "statics", "groups", "unpaired"),
+        *("ignored", "h", "touching_gap", "slow", "springs", "begin_contact_hooks"),
     )
 
     def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:
@@ -46,7 +46,8 @@ class Detection(Effect):
         self.parted: list[tuple[Body, Body]] = []  # in this step, if on_part is set
         self.touching: list[Contact] = []
         self.begun: list[Contact] = []  # contacts that are new in this step
-        self.changed = False  # whether contacts are new, so that their rows must be renewed
+        self.changed = False  # whether any contact was found anew, began or ended
+        self.renewed: list[Contact] = []  # those found anew, whose rows must be renewed
         self.lets_none_pass = False  # for Bounce: whether balls that touched and passed on count
         self.last_dt = 0.0  # s, of the step that ends; 0 once its impacts are resolved
         self.h = 0.0  # s, the substep of the kept impulses
@@ -77,33 +78,33 @@ class Detection(Effect):
             rods = self.rods
             phase.tied = [one for one in phase.moving if rods.holds(one.body)] if rods else []
         renews = phase.is_stale or len(phase.leavers) > 0
-        moved = renews or self.any_moved()
-        if renews:
-            self.renew_pairs(dt)
-        if moved:
+        found = self.renew_pairs(dt) if renews else []
+        phase.list_near()
+        moved = self.note_moved()
+        if renews or moved:
             self.changed = True
+            for pair in found:  # where nothing has moved as well
+                (pair.b if pair.a.idle else pair.a).has_moved = True
             for one in phase.near:
-                body = one.body
-                body.last_x, body.last_y = body.x, body.y
-                body.touches = 0
+                one.body.touches = 0
             if self.landings.speeds:
                 self.landings.end()
             self.find_contacts(dt)
 
-    def any_moved(self) -> bool:
-        """Return whether a body with others near has moved since contacts were last found."""
+    def note_moved(self) -> bool:
+        """Note which bodies with others near have moved since their contacts were last found."""
         far = REDETECT_DISTANCE * self.world.unit
-        far2 = far * far
-        self.broad_phase.list_near()
+        far2, any_moved = far * far, False
         for one in self.broad_phase.near:
             body = one.body
             dx, dy = body.x - body.last_x, body.y - body.last_y
-            if dx * dx + dy * dy > far2:
-                return True
-        return False
+            body.has_moved = dx * dx + dy * dy > far2
+            if body.has_moved:
+                body.last_x, body.last_y, any_moved = body.x, body.y, True
+        return any_moved
 
-    def renew_pairs(self, dt: float) -> None:
-        """Find the near pairs that are new, and keep the contacts of bodies that still touch."""
+    def renew_pairs(self, dt: float) -> list[Pair]:
+        """Return the near pairs that are new, with the contacts of bodies that still touch."""
         phase, g = self.broad_phase, self.world.g
         if phase.is_stale:  # all pairs are new
             self.beside_static, self.landings.pairs = {}, []
@@ -113,12 +114,12 @@ class Detection(Effect):
         held = {c.a for c in bearing} | {c.b for c in bearing}
         back = self.last_dt if self.lets_none_pass else 0.0
         found = phase.renew(g, held, dt, back, self.slow * dt)
-        phase.list_near()
         self.take_in(found)
         touched = {c.a for c in self.unpaired.values()}
         for pair in found if touched else []:
             if pair.a in touched:
                 pair.contact = self.unpaired.pop(pair_number(pair.a, pair.b), None)
+        return found
 
     def take_in(self, found: list[Pair]) -> None:
         """Note new near pairs, and drop those to ignore."""
@@ -136,20 +137,26 @@ class Detection(Effect):
                     self.landings.pairs.append(pair)
 
     def find_contacts(self, dt: float) -> None:
-        """Find the present contacts of all bodies, with the impulses they had before.
+        """Find the present contacts of bodies that have moved, with the impulses they had before.
 
         Bodies that touch are in contact, and so are slow ones that may touch within dt seconds: a
         speculative contact lets them close the gap and no more. Fast ones get none, as they may
         still miss each other.
         """
         touching: list[Contact] = []
-        balls: list[Contact] = []
-        statics: list[Contact] = []
+        renewed: list[Contact] = []
         slow, touching_gap = self.slow, self.touching_gap
         margin, slow2 = slow * dt, slow * slow
         back = self.last_dt if self.lets_none_pass else 0.0
         for pair in self.broad_phase.pairs:
             a, b = pair.a, pair.b
+            if not (a.has_moved or b.has_moved):
+                c = pair.contact
+                if c is None:
+                    continue
+                if c.gap == c.found:
+                    touching.append(c)
+                    continue
             if b.r:
                 dx, dy, reach = b.x - a.x, b.y - a.y, a.r + b.r + margin
                 if back:
@@ -183,15 +190,16 @@ class Detection(Effect):
                 c.jn = c.jt = 0.0
             c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
             touching.append(c)
-            if b.inv_mass:
-                balls.append(c)
-                a.touches += 1
-                b.touches += 1
-                if gap < -a.r or gap < -b.r:
-                    self.crowd[c] = None
-            else:
-                statics.append(c)
-        self.touching, self.balls.contacts, self.statics.contacts = touching, balls, statics
+            renewed.append(c)
+            if b.inv_mass and (gap < -a.r or gap < -b.r):
+                self.crowd[c] = None
+        self.touching, self.renewed = touching, [*self.renewed, *renewed]
+        balls = [c for c in touching if c.b.inv_mass]
+        for c in balls:
+            c.a.touches += 1
+            c.b.touches += 1
+        self.balls.contacts = balls
+        self.statics.contacts = [c for c in touching if not c.b.inv_mass]
         was_idle = not self.groups
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
         if self.landings.pairs or self.landings.speeds:
@@ -287,7 +295,7 @@ class Detection(Effect):
 
     def finish(self, h: float) -> None:
         """Note how long (s) each ball has flown freely, and begin a new list of hits."""
-        self.begun, self.changed = [], False
+        self.begun, self.renewed, self.changed = [], [], False
         self.last_dt = h * self.world.substep_count
         for body in self.flying:
             body.flown = inf

@@ -55,18 +55,19 @@ class Friction(Effect):
         for c in contacts:
             limit, before = c.mu * c.jn, c.jt
             if limit or before:
-                a, b, nx, ny = c.a, c.b, c.nx, c.ny
+                a, b = c.a, c.b
+                nx, ny = c.nx, c.ny
                 rims = b.w * c.arm_b + a.w * c.arm_a
                 jt = before - c.mt * ((b.vy - a.vy) * nx - (b.vx - a.vx) * ny - rims)
                 if jt > limit:
                     jt = limit
                 elif jt < -limit:
                     jt = -limit
+                calm = CALM * limit
+                if -calm <= jt - before <= calm:
+                    continue
                 c.jt = jt
                 jt -= before
-                if abs(jt) <= CALM * limit:
-                    c.jt = before
-                    continue
                 change = jt * a.inv_mass
                 a.vx += ny * change
                 a.vy -= nx * change
