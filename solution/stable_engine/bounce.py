@@ -5,7 +5,7 @@ from math import hypot
 from .contact import Contact
 from .contacts import RESTING_SPEED, Contacts
 from .effect import Effect
-from .impacts import Impacts
+from .impacts import Impacts, select_fast
 
 RESTING_STEPS = 3.7  # impacts slower than gravity's speed after so many do not bounce
 FAR_APART = 1e6  # radii: no step takes a ball as far
@@ -19,7 +19,7 @@ class Bounce(Effect):
     so what is drawn has bounced. Slower contacts stay with the solver, or a resting ball would hop.
     """
 
-    __slots__ = ("contacts", "slow")
+    __slots__ = ("contacts",)
     rank = 6
 
     def attach(self) -> None:
@@ -33,22 +33,27 @@ class Bounce(Effect):
         c.e = min(c.a.e, c.b.e)
 
     def impact(self, h: float) -> None:
-        self.slow = self.slow_speed(h * self.world.substep_count)
-        touching, slow, lands = self.contacts.touching, self.slow, self.contacts.landings.lands
-        if not self.contacts.begun and all([abs(c.closing_speed()) <= slow for c in touching]):
+        contacts, slow = self.contacts, self.slow_speed(h * self.world.substep_count)
+        fast = select_fast(contacts.touching, slow)
+        if not (fast or (contacts.begun and contacts.ends)):
             return
-        impacts = Impacts(self.contacts, slow, h)
+        if not contacts.begun and all([abs(c.closing_speed()) <= slow for c in fast]):
+            return
+        impacts = Impacts(contacts, slow, h)
         impacts.find()
         if impacts.queue.due:
             impacts.resolve_all()
             for c in impacts.met:  # only the next step may push balls apart or stop them
                 if not c.b.is_static:
                     c.gap = FAR_APART * c.a.r
-        self.contacts.changed, self.contacts.renewed = True, touching
-        for c in touching:
-            if c.gap < 0 and self.is_separating(c):
+        contacts.changed, contacts.renewed = True, contacts.touching
+        for c in select_fast(contacts.touching, slow):
+            closing = c.closing_speed()
+            if c.gap < 0 and closing < -slow:
+                # Pushed out as well, it would rise too high. It stays a contact: without one, a rod
+                # or a heavy ball that still moves towards the wall would press it into that.
                 c.gap = 0.0
-            elif c.closing_speed() > slow and impacts.is_open(c) and not lands(c.a, c.b):
+            elif closing > slow and impacts.is_open(c) and not contacts.landings.lands(c.a, c.b):
                 c.gap = FAR_APART * c.a.r
 
     def slow_speed(self, dt: float) -> float:
@@ -58,11 +63,3 @@ class Bounce(Effect):
         """
         unit, g = self.world.unit, hypot(*self.world.g)
         return min(RESTING_SPEED * unit, RESTING_STEPS * g * dt + LEAST_SPEED * unit)
-
-    def is_separating(self, c: Contact) -> bool:
-        """Return whether a pair has bounced: if pushed out as well, it would rise too high.
-
-        So it counts as just touching. It stays a contact: without one, a rod or a heavy ball that
-        still moves towards the wall would press the ball into it.
-        """
-        return c.closing_speed() < -self.slow

@@ -58,10 +58,10 @@ class Impacts:
 
     def find(self) -> None:
         """Find all impacts. For a new contact, the moment of its touch counts."""
-        self.faces.find(self.touching)
+        self.faces.find(self.contacts.statics.contacts)
         if self.contacts.ends:
             self.let_pass()
-        for c in self.touching:
+        for c in select_fast(self.touching, self.slow):
             self.look(c, c in self.begun or c.a.flown < inf or c.b.flown < inf)
 
     def let_pass(self) -> None:
@@ -327,9 +327,12 @@ class Impacts:
         for body in hit:
             self.contacts.note_impact(body, ago)
         around = list(dict.fromkeys([c for body in hit for c in self.beside[body]]))
-        for c in around:
-            if ago > 0:
+        if ago > 0:
+            for c in around:
                 self.faces.look(c)
+        for c in around:
+            self.queue.due.pop(c, None)
+        for c in select_fast(around, self.slow):
             self.look(c, is_new=ago > 0)
 
     def link(self, contacts: list[Contact]) -> None:
@@ -435,6 +438,18 @@ class Impacts:
         least = LEAST * max([hit.wanted - hit.speed() for hit in hits])
         resolve_at_once(hits, rods, least)
         resolve_at_once([Rub(hit) for hit in hits if hit.mu * hit.total], rods, least)
+
+
+def select_fast(contacts: list[Contact], slow: float) -> list[Contact]:
+    """Return the contacts whose bodies have different velocities: by more than `slow` (px/s)."""
+    fast: list[Contact] = []
+    slow2 = slow * slow
+    for c in contacts:
+        a, b = c.a, c.b
+        vx, vy = a.vx - b.vx, a.vy - b.vy
+        if vx * vx + vy * vy > slow2:
+            fast.append(c)
+    return fast
 
 
 def seen_from_start(a: Body, b: Body) -> tuple[float, float, float]:
