@@ -11,7 +11,7 @@ from .detection import FAR
 from .faces import Faces
 from .flight import BEFORE, DEEPEST, Flight
 from .frame import Frame
-from .hit import Hit, Rub, resolve_at_once
+from .hit import Hit, Rub, resolve_at_once, resolve_one
 from .impact_queue import ImpactQueue
 from .joint import Joint
 from .order import balls_of
@@ -431,6 +431,9 @@ class Impacts:
 
         Normal impulses come first, then friction limited by them, so no energy is created.
         """
+        if len(group) == 1 and not frames:
+            resolve_one(group[0], *self.law(group[0]))
+            return
         for frame in frames:
             frame.hold()
         hits = [Hit(c, self.law(c)) for c in group]
