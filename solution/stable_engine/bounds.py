@@ -39,10 +39,10 @@ class Bounds:
         body, margin = self.body, self.margin
         x, y, vx, vy = body.x, body.y, body.vx, body.vy
         self.vx, self.vy = vx, vy
-        self.left = x + min(-vx * back, vx * ahead) - margin
-        self.right = x + max(-vx * back, vx * ahead) + margin
-        self.top = y + min(-vy * back, vy * ahead) - margin
-        self.bottom = y + max(-vy * back, vy * ahead) + margin
+        left, right = (-vx * back, vx * ahead) if vx > 0 else (vx * ahead, -vx * back)
+        top, bottom = (-vy * back, vy * ahead) if vy > 0 else (vy * ahead, -vy * back)
+        self.left, self.right = x + left - margin, x + right + margin
+        self.top, self.bottom = y + top - margin, y + bottom + margin
 
     def make_room_to_fall(self, fall_x: float, fall_y: float) -> None:
         """Make more room for a body that falls by so many px."""
