@@ -204,7 +204,7 @@ class Flight:
 
     def acceleration(self, body: Body) -> tuple[float, float]:
         """Return the acceleration of a body (px/s²) between impacts."""
-        if body.is_static:
+        if not body.inv_mass:
             return 0.0, 0.0
         if self.is_simple and not (body in self.bearing or body in self.pivots):
             return self.world.g

@@ -1,5 +1,6 @@
 """Impacts: their order, those at one moment, and the positions afterwards."""
 
+from collections import defaultdict
 from math import hypot, inf, sqrt
 
 from .body import Body, State, state_of
@@ -48,7 +49,7 @@ class Impacts:
         self.slow = slow  # px/s, slower impacts are ignored
         self.queue = ImpactQueue(self.touching_gap)
         self.stops: dict[Body, State] = {}  # where walls stopped balls that `passes` let fly on
-        self.beside: dict[Body, list[Contact]] = {}  # the contacts of each ball
+        self.beside: defaultdict[Body, list[Contact]] = defaultdict(list)  # the contacts of each ball
         self.near: dict[Body, list[Pair]] = {}  # of balls that were hit
         self.flight = Flight(contacts, h)
         self.frame_of = self.flight.frame_of
@@ -338,9 +339,9 @@ class Impacts:
     def link(self, contacts: list[Contact]) -> None:
         """Add to the contacts of each ball, and to the balls that static bodies hold."""
         for c in contacts:
-            self.beside.setdefault(c.a, []).append(c)
-            if not c.b.is_static:
-                self.beside.setdefault(c.b, []).append(c)
+            self.beside[c.a].append(c)
+            if c.b.inv_mass:
+                self.beside[c.b].append(c)
             elif c not in self.faces.normals or c.a.is_bullet:
                 self.flight.held.add(c.a)
 
@@ -369,7 +370,8 @@ class Impacts:
                     balls = [ball for ball in balls if ball not in self.near]
                     self.near.update(self.contacts.broad_phase.pairs_of(balls))
                 for pair in self.near[body]:
-                    self.meet(pair, met)
+                    if pair.contact is None:
+                        self.meet(pair, met)
         if not met:
             return
         self.met += met
@@ -387,15 +389,16 @@ class Impacts:
     def meet(self, pair: Pair, met: list[Contact]) -> None:
         """Add the contact of a near pair to those that have met, if impacts have made it touch."""
         a, b = pair.a, pair.b
-        if pair.contact is None and not (a in self.stops or b in self.stops):
-            nx, ny, gap = seen_from_start(a, b) if b.is_static else collide(a, b)
-            dx, dy = (a.vx - b.vx) * self.dt, (a.vy - b.vy) * self.dt
-            if gap > 0 and gap * gap > dx * dx + dy * dy:
-                return
-            if gap < 0 or self.contacts.have_passed(a, b, gap):
-                c = self.contacts.meet(pair, nx, ny, gap)
-                self.contacts.note_hit(c)
-                met.append(c)
+        if a in self.stops or b in self.stops:
+            return
+        nx, ny, gap = collide(a, b) if b.inv_mass else seen_from_start(a, b)
+        dx, dy = (a.vx - b.vx) * self.dt, (a.vy - b.vy) * self.dt
+        if gap > 0 and gap * gap > dx * dx + dy * dy:
+            return
+        if gap < 0 or self.contacts.have_passed(a, b, gap):
+            c = self.contacts.meet(pair, nx, ny, gap)
+            self.contacts.note_hit(c)
+            met.append(c)
 
     def frames_of(self, group: list[Contact]) -> list[Frame]:
         """Return each frame of rods that a ball of these contacts is in."""
