@@ -8,21 +8,9 @@ from .contact import Contact
 MOST_IMPACTS = 100  # of a contact in one step
 SAME = 1e-6  # share by which the speeds of mirrored impacts may differ
 
-Entry = tuple[float, int, Contact]  # in a queue: s from now, so below 0, and an impact's number
-
-
-class Impact:
-    """An impact that is due: how long ago (s) the two touched, and their closing speed (px/s).
-
-    number tells it from others of the same contact.
-    """
-
-    __slots__ = ("ago", "number", "speed")
-
-    def __init__(self, ago: float, speed: float, number: int) -> None:
-        self.ago = ago
-        self.speed = speed
-        self.number = number
+# of an impact that is due: when (s) the two touched, before now and so below 0, a number that tells
+# it from others of the same contact, and their closing speed (px/s)
+Impact = tuple[float, int, float, Contact]
 
 
 class ImpactQueue:
@@ -34,8 +22,8 @@ class ImpactQueue:
     def __init__(self, gap: float) -> None:
         self.gap = gap  # px
         self.due: dict[Contact, Impact] = {}
-        self.queue: list[Entry] = []  # of those due, the earliest first
-        self.early: list[Entry] = []  # of those due, at the moment that was taken last
+        self.queue: list[Impact] = []  # the earliest first, also those no longer due
+        self.early: list[Impact] = []  # of the moment that was taken last
         self.counts: dict[Contact, int] = {}  # of impacts so far
         self.fastest = 0.0  # px/s, of all impacts
         self.number = 0  # of impacts found so far
@@ -44,41 +32,36 @@ class ImpactQueue:
         """Add an impact of a contact, unless it had too many in this step."""
         if self.counts.get(c, 0) < MOST_IMPACTS:
             self.number += 1
-            self.due[c] = Impact(ago, speed, self.number)
-            heappush(self.queue, (-ago, self.number, c))
+            self.due[c] = impact = -ago, self.number, speed, c
+            heappush(self.queue, impact)
             self.fastest = max(self.fastest, speed)
 
     def take_first(self) -> tuple[list[Contact], float]:
         """Return the hardest of the earliest impacts, and how long (s) ago they touched."""
-        due = self.due
         early = self.find_early()
-        earliest = early[0][0]
-        group = [early[0][2]]
-        self.early = []
-        if len(early) > 1:
-            # the gap in px/s as well: rounding would decide between slow ones
-            hard = max([due[c].speed for _, _, c in early])
-            hard -= max(SAME * hard, self.gap)
-            group = [c for _, _, c in early if due[c].speed >= hard]
-            self.early = [entry for entry in early if due[entry[2]].speed < hard]
+        # the gap in px/s as well: rounding would decide between slow ones
+        hard = max([speed for _, _, speed, _ in early])
+        hard -= max(SAME * hard, self.gap)
+        self.early = [impact for impact in early if impact[2] < hard]
+        group = [c for _, _, speed, c in early if speed >= hard]
         for c in group:
-            del due[c]
+            del self.due[c]
             self.counts[c] = self.counts.get(c, 0) + 1
-        return group, -earliest
+        return group, -early[0][0]
 
-    def find_early(self) -> list[Entry]:
+    def find_early(self) -> list[Impact]:
         """Return the earliest impacts, in order: first those left of the moment before."""
         queue, fastest, gap = self.queue, self.fastest, self.gap
-        early = [entry for entry in self.early if self.is_due(entry)]
+        early = [impact for impact in self.early if self.is_due(impact)]
         while queue and (not early or (queue[0][0] - early[0][0]) * fastest <= gap):
-            entry = heappop(queue)
-            if self.is_due(entry):
-                insort(early, entry)
+            impact = heappop(queue)
+            if self.is_due(impact):
+                insort(early, impact)
         while (early[-1][0] - early[0][0]) * fastest > gap:
             heappush(queue, early.pop())
         return early
 
-    def is_due(self, entry: Entry) -> bool:
-        """Return whether an entry of the queue is neither over nor found anew."""
-        impact = self.due.get(entry[2])
-        return impact is not None and impact.number == entry[1]
+    def is_due(self, impact: Impact) -> bool:
+        """Return whether an impact is neither over nor found anew."""
+        _, number, _, c = impact
+        return c in self.due and self.due[c][1] == number

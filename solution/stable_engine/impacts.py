@@ -89,7 +89,7 @@ class Impacts:
         self.put(body, end)
         for c in walls:
             self.look(c, c in self.begun)
-        known = {c for c in walls if c in self.queue.due and self.queue.due[c].ago > 0}
+        known = {c for c in walls if c in self.queue.due and self.queue.due[c][0] < 0}
         sunk = [c for c in walls if self.faces.added_depth(c) > self.touching_gap]
         if known and known.issuperset(sunk):
             self.stops[body] = stop
