@@ -39,7 +39,7 @@ class Body:
         *("e", "mu", "restitution_given", "friction_given"),
         *("x", "y", "vx", "vy", "turn", "w", "last_x", "last_y"),
         *("id", "world", "is_bullet", "is_kinematic", "idle", "sleeps", "island", "joint_count"),
-        *("still", "calm", "kept", "place", "is_marked", "touches", "has_moved"),
+        *("still", "calm", "kept", "place", "touches", "has_moved"),
         *("lag_x", "lag_y", "is_pressed", "is_fresh", "flown"),
     )
 
@@ -91,7 +91,6 @@ class Body:
         self.still = 0.0  # s, how long it has been slow and steady enough to sleep
         # s of free flight, if it was hit or stopped in the step before; else infinity
         self.flown = inf
-        self.is_marked = False  # while BroadPhase.pairs_of runs
         self.has_moved = False  # since the contacts near it were last found
         self.touches = 0  # the contacts of a ball with other balls
         self.calm = 0.0, 0.0, 0.0  # px/s: vx, vy and the speed of its rim at the last look

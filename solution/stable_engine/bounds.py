@@ -1,6 +1,13 @@
 """The room in which a body may move, and the box around it, for the broad phase."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from .body import Body
+
+if TYPE_CHECKING:
+    from .broad_phase import Pair
 
 ROOM = 0.1  # radii, on each side of a body that can move
 
@@ -13,7 +20,7 @@ class Bounds:
     """
 
     __slots__ = (
-        *("body", "place", "near", "margin", "extra", "left", "right", "top", "bottom"),
+        *("body", "place", "near", "pairs", "margin", "extra", "left", "right", "top", "bottom"),
         *("vx", "vy", "high", "low", "side_high", "side_low", "first_lane", "last_lane", "rank"),
     )
 
@@ -21,6 +28,7 @@ class Bounds:
         self.body = body
         self.place = place  # in the world's list
         self.near = False  # whether any other body is near
+        self.pairs: list[Pair] = []  # of its body and those that are near
         self.margin = ROOM * min(body.hx, body.hy)  # px, room on each side
         self.extra = 0.0  # s, of motion in a room beyond that of others
         self.left = self.right = body.x  # px
@@ -65,6 +73,6 @@ class Bounds:
             self.low, self.high = self.left - hx - margin, self.right + hx
             self.side_low, self.side_high = self.top - hy - margin, self.bottom + hy
 
-    def precedes(self, other: "Bounds") -> bool:
+    def precedes(self, other: Bounds) -> bool:
         """Return whether the sweep meets this box before another."""
         return self.low < other.low or (self.low == other.low and self.place < other.place)

@@ -201,11 +201,9 @@ class BroadPhase:
             for index in range(one.first_lane, one.last_lane + 1):
                 if not before <= index <= last_before:
                     self.lanes[index].append(one)
-        near, count = self.pairs_of([one.body for one in leavers]), len(self.pairs)
         for one in leavers:
             a = one.body
-            pairs = near[a] + self.pairs[count:]
-            known = [a] + [p.b if p.a is a else p.a for p in pairs if p.a is a or p.b is a]
+            known = [a] + [pair.b if pair.a is a else pair.a for pair in one.pairs]
             for other in self.find_near(one, known):
                 self.pair_up(one, other)
 
@@ -234,21 +232,6 @@ class BroadPhase:
         found.sort(key=RANK)
         return found
 
-    def pairs_of(self, bodies: list[Body]) -> dict[Body, list[Pair]]:
-        """Return the near pairs of each of these bodies."""
-        found: dict[Body, list[Pair]] = {}
-        for body in bodies:
-            found[body] = []
-            body.is_marked = True
-        for pair in self.pairs:
-            if pair.a.is_marked:
-                found[pair.a].append(pair)
-            if pair.b.is_marked:
-                found[pair.b].append(pair)
-        for body in bodies:
-            body.is_marked = False
-        return found
-
     def pair_up(self, one: Bounds, other: Bounds) -> None:
         """Add two bodies to the near pairs, if at least one can move."""
         a, b = one.body, other.body
@@ -259,6 +242,8 @@ class BroadPhase:
         pair = self.spare.pop() if self.spare else Pair(a, b)
         pair.a, pair.b, pair.contact = a, b, None
         self.pairs.append(pair)
+        one.pairs.append(pair)
+        other.pairs.append(pair)
         if not (one.near and other.near):
             one.near = other.near = True
             self.is_listed = False
@@ -297,7 +282,7 @@ class BroadPhase:
         upright = taller > (1 / WIDER if self.upright else WIDER)
         self.is_listed = False
         for one in self.bounds:
-            one.near = False
+            one.near, one.pairs = False, []
             one.update_box(upright, margin)
         breadth = 0.0  # px, the sum over all boxes
         for one in self.moving:

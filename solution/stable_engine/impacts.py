@@ -8,7 +8,7 @@ from .broad_phase import Pair
 from .contact import Contact, collide, is_at_face, leave_as_entered
 from .contacts import Contacts
 from .cores import CORE
-from .detection import FAR
+from .detection import FAR, pair_number
 from .faces import Faces
 from .flight import BEFORE, DEEPEST, Flight
 from .frame import Frame
@@ -49,8 +49,7 @@ class Impacts:
         self.slow = slow  # px/s, slower impacts are ignored
         self.queue = ImpactQueue(self.touching_gap)
         self.stops: dict[Body, State] = {}  # where walls stopped balls that `passes` let fly on
-        self.beside: defaultdict[Body, list[Contact]] = defaultdict(list)  # the contacts of each ball
-        self.near: dict[Body, list[Pair]] = {}  # of balls that were hit
+        self.beside: dict[Body, list[Contact]] = defaultdict(list)  # the contacts of each ball
         self.flight = Flight(contacts, h)
         self.frame_of = self.flight.frame_of
         self.faces = Faces(self.flight, slow)
@@ -349,14 +348,9 @@ class Impacts:
         """Find the near pairs of bodies that impacts have moved, if out of their rooms."""
         rooms = self.contacts.broad_phase.rooms
         thrown = [body for body in moved if not rooms[body].holds()]
-        if not thrown:
-            return
-        found = self.contacts.broad_phase.follow(thrown, self.dt, self.reach)
-        self.contacts.take_in(found)
-        for pair in found:
-            for body in (pair.a, pair.b):
-                if body in self.near:
-                    self.near[body].append(pair)
+        if thrown:
+            found = self.contacts.broad_phase.follow(thrown, self.dt, self.reach)
+            self.contacts.take_in(found)
 
     def meet_others(self, hit: list[Body]) -> None:
         """Find impacts of balls that were hit with bodies which they did not touch before."""
@@ -365,11 +359,7 @@ class Impacts:
         for body in hit:
             x, y, far = body.x - body.last_x, body.y - body.last_y, MOVED * body.r
             if x * x + y * y > far * far:
-                if body not in self.near:
-                    balls = [*hit, *balls_of(list(self.queue.due))]
-                    balls = [ball for ball in balls if ball not in self.near]
-                    self.near.update(self.contacts.broad_phase.pairs_of(balls))
-                for pair in self.near[body]:
+                for pair in self.contacts.broad_phase.rooms[body].pairs:
                     if pair.contact is None:
                         self.meet(pair, met)
         if not met:
@@ -388,8 +378,8 @@ class Impacts:
 
     def meet(self, pair: Pair, met: list[Contact]) -> None:
         """Add the contact of a near pair to those that have met, if impacts have made it touch."""
-        a, b = pair.a, pair.b
-        if a in self.stops or b in self.stops:
+        a, b, ignored = pair.a, pair.b, self.contacts.ignored
+        if a in self.stops or b in self.stops or (ignored and pair_number(a, b) in ignored):
             return
         nx, ny, gap = collide(a, b) if b.inv_mass else seen_from_start(a, b)
         dx, dy = (a.vx - b.vx) * self.dt, (a.vy - b.vy) * self.dt

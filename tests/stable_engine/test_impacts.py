@@ -247,6 +247,21 @@ def test_a_ball_between_two_walls_is_where_exact_bounces_take_it(fast, bullet, d
             assert ball.x * ux + ball.y * uy == pytest.approx(place, abs=1e-6)
 
 
+@pytest.mark.parametrize("off", [0, 5, 12])
+@pytest.mark.parametrize("fast", [300, 1000, 3000])
+def test_the_ends_of_a_short_rod_never_hit_each_other(off, fast):
+    """Its balls overlap, so they are never in contact, however hard another ball hits them."""
+    hits = []
+    effects = [Contacts(on_hit=lambda a, b, speed: hits.append({a, b})), Bounce(), Rods()]
+    world = World((0, 0), 4, effects)
+    ends = [world.add(Body(Circle(10), (0, y), 1, restitution=1)) for y in (0, 8)]
+    world.add(Rod(*ends))
+    world.add(Body(Circle(10), (-60, off), 5, restitution=1)).vel = fast, 0
+    for _ in range(60):
+        world.step(1 / 60)
+    assert hits and set(ends) not in hits
+
+
 @pytest.mark.parametrize("restitution", [0.0, 0.8, 1.0])
 def test_a_hit_at_the_end_of_a_dumbbell_keeps_angular_momentum(restitution):
     surface = {"restitution": restitution, "friction": 0.0}
