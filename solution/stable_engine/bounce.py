@@ -40,7 +40,7 @@ class Bounce(Effect):
         if not contacts.begun and all([abs(c.closing_speed()) <= slow for c in fast]):
             return
         impacts = Impacts(contacts, slow, h)
-        impacts.find()
+        impacts.find(fast)
         if impacts.queue.due:
             impacts.resolve_all()
             for c in impacts.met:  # only the next step may push balls apart or stop them

@@ -104,8 +104,9 @@ class BroadPhase:
             if not (one.left <= x <= one.right and one.top <= y <= one.bottom) and one.holds():
                 one.extra = dt
                 leavers.append(one)
-        many = MANY if self.falls else max(MANY, SHARE * len(self.moving))
-        if (leavers and (late or len(leavers) > many)) or (doubtful and self.is_quiet):
+        count = len(leavers)
+        are_many = count > MANY and (self.falls or count > SHARE * len(self.moving))
+        if (leavers and (late or are_many)) or (doubtful and self.is_quiet):
             self.is_stale = True
         return leavers
 
@@ -120,8 +121,10 @@ class BroadPhase:
         if self.is_stale:
             self.set_ahead(dt)
             self.leavers = self.moving
-            steady = all(one.body.vx == one.vx and one.body.vy == one.vy for one in self.moving)
             self.is_quiet, self.falls = False, g != (0.0, 0.0)
+            steady = not self.falls and all(
+                one.body.vx == one.vx and one.body.vy == one.vy for one in self.moving
+            )
             self.end, self.pairs, self.spare = self.ahead + ROUNDING * dt, [], self.pairs
         count, ahead = len(self.pairs), max(self.ahead - self.age, dt)
         fall_x, fall_y = g[0] * ahead * ahead / 2, g[1] * ahead * ahead / 2
@@ -132,7 +135,7 @@ class BroadPhase:
                 one.make_room_to_fall(fall_x, fall_y)
         if self.is_stale:
             self.sweep(margin)
-            if steady and not self.falls:
+            if steady:
                 self.skip_pairs(ahead + 2 * dt, margin)
         else:
             self.search(self.leavers, margin)

@@ -56,12 +56,14 @@ class Impacts:
         self.turned: list[Contact] = []  # contacts with the normal of their touch
         self.met: list[Contact] = []  # contacts that began through an impact
 
-    def find(self) -> None:
-        """Find all impacts. For a new contact, the moment of its touch counts."""
+    def find(self, fast: list[Contact]) -> None:
+        """Find all impacts of fast bodies. For a new contact, the moment of its touch counts."""
         self.faces.find(self.contacts.statics.contacts)
         if self.contacts.ends:
             self.let_pass()
-        for c in select_fast(self.touching, self.slow):
+            self.queue.due.clear()
+            fast = select_fast(self.touching, self.slow)
+        for c in fast:
             self.look(c, c in self.begun or c.a.flown < inf or c.b.flown < inf)
 
     def let_pass(self) -> None:

@@ -114,7 +114,7 @@ def bullets(count, others):
         (springs, ["Springs"], {"springs.py", "joint.py"}),
         (bullets, ["Contacts", "Bullets"], {"bullets.py"}),
         (lying, ["Contacts", "Friction"], {"friction.py"}),
-        (lying, ["Contacts", "Bounce"], {"bounce.py"}),
+        (lying, ["Contacts", "Bounce"], {"bounce.py", "impacts.py"}),
     ],
     ids=["Rods", "Springs", "Bullets", "Friction", "Bounce"],
 )
