@@ -11,7 +11,6 @@ from .sweep import NO_HIT, hit_point
 SWEEP = 5  # checks of near pairs per body that can move, which cost as much as a sweep
 LONGEST = 0.5  # s of motion in a room
 WIDER = 1.1  # ratio of the spreads along both axes at which the sweep changes its axis
-SHUFFLED = 8  # steps until the order of the sweep has changed much
 LANE = 6.0  # width of a lane, in half widths of a ball
 FEW = 4  # boxes in a lane; up to so many, ended ones may stay
 ROUNDING = 1e-3  # steps
@@ -66,7 +65,6 @@ class BroadPhase:
         self.lanes_per_px = 0.0
         self.hull = 0.0, 0.0, 0.0, 0.0  # px, what the sweep has covered, along it and across
         self.is_quiet = False  # whether no near pair will touch unless a velocity changes
-        self.is_sorted = False
         self.is_stale = True  # whether all rooms are renewed in the next step
         self.upright = False  # whether the sweep goes along y
         self.ahead = LONGEST  # s of motion in a room
@@ -82,7 +80,7 @@ class BroadPhase:
         self.moving = [b for b in self.bounds if not b.body.idle or b.body.is_kinematic]
         halves = [max(b.body.hx, b.body.hy) for b in self.moving]
         self.widest, self.narrowest = max(halves), LANE * sum(halves) / len(halves)
-        self.is_stale, self.is_sorted = True, False
+        self.is_stale = True
 
     def find_leavers(self, dt: float) -> list[Bounds]:
         """Return the bounds of the bodies that have left their rooms in a step of dt seconds."""
@@ -163,7 +161,6 @@ class BroadPhase:
             self.ahead = max(self.ahead / 2, dt)
         elif 4 * self.looks < SWEEP * len(self.moving):
             self.ahead = min(2 * self.ahead, LONGEST)
-        self.is_sorted = self.is_sorted and self.age < SHUFFLED * dt
         self.age, self.looks = 0.0, 0
 
     def skip_pairs(self, seconds: float, margin: float) -> None:
@@ -324,13 +321,10 @@ class BroadPhase:
     def sort(self, upright: bool) -> None:
         """Put the boxes into the order in which the sweep meets them.
 
-        Bodies move little between two sweeps, so the order hardly changes: insertion sort moves
-        each misplaced box down.
+        Boxes that begin together keep the order of the world's list, whatever it was before.
         """
-        bounds = self.bounds
-        if not self.is_sorted or upright != self.upright:
-            bounds.sort(key=LOW)
-            self.is_sorted, self.upright = True, upright
+        bounds, self.upright = self.bounds, upright
+        bounds.sort(key=LOW)
         highest = -inf
         for at, one in enumerate(bounds):
             if one.low > highest:
