@@ -39,11 +39,13 @@ class ImpactQueue:
     def take_first(self) -> tuple[list[Contact], float]:
         """Return the hardest of the earliest impacts, and how long (s) ago they touched."""
         early = self.find_early()
-        # the gap in px/s as well: rounding would decide between slow ones
-        hard = max([speed for _, _, speed, _ in early])
-        hard -= max(SAME * hard, self.gap)
-        self.early = [impact for impact in early if impact[2] < hard]
-        group = [c for _, _, speed, c in early if speed >= hard]
+        group, self.early = [early[0][3]], []
+        if len(early) > 1:
+            # the gap in px/s as well: rounding would decide between slow ones
+            hard = max([speed for _, _, speed, _ in early])
+            hard -= max(SAME * hard, self.gap)
+            group = [c for _, _, speed, c in early if speed >= hard]
+            self.early = [impact for impact in early if impact[2] < hard]
         for c in group:
             del self.due[c]
             self.counts[c] = self.counts.get(c, 0) + 1
