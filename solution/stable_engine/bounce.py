@@ -35,9 +35,8 @@ class Bounce(Effect):
     def impact(self, h: float) -> None:
         contacts, slow = self.contacts, self.slow_speed(h * self.world.substep_count)
         fast = select_fast(contacts.touching, slow)
-        if not (fast or (contacts.begun and contacts.ends)):
-            return
-        if not contacts.begun and all([abs(c.closing_speed()) <= slow for c in fast]):
+        may_hit = contacts.begun and (fast or contacts.ends)
+        if not may_hit and all([abs(c.closing_speed()) <= slow for c in fast]):
             return
         impacts = Impacts(contacts, slow, h)
         impacts.find(fast)

@@ -17,13 +17,11 @@ class Faces:
         self.normals: dict[Contact, tuple[float, float, float]] = {}
         self.depths: dict[Contact, float] = {}  # px, the gap before
 
-    def find(self, touching: list[Contact]) -> None:
-        """Find the contacts at flat faces, and the faces that bear balls."""
-        for c in touching:
-            self.note(c, c.gap)
-
     def note(self, c: Contact, depth: float) -> None:
-        """Note the face that a ball is at, if any, and the gap before (px) as its depth."""
+        """Note the face that a ball is at, if any, and the gap before (px) as its depth.
+
+        Also note whether the face bears the ball.
+        """
         if c.b.is_static and is_at_face(c) and c.a not in self.flight.pivots:
             self.depths[c] = depth
             if not c.a.is_bullet:

@@ -58,7 +58,8 @@ class Impacts:
 
     def find(self, fast: list[Contact]) -> None:
         """Find all impacts of fast bodies. For a new contact, the moment of its touch counts."""
-        self.faces.find(self.contacts.statics.contacts)
+        for c in self.contacts.statics.contacts:
+            self.faces.note(c, c.gap)
         if self.contacts.ends:
             self.let_pass()
             self.queue.due.clear()
