@@ -6,7 +6,7 @@ from .body import Body, State, state_of
 from .contact import Contact, collide, leave_as_entered
 from .detection import Detection, pair_number
 from .soft import SAME_DIRECTION
-from .sweep import NO_HIT, first_hit, put_back, share_left
+from .sweep import NO_HIT, first_hit, free_share, put_back, share_left
 
 CORE = 0.5  # radii
 SEAM = 1e-9  # a squared sine; faces that turn less are one
@@ -116,11 +116,15 @@ class Cores:
         """Put a ball back to where it was after this fraction of its way (px), and note when."""
         contacts = self.contacts
         end = state_of(body)
-        springs = contacts.springs if body.joint_count else None
-        stored = springs.stiff_energy(body, h) if springs else 0.0
-        put_back(body, way, fraction, self.pull, h)
-        if springs:
-            lose_energy(body, springs.stiff_energy(body, h) - stored)
+        springs = contacts.springs
+        if springs and body.joint_count:
+            stiff = springs.stiff_around(body, h)
+            stored = springs.energy_in(stiff)
+            put_back(body, way, fraction, self.pull, h)
+            self.take_along(springs.others_on(stiff, body), end[0] - body.x, end[1] - body.y, h)
+            lose_energy(body, springs.energy_in(stiff) - stored)
+        else:
+            put_back(body, way, fraction, self.pull, h)
         if not body.is_bullet:
             contacts.ends[body] = state_of(body), contacts.ends.get(body, (end, end))[1]
         before = contacts.stopped.get(body, contacts.last_dt)
@@ -128,6 +132,15 @@ class Cores:
         flown = body.flown if body.flown < inf else contacts.last_dt
         body.flown = flown - (1 - fraction) * before
         contacts.flying.append(body)
+
+    def take_along(self, bodies: list[Body], dx: float, dy: float, h: float) -> None:
+        """Put balls back by (dx, dy) px with one that they are stiffly tied to, up to a wall.
+
+        If they went on alone, they would stretch springs by more energy than all had.
+        """
+        for body in bodies:
+            share = free_share(self.world.statics, CORE * body.r, body.x, body.y, -dx, -dy)
+            put_back(body, (dx * share, dy * share), 0.0, self.pull, h)
 
     def pull(self, body: Body) -> tuple[float, float]:
         """Return the acceleration of a body (px/s²) by gravity, forces and soft springs."""

@@ -158,7 +158,7 @@ def find_firsts(
         is_deep = c.gap < -DEEP * (c.a.r + c.b.r)
         is_tied = c in tied
         is_slow = not c.e or abs(c.closing_speed()) < RESTING * unit
-        if (ratio > HEAVY or is_tied) and is_slow:
+        if is_tied or (ratio > HEAVY and is_slow):
             heavy.append((place, MOST_ROWS))
         elif is_deep and c.b.inv_mass and not c.e:
             deep.append((place, FEW_ROWS))

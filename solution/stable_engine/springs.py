@@ -4,7 +4,7 @@ from math import expm1, hypot
 
 from .body import Body, State, state_of
 from .joint import Joint, Joints
-from .network import Network, bodies_of, connect
+from .network import Network, bodies_of, connect, connected, couple
 from .validate import not_negative
 
 NUMEROV = 1 / 12  # of how the stretch curves in a substep: see Springs
@@ -177,14 +177,23 @@ class Springs(Joints[Spring]):
                 x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
         return x, y
 
-    def stiff_energy(self, body: Body, h: float) -> float:
-        """Return the energy (kg px²/s²) in the stiff springs of a body."""
+    def stiff_around(self, body: Body, h: float) -> list[Spring]:
+        """Return the stiff springs that tie a ball to others, these to more, and so on."""
+        stiff = self.find_stiff(h)
+        groups = connected(stiff, couple(stiff))
+        return next((group for group in groups if body in bodies_of(group)), [])
+
+    def others_on(self, springs: list[Spring], body: Body) -> list[Body]:
+        """Return the balls on these springs, without one."""
+        return [end for end in bodies_of(springs) if end.inv_mass and end is not body]
+
+    def energy_in(self, springs: list[Spring]) -> float:
+        """Return the energy (kg px²/s²) in some springs."""
         energy = 0.0
-        for spring in self.springs_of.get(body, []):
-            if spring.is_stiff(h):
-                a, b = spring.end_a, spring.end_b
-                stretch = hypot(b.x - a.x, b.y - a.y) - spring.rest
-                energy += spring.k * stretch * stretch / 2
+        for spring in springs:
+            a, b = spring.end_a, spring.end_b
+            stretch = hypot(b.x - a.x, b.y - a.y) - spring.rest
+            energy += spring.k * stretch * stretch / 2
         return energy
 
     def warm_start(self, h: float) -> None:

@@ -7,6 +7,7 @@ from .body import Body
 from .shapes import Segment
 
 NO_HIT = 1.0
+BEFORE = 0.02  # radii that are left between a ball and a wall
 
 
 def put_back(
@@ -82,6 +83,17 @@ def first_stop(
     """Return the time of impact as first_hit does; of the centre if the ball starts in a body."""
     whole = first_hit(statics, radius, x, y, dx, dy)
     return min(whole, first_hit(statics, 0.0, x, y, dx, dy))
+
+
+def free_share(
+    statics: list[Body], radius: float, x: float, y: float, dx: float, dy: float
+) -> float:
+    """Return how much of a way a ball can go before static bodies, 0 to 1.
+
+    It ends a little before them, so that the next step finds the contact.
+    """
+    share = first_stop(statics, radius, x, y, dx, dy)
+    return max(share - BEFORE * radius / sqrt(dx * dx + dy * dy), 0.0) if share < NO_HIT else 1.0
 
 
 def hit_body(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -> float:

@@ -6,12 +6,13 @@ Two to five balls fly about in a closed box, at 10 to 2000 px/s, with masses of 
 import math
 import random
 import warnings
+from itertools import product
 
 import pytest
 from worlds_for_tests import whole_energy
 
 import stable_engine
-from stable_engine import Body, Box, Circle, Contacts, Rod, Spring, World
+from stable_engine import Body, Bounce, Box, Circle, Contacts, Rod, Spring, Springs, World
 
 G = 980.0
 
@@ -87,3 +88,27 @@ def test_a_small_scene_never_gains_energy(first):
 @pytest.mark.parametrize("seed", [2293, 1383, 2708, 2478, 1486, 2532, 935, 599])
 def test_a_ball_that_a_stiff_spring_takes_to_a_wall_gains_no_energy(seed):
     assert ClosedBox(seed, springs=1).gain(240) < 1.01
+
+
+@pytest.mark.parametrize("degrees", range(0, 91, 15))
+@pytest.mark.parametrize("restitution", [0, 1])
+def test_a_stiff_spring_thrown_at_a_wall_gains_no_energy(degrees, restitution):
+    """The ball that the wall stops holds the other one back, so that no spring is torn.
+
+    In a substep an end that turns about the other moves along the tangent, by s px. That stretches
+    a spring of l px by s²/2l: such an energy may come and go.
+    """
+    turn = math.radians(degrees)
+    for stiffness, speed, rate in product((1e5, 1e6), (600, 1000), (60, 120)):
+        world = World((0, 0), 4, [Contacts(), Bounce(), Springs()])
+        world.add(Body(Box((500, 50)), (0, 50), restitution=restitution))
+        first = world.add(Body(Circle(8), (0, -100), 0.2, restitution=restitution))
+        place = 40 * math.cos(turn), -100 - 40 * math.sin(turn)
+        other = world.add(Body(Circle(8), place, 0.3, restitution=restitution))
+        world.add(Spring(first, other, stiffness))
+        first.vel = other.vel = 0, speed
+        tangent = (1 + restitution) * speed / (4 * rate)
+        most = 1.01 * whole_energy(world) + stiffness * (tangent**2 / (2 * 40)) ** 2 / 2
+        for _ in range(60):
+            world.step(1 / rate)
+            assert whole_energy(world) < most, (stiffness, speed, rate)
