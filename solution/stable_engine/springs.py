@@ -227,15 +227,26 @@ class Springs(Joints[Spring]):
     def lag(self, seconds: float) -> None:
         """Add the pull of soft springs: that of a third of a substep before, as it changes.
 
-        Where any spring of a network is stiff, nothing lags: else momentum would not be kept.
+        Where any spring of a network is stiff, only gravity lags, or momentum would not be kept;
+        nothing does where contacts, rods or static bodies hold the network.
         """
         self.find_networks()
         h = 2 * abs(seconds)
         for network in self.networks:
-            if any([spring.is_stiff(h) for spring in network.joints]):
+            if not any([spring.is_stiff(h) for spring in network.joints]):
+                self.lag_softly(network.joints, seconds)
+            elif any([self.is_held(body) for body in bodies_of(network.joints)]):
                 for body in bodies_of(network.joints):
                     body.is_pressed = True
-        for spring in self.awake:
+
+    def is_held(self, body: Body) -> bool:
+        """Return whether a body at a spring is static, in contact or on rods as well."""
+        return body.is_pressed or body.joint_count > len(self.springs_of[body]) or body.is_static
+
+    def lag_softly(self, springs: list[Spring], seconds: float) -> None:
+        """Let velocities lag by the pull of springs in so many seconds."""
+        h = 2 * abs(seconds)
+        for spring in springs:
             a, b = spring.end_a, spring.end_b
             fx, fy = spring.pull_between(state_of(a), state_of(b), h / 3)
             a.lag_x += fx * a.inv_mass * seconds

@@ -212,6 +212,19 @@ def test_velocities_belong_to_the_time_of_the_positions(substeps):
         assert now == pytest.approx(start, abs=4e-4 * scale)
 
 
+@pytest.mark.parametrize("stiffness", [1e2, 1e4, 1e6])
+def test_balls_on_a_spring_fall_like_any_other(stiffness):
+    """All bodies fall alike, and read the same speed meanwhile."""
+    bodies = [Ball((0, 0)), Ball((0, 50), mass=3.0), Ball((50, 30))]
+    spring = Spring(0, 1, stiffness, 0.0, 50.0)
+    engine = Stable(Scene(bodies, ("Springs",), springs=[spring]))
+    run(engine, 1)
+    one, other, alone = (engine.read(i) for i in range(3))
+    for ball, start in ((one, 0), (other, 50)):
+        assert ball.y - start == pytest.approx(alone.y - 30, abs=1e-6)
+        assert ball.vy == pytest.approx(alone.vy, abs=1e-6)
+
+
 @pytest.mark.parametrize("effects", [("Contacts",), ("Contacts", "Bounce"), TOUCH])
 def test_a_ball_that_a_spring_presses_on_the_floor_reads_as_at_rest(effects):
     bodies = [Block((0, 20), (100, 20)), Ball((0, -10)), Ball((0, -110), 4, mass=0)]
