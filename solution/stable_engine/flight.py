@@ -138,8 +138,9 @@ class Flight:
             before = [(body, self.acceleration(body)) for body in free]
             times = [self.fly_ball(body, pull, seconds / parts) for body, pull in before]
             self.time += seconds / parts
-            for (body, pull), time in zip(before, times, strict=True):
-                self.adjust(body, pull, time)
+            after = [self.acceleration(body) for body in free]  # with the same speeds for all
+            for (body, pull), now, time in zip(before, after, times, strict=True):
+                self.adjust(body, pull, now, time)
         if seconds > 0:
             self.leave_behind()
 
@@ -167,9 +168,11 @@ class Flight:
         body.vy += ay * seconds
         return seconds
 
-    def adjust(self, body: Body, pull: tuple[float, float], seconds: float) -> None:
+    def adjust(
+        self, body: Body, pull: tuple[float, float], now: tuple[float, float], seconds: float
+    ) -> None:
         """Adjust a velocity to the pull (px/s²) now, after a flight with that at its start."""
-        (ax, ay), (now_x, now_y) = pull, self.acceleration(body)
+        (ax, ay), (now_x, now_y) = pull, now
         body.vx += (now_x - ax) * (seconds - self.h) / 2
         body.vy += (now_y - ay) * (seconds - self.h) / 2
 
@@ -184,7 +187,8 @@ class Flight:
         body.x, body.y = pivot.x + c * x - s * y, pivot.y + s * x + c * y
         body.vx, body.vy = c * vx - s * vy, s * vx + c * vy
         body.turn += body.w * seconds
-        self.adjust(body, (c * ax - s * ay, s * ax + c * ay), seconds)
+        before = c * ax - s * ay, s * ax + c * ay
+        self.adjust(body, before, self.acceleration(body), seconds)
 
     def fly_frame(self, frame: Frame, seconds: float) -> None:
         """Let a frame fly and turn for a time, or back, as if it were rigid."""
@@ -213,11 +217,12 @@ class Flight:
             other = spring.other_end(body)
             if other in self.stiff:
                 continue  # it does not fly along, so momentum would be lost
-            there = state_of(other)
+            here, there = state_of(body), state_of(other)
             if other not in self.moved:
-                at_x, at_y, vx, vy = self.before[other]
-                there = at_x + vx * self.time, at_y + vy * self.time, vx, vy
-            fx, fy = spring.pull_between(state_of(body), there)
+                there = self.unhit(other)
+                if body in self.partners and not other.is_static:  # or it alone would change
+                    here = self.unhit(body)
+            fx, fy = spring.pull_between(here, there)
             x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
         if body in self.pivots:
             rod_x, rod_y = body.x - self.pivots[body].x, body.y - self.pivots[body].y
@@ -228,6 +233,11 @@ class Flight:
             if into > 0:
                 x, y = x - c.nx * into, y - c.ny * into
         return x, y
+
+    def unhit(self, body: Body) -> State:
+        """Return where a ball would be now, straight on or back from where it was before."""
+        x, y, vx, vy = self.before[body]
+        return x + vx * self.time, y + vy * self.time, vx, vy
 
     def pull(self, c: Contact) -> tuple[float, float]:
         """Return the acceleration (px/s²) with which A and B are drawn together, below 0 apart.

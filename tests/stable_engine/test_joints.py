@@ -145,6 +145,21 @@ def test_springs_between_free_balls_keep_momentum(seed):
         assert sum(b.m * b.y for b in moving) / mass == pytest.approx(vy * step * DT, abs=1e-6)
 
 
+@pytest.mark.parametrize("damping", [0.0, 3.0])
+def test_a_hit_on_balls_on_springs_keeps_momentum(damping):
+    """What springs take from one ball while it flies back to a touch, they give to another."""
+    row = [Ball((50 * i, 0), restitution=1.0) for i in range(3)]
+    cue = Ball((-60, 3), mass=2.0, vel=(200, 0), restitution=1.0)
+    springs = [Spring(0, 1, 500.0, damping, 49.0), Spring(1, 2, 500.0, damping, 50.0)]
+    effects = ("Contacts", "Bounce", "Springs")
+    engine = Stable(Scene([*row, cue], effects, springs=springs, gravity=(0, 0)))
+    for _ in range(120):
+        engine.step(1 / 60)
+        moving = balls(engine.world)
+        momentum = sum(b.m * b.vx for b in moving), sum(b.m * b.vy for b in moving)
+        assert momentum == pytest.approx((400, 0), abs=1e-9 * 400)
+
+
 LIGHT_AND_HEAVY = [
     ((0.01, 0.2, 98), 3.8e6, 0, 4),
     ((0.01, 1, 50), 1e6, 0, 4),
