@@ -1,12 +1,10 @@
 """Unload contacts: bodies that press less, or leave, take off the impulses kept under them."""
 
-from math import hypot, inf
+from math import hypot
 
 from .body import Body
 from .contact import Contact
 from .effect import Direction
-
-LEVEL = 1e-6  # a sine; contacts that rise by less do not bear what is above
 
 
 def take_off(contacts: list[Contact], lost: dict[Body, float], direction: Direction) -> None:
@@ -22,7 +20,7 @@ def take_off(contacts: list[Contact], lost: dict[Body, float], direction: Direct
         beside.setdefault(c.b, []).append(c)
     x, y = direction
     found = in_touch([*lost], beside)
-    for body in sorted(found, key=lambda body: (lost.get(body) != inf, body.x * x + body.y * y)):
+    for body in sorted(found, key=lambda body: body.x * x + body.y * y):
         if body.is_static:
             for c in [c for ball in found if ball.m for c in beside.get(ball, [])]:
                 c.jn = c.jt = 0.0
@@ -38,8 +36,6 @@ def unload(
     size = hypot(x, y) or 1.0
     sides = [(c, c.b, 1.0) if c.a is ball else (c, c.a, -1.0) for c in contacts]
     ahead = [(c, other, (c.nx * x + c.ny * y) / size * side) for c, other, side in sides]
-    if lost[ball] < inf:
-        ahead = [(c, other, share) for c, other, share in ahead if share > -LEVEL]
     borne = sum([c.jn * max(share, 0.0) for c, _, share in ahead])
     left = max(1 - lost[ball] / borne, 0.0) if borne else 0.0
     for c, other, share in ahead:
