@@ -103,13 +103,13 @@ def solve_within(
     least: float,
     has_moved: bool,
     accepts: Callable[[], bool] | None = None,
-) -> bool:
+) -> None:
     """Find the impulses of all rows together: those of `limited` stay within their limits.
 
     aim sets each row's pivot and rhs, see Network.solve. Each turn solves for some rows, then lets
     go of those beyond their limits, and takes those that still lack more than `least` px/s (block
     pivoting, Júdice and Pires 1994). If that does not end, or `accepts` refuses its end, nothing
-    changes. Return whether anything may have.
+    changes.
     """
     before = [(body, body.vx, body.vy, body.w) for body in bodies_of(network.joints)]
     taken = dict.fromkeys(network.joints, 0.0)  # kg px/s
@@ -123,7 +123,7 @@ def solve_within(
         wrong = [row for row in limited if row.is_wrong(least)]
         if not wrong:
             if accepts is None or accepts():
-                return True
+                return
             break
         patience -= 1
         if len(wrong) < fewest:
@@ -134,4 +134,3 @@ def solve_within(
         one.take(-j, has_moved)
     for body, vx, vy, w in before:
         body.vx, body.vy, body.w = vx, vy, w
-    return False

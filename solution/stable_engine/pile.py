@@ -16,9 +16,7 @@ PUSHED = 0.1  # share by which a contact gives way, per ratio: many firm ones ha
 FRAMED = 1.0  # the same where frames of rods press
 SOFTEST = 1e-2  # the most of both
 HARDEST = 1e-6  # the least of both, and all in a tower, where firm ones do have a solution
-GENTLE = 0.1  # share of the highest push, for balls on rods of equal masses that overlap
 RELAXED = 1e-3  # of that share, what is left after the move
-TRIES = 3  # of a pile with rods, before the move: a length is no linear function of the speeds
 
 
 class Stage:
@@ -39,13 +37,12 @@ class Stage:
 class Load(Limited):
     """A contact in a pile."""
 
-    __slots__ = ("give", "haste", "pressed", "ratio")
+    __slots__ = ("give", "pressed", "ratio")
 
     def __init__(self, c: Contact, ratio: float) -> None:
         super().__init__(c)
         self.ratio = ratio  # of the heavier body, or its frame, to the lighter ball
         self.give = 0.0  # the share that it gives way
-        self.haste = 1.0  # the share of the highest speed at which overlap is pushed out
         self.pressed = -1.0  # kg px/s, beside rods its impulse before the move
 
     def aim(self, stage: Stage) -> None:
@@ -60,7 +57,7 @@ class Load(Limited):
         if gap > stage.least and not (stage.has_moved and presses):
             self.rhs = -speed - gap / stage.h
         else:
-            push = max(rate * gap, -stage.most * self.haste)
+            push = max(rate * gap, -stage.most)
             self.rhs = -speed - push - give * c.jn / c.mn
 
     def take(self, j: float, has_moved: bool) -> None:
@@ -77,13 +74,13 @@ class Pile:
 
     __slots__ = (
         *("bodies", "calm", "is_wild", "lengths", "loads", "network", "rods", "rows", "springs"),
-        *("stage", "tries", "turning"),
+        *("stage", "turning"),
     )
 
     def __init__(self, loads: list[Load], joints: list[Joint], unit: float, softest: float) -> None:
         self.loads = loads
         self.springs = [joint for joint in joints if isinstance(joint, Spring)]
-        rods = self.rods = [joint for joint in joints if not isinstance(joint, Spring)]
+        self.rods = [joint for joint in joints if not isinstance(joint, Spring)]
         self.rows: list[Joint] = [*loads, *joints]
         self.bodies = bodies_of(self.rows)
         masses = [body.m for body in self.bodies if body.m]
@@ -91,10 +88,8 @@ class Pile:
         for load in self.loads:
             given = (FRAMED if self.rods else PUSHED) / ratio
             load.give = max(min(given, softest), HARDEST)
-            load.haste = GENTLE if self.rods and ratio <= HEAVY else 1.0
         self.calm = CALM * unit / min(ratio, STEEPEST) ** 2  # px/s
         self.lengths: list[float] = []  # px, of its rods after the move
-        self.tries = TRIES if rods else 1
         turning = [load for load in loads if not (joints and is_at_face(load.c))]
         self.turning = bodies_of(turning)  # at contacts that are other ones once these moved far
         self.is_wild = False  # whether they move far in this substep
@@ -131,10 +126,9 @@ class Pile:
         self.stage = stage
         for load in self.loads:
             load.follow()
-        for _ in range(1 if stage.has_moved else self.tries):
-            lack = self.lack()
-            if lack <= self.calm or not self.press(lack):
-                break
+        lack = self.lack()
+        if lack > self.calm:
+            self.press(lack)
         for load in self.loads if self.rods and not stage.has_moved else []:
             load.pressed = load.c.jn
 
@@ -158,8 +152,8 @@ class Pile:
         both = zip(self.rods, self.lengths, strict=True)
         return [(length - length_after(rod, h)) / h for rod, length in both]
 
-    def press(self, lack: float) -> bool:
-        """Apply the impulses of the contacts that press, and of the rods, and return True.
+    def press(self, lack: float) -> None:
+        """Apply the impulses of the contacts that press, and of the rods.
 
         Change nothing if more (px/s) would then lack than before, as where rods turn very far.
         """
@@ -169,7 +163,7 @@ class Pile:
             load.total = load.c.jn
         has_moved = self.stage.has_moved
         accepts = None if has_moved or not self.rods else lambda: self.lack() <= lack
-        return solve_within(self.network, self.loads, self.aim, self.calm, has_moved, accepts)
+        solve_within(self.network, self.loads, self.aim, self.calm, has_moved, accepts)
 
     def aim(self) -> None:
         """Set each row's pivot and rhs."""
