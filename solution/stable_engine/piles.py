@@ -15,15 +15,12 @@ TALL = 13.3  # weights of its effective mass; a contact that bears more carries 
 LEANING = 0.1  # a sine; a tower leans less
 SUNK = 0.01  # in units of the world; a contact that gives way by less sinks too little to be seen
 BEARING = 0.05  # weights of its effective mass; a contact with less bears nothing
-DEEP = 0.05  # of both radii; balls that overlap by more were thrown at each other
-TIED = 0.005  # the same for balls on rods: these take over what a push leaves
+TIED = 0.005  # of both radii; rods take over what a push of balls that overlap by more leaves
 RESTING = 30.0  # 1/s, in units of the world; a ball that bounces faster is left to impacts
 MOST_ROWS = 128  # contacts and rods of a pile; a larger one is left to passes
-FEW_ROWS = 32  # the same where balls were thrown at each other
 WEDGED = 0.9  # cosine; a ball between faces that turn less is pressed as by a heavier one
 PARALLEL = 1 - 1e-9  # cosine, of faces that are one
 OPPOSITE = -0.5  # cosine; faces that turn further apart clamp what is between them
-TURNING = 0.01  # rad in a substep; rods that turn by more pull at balls that contacts hold
 
 
 def find_piles(contacts: Detection, before: list[Pile], h: float) -> list[Pile]:
@@ -35,14 +32,12 @@ def find_piles(contacts: Detection, before: list[Pile], h: float) -> list[Pile]:
     if weight and balls.contacts:
         sinks = (1 - balls.mass_scale) / balls.bias_rate  # px by px/s, if it is not
         tall = max(TALL * weight, SUNK * world.unit / sinks)
-    is_heavy = is_tall = False  # whether masses differ much or balls overlap deep; any tower
+    is_heavy = is_tall = False  # whether masses differ much; whether there is any tower
     for c in contacts.touching:
         is_heavy = is_heavy or c.ratio > HEAVY
         if c.jn > tall * c.mn:
             is_upright = abs(c.nx * gy - c.ny * gx) * h < LEANING * weight
             is_tall = is_tall or (is_upright and c.a.touches <= 2 and c.b.touches <= 2)
-        else:
-            is_heavy = is_heavy or c.gap < -DEEP * (c.a.r + c.b.r)
     for pile in before:
         pile.end()
     tied = find_tied(contacts, h) if contacts.landings.pairs else set()
@@ -54,14 +49,13 @@ def find_piles(contacts: Detection, before: list[Pile], h: float) -> list[Pile]:
 
 
 def find_tied(contacts: Detection, h: float) -> set[Contact]:
-    """Return the contacts that may work against rods: they land, overlap, or rods turn fast."""
+    """Return the contacts that may work against rods: they land or overlap."""
     tied: set[Contact] = set()
-    turning = contacts.rods.find_turning(TURNING / h) if contacts.rods else set()
     for pair in contacts.landings.pairs:
-        c, a, b = pair.contact, pair.a, pair.b
+        c = pair.contact
         if c:
             ahead = c.gap - max(c.closing_speed(), 0.0) * h * contacts.world.substep_count
-            if ahead < -TIED * (a.r + b.r) or a in turning or b in turning:
+            if ahead < -TIED * (c.a.r + c.b.r):
                 tied.add(c)
     return tied
 
@@ -71,8 +65,8 @@ def find_heavy(
 ) -> list[Pile]:
     """Return the piles where much presses on little, if there are any.
 
-    is_heavy tells whether masses at any contact differ much, or balls overlap deep; `tied` are
-    contacts that may work against rods, and `springs` the stiff ones.
+    is_heavy tells whether masses at any contact differ much; `tied` are contacts that may work
+    against rods, and `springs` the stiff ones.
     """
     world, rods = contacts.world, contacts.rods
     pull = hypot(*world.g)
@@ -102,9 +96,8 @@ def collect_piles(
 ) -> list[Pile]:
     """Return the piles in which a body, or a frame, is much heavier than a ball at its contact.
 
-    So are those with balls thrown at each other, unless they bounce or joints hold them. loads are
-    the masses (kg) that press where they are not the bodies' own, as in frames of rods. unit is
-    that of the world.
+    loads are the masses (kg) that press where they are not the bodies' own, as in frames of rods.
+    unit is that of the world.
     """
     ratios = [ratio_of(c, loads) if loads else c.ratio for c in contacts]
     firsts = find_firsts(contacts, ratios, tied, unit)
@@ -115,18 +108,14 @@ def collect_piles(
     beside = places_at(ends)
     piles: list[Pile] = []
     seen: set[int] = set()
-    for first, most in firsts:
+    for first in firsts:
         if first not in seen:
-            places = sorted(places_from(ends[first], ends, beside, most))
+            places = sorted(places_from(ends[first], ends, beside))
             seen.update(places)
-            if not 1 < len(places) <= most:
-                continue
-            bodies = [body for at in places for body in ends[at]]
-            if most == MOST_ROWS or not any([body.joint_count for body in bodies]):
-                rows = [Load(contacts[at], ratios[at]) for at in places if at < count]
-                held = [joints[at - count] for at in places if at >= count]
-                if not is_clamped(rows):
-                    piles.append(Pile(rows, held, unit, SOFTEST))
+            rows = [Load(contacts[at], ratios[at]) for at in places if at < count]
+            held = [joints[at - count] for at in places if at >= count]
+            if 1 < len(places) <= MOST_ROWS and not is_clamped(rows):
+                piles.append(Pile(rows, held, unit, SOFTEST))
     return piles
 
 
@@ -146,23 +135,16 @@ def find_wedged(contacts: list[Contact]) -> dict[Body, float]:
 
 
 def find_firsts(
-    contacts: list[Contact],
-    ratios: list[float],
-    tied: set[Contact],
-    unit: float,
-) -> list[tuple[int, int]]:
-    """Return the places of contacts that make a pile, each with the most rows it may have."""
-    heavy: list[tuple[int, int]] = []
-    deep: list[tuple[int, int]] = []
+    contacts: list[Contact], ratios: list[float], tied: set[Contact], unit: float
+) -> list[int]:
+    """Return the places of contacts that make a pile: much presses there, and does not bounce."""
+    firsts: list[int] = []
     for place, (c, ratio) in enumerate(zip(contacts, ratios, strict=True)):
-        is_deep = c.gap < -DEEP * (c.a.r + c.b.r)
-        is_tied = c in tied
-        is_slow = not c.e or abs(c.closing_speed()) < RESTING * unit
-        if is_tied or (ratio > HEAVY and is_slow):
-            heavy.append((place, MOST_ROWS))
-        elif is_deep and c.b.inv_mass and not c.e:
-            deep.append((place, FEW_ROWS))
-    return heavy + deep
+        fast = RESTING * unit if c.e else inf
+        closing = c.closing_speed()
+        if closing < fast and (c in tied or (ratio > HEAVY and closing > -fast)):
+            firsts.append(place)
+    return firsts
 
 
 def find_towers(
@@ -227,15 +209,12 @@ def places_at(ends: list[tuple[Body, Body]]) -> dict[Body, list[int]]:
 
 
 def places_from(
-    both: tuple[Body, Body],
-    ends: list[tuple[Body, Body]],
-    beside: dict[Body, list[int]],
-    most: int,
+    both: tuple[Body, Body], ends: list[tuple[Body, Body]], beside: dict[Body, list[int]]
 ) -> set[int]:
-    """Return the places of all that balls connect to one of these two bodies, or more than most."""
+    """Return the places of all that balls connect to these two bodies, or more than MOST_ROWS."""
     found: set[int] = set()
     ahead = set(both)
-    while ahead and len(found) <= most:
+    while ahead and len(found) <= MOST_ROWS:
         new = {place for body in ahead for place in beside.get(body, [])} - found
         found |= new
         ahead = {body for place in new for body in ends[place]}

@@ -51,10 +51,6 @@ class Rods(Joints[Rod]):
             if body in (rod.a, rod.b):
                 self.world.call("let_touch", rod.a, rod.b, rod.may_touch())
 
-    def awake_changed(self) -> None:
-        super().awake_changed()
-        self.pace.awake_changed(len(self.awake) < len(self.joints))
-
     def prepare(self, h: float) -> None:
         self.spring = softness(FREQUENCY / self.pace.follow(h), DAMPING_RATIO, h)
         self.find_frames()
@@ -80,17 +76,6 @@ class Rods(Joints[Rod]):
         """Return whether a body is a ball on one of these."""
         self.find_frames()
         return body in self.frame_of
-
-    def find_turning(self, most: float) -> set[Body]:
-        """Return the bodies of frames with a rod that turns faster than `most` (rad/s)."""
-        self.find_frames()
-        turning: set[Body] = set()
-        for rod in self.awake:
-            a, b, far = rod.end_a, rod.end_b, most * rod.rest
-            vx, vy = b.vx - a.vx, b.vy - a.vy
-            if vx * vx + vy * vy > far * far:
-                turning.update(self.frame_of[b if a.is_static else a].ends)
-        return turning
 
     def any_heavy(self) -> bool:
         """Return whether any frame presses like a heavy body."""
