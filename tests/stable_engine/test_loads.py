@@ -251,6 +251,24 @@ def make_bin(half, names):
     return world
 
 
+@pytest.mark.parametrize("seed", [10, 29])
+def test_a_press_in_a_bin_throws_no_ball_away(seed):
+    """The speed of what it squeezes has the bound of test_a_press_throws_no_ball_away."""
+    rng = random.Random(seed)
+    world = make_bin(70, ("Contacts", "Bounce", "Friction", "Kinematics"))
+    press = world.add(Body(Box((40, 8)), (0, -90), kinematic=True))
+    press.vel = (0, 70)
+    pressed = []
+    while len(pressed) < 6:
+        radius, x = rng.uniform(5, 15), rng.uniform(-60, 60)
+        y = -radius - rng.uniform(0, 40)
+        if all(math.dist(b.pos, (x, y)) > b.radius + radius for b in pressed):
+            pressed.append(add_ball(world, x, y, 10 ** rng.uniform(-1, 1), radius))
+    for _ in range(150):
+        world.step(1 / 120)
+        assert max(ball.vel.length() for ball in pressed) < 1e4
+
+
 def fastest_of_pile(world):
     """Return the highest speed of balls that bear others: one that bears none may roll on."""
     contacts = world.effects["Contacts"]

@@ -2,7 +2,7 @@
 
 import random
 from dataclasses import replace
-from itertools import product
+from itertools import pairwise, product
 
 import pytest
 from samples import sample
@@ -25,7 +25,7 @@ from experiments.scenes import (
     slot,
     stack,
 )
-from stable_engine import Body, Bounce, Box, Bullets, Circle, Contacts, World
+from stable_engine import Body, Bounce, Box, Bullets, Circle, Contacts, Rod, Rods, World
 
 SLEEPY = (*BOUNCE, "Sleep")
 LAUNCHED = 0.5  # px, as in steps that vary
@@ -113,6 +113,38 @@ def test_a_pile_comes_to_rest_in_steps_that_vary_twentyfold():
     for _ in range(1500):
         world.step(rng.uniform(1 / 1000, 1 / 24))
     assert world.awake == []
+
+
+def test_a_chain_gains_no_energy_in_steps_that_vary_fortyfold():
+    """Walls that return no speed only take energy."""
+    rng = random.Random(28)
+    world = World((0, 980), 2, [Contacts(), Rods()])
+    for x, y in ((0, 80), (0, -80), (80, 0), (-80, 0)):
+        world.add(Body(Box((20, 80) if x else (80, 20)), (x, y)))
+    links = []
+    for k in range(5):
+        pos, mass = (20 * k - 40, rng.uniform(-5, 5)), 10 ** rng.uniform(-1, 1)
+        links.append(world.add(Body(Circle(6), pos, mass)))
+        links[-1].vel = rng.uniform(-600, 600), rng.uniform(-600, 600)
+    for a, b in pairwise(links):
+        world.add(Rod(a, b))
+
+    def total():
+        return sum(b.mass * (b.vel.length_squared() / 2 - 980 * (b.y - 60)) for b in links)
+
+    start = total()
+    for _ in range(200):
+        world.step(rng.choice([1 / 30, 1 / 60, 1 / 600, 1 / 1200]))
+        assert total() <= start
+
+
+def test_a_tower_falls_freely_when_its_floor_is_removed():
+    world = build(Scene([Block((0, 20), (100, 20)), *[Ball((0, -10 - 20 * k)) for k in range(12)]]))
+    run(world, 3)
+    world.remove(world.statics[0])
+    world.step(1 / 60)
+    for ball in world.bodies:
+        assert ball.vel.y == pytest.approx(world.gravity[1] / 60, rel=1e-3)
 
 
 # ---------------------------------------------------------------- what wakes

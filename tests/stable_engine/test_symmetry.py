@@ -14,7 +14,8 @@ from worlds_for_tests import balls
 from experiments.engines import Stable
 from experiments.measures import states
 from experiments.rows.hits import kinetic, moments
-from experiments.scenes import BOUNCE, DT, Ball, Block, Scene, Spring, floor
+from experiments.scenes import BOUNCE, DT, Ball, Block, G, Scene, Spring, floor
+from stable_engine import Body, Circle, Contacts, Segment, World
 
 ROUNDING = 1e-9  # share of the highest speed so far by which two mirrored speeds may differ
 RESTITUTIONS = [0.0, 0.01, 0.1, 0.3, 0.5, 0.9, 1.0]
@@ -168,3 +169,17 @@ def test_mirrored_piles_stay_mirrored_when_they_fall(make, restitution, friction
 @pytest.mark.parametrize("kind", ["", "Rods", "Springs"])
 def test_a_mirrored_heap_of_unequal_balls_stays_mirrored(seed, restitution, kind):
     watch_symmetry(drop_at_random(seed, restitution, kind), 0.5)
+
+
+@pytest.mark.parametrize("degrees", [55, 70])
+def test_a_ball_shot_deep_into_a_symmetric_v_stays_in_its_middle(degrees):
+    """Neither wall puts its core out first."""
+    x, y = math.sin(math.radians(degrees)), -math.cos(math.radians(degrees))
+    world = World((0, G), effects=[Contacts()])
+    for side in (-1, 1):
+        world.add(Body(Segment((0, 0), (side * 2000 * x, 2000 * y))))
+    ball = world.add(Body(Circle(10), (0, -600), 1))
+    ball.vel = (0, 3000)
+    for _ in range(60):
+        world.step(DT)
+        assert abs(ball.vel.x) < 1e-9 * 3000
