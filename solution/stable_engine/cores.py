@@ -20,12 +20,11 @@ class Cores:
     the ball, so that a sliding ball does not catch on a seam.
     """
 
-    __slots__ = ("contacts", "touching_gap", "world")
+    __slots__ = ("contacts", "world")
 
     def __init__(self, contacts: Detection) -> None:
         self.contacts = contacts
         self.world = contacts.world
-        self.touching_gap = contacts.touching_gap
 
     def keep_out(self, h: float) -> None:
         """Put balls back whose cores met a static body in this step, or are in one."""
@@ -69,7 +68,7 @@ class Cores:
         if nx * c.nx + ny * c.ny < SAME_DIRECTION and self.went_through(c):
             nx, ny, now = c.nx, c.ny, gap
         back = min(c.found, -CORE * a.r) - now
-        if back > self.touching_gap:
+        if back > self.contacts.touching_gap:
             closing = max((a.vx - b.vx) * nx + (a.vy - b.vy) * ny, 0.0)
             ways.setdefault(a, []).append((back, closing, nx, ny))
 
@@ -105,7 +104,7 @@ class Cores:
         x, y = start
         dx, dy = body.x - x, body.y - y
         # a little smaller, or rounding would decide whether a ball that slides along is stopped
-        fraction = first_hit(statics, radius - self.touching_gap, x, y, dx, dy)
+        fraction = first_hit(statics, radius - self.contacts.touching_gap, x, y, dx, dy)
         if fraction < NO_HIT:
             fraction = min(fraction, first_hit(statics, radius, x, y, dx, dy))
             fraction += overlap / hypot(dx, dy)

@@ -133,24 +133,10 @@ class Pile:
             load.pressed = load.c.jn
 
     def lack(self) -> float:
-        """Return the most that a contact or rod lacks, in px/s."""
-        most = 0.0
-        for load in self.loads:
-            load.aim(self.stage)
-            most = max(most, load.rhs if load.c.jn == 0 else abs(load.rhs))
-        if not self.stage.has_moved:
-            for spring in self.springs:
-                spring.aim()
-                most = max(most, abs(spring.rhs))
-        return max([most, *[abs(speed) for speed in self.lacking()]])
-
-    def lacking(self) -> list[float]:
-        """Return the speeds (px/s) that rods lack to keep their lengths."""
-        if self.stage.has_moved:
-            return [-rod.speed() for rod in self.rods]
-        h = self.stage.h
-        both = zip(self.rods, self.lengths, strict=True)
-        return [(length - length_after(rod, h)) / h for rod, length in both]
+        """Return the most that a contact or joint lacks, in px/s."""
+        self.aim()
+        pressing = [load.rhs if load.c.jn == 0 else abs(load.rhs) for load in self.loads]
+        return max([0.0, *pressing, *[abs(one.rhs) for one in (*self.rods, *self.springs)]])
 
     def press(self, lack: float) -> None:
         """Apply the impulses of the contacts that press, and of the rods.
@@ -167,12 +153,13 @@ class Pile:
 
     def aim(self) -> None:
         """Set each row's pivot and rhs."""
+        h, has_moved = self.stage.h, self.stage.has_moved
         for load in self.loads:
             load.aim(self.stage)
-        for rod, speed in zip(self.rods, self.lacking(), strict=True):
-            rod.ask(rod.speed() + speed)
+        for rod, length in zip(self.rods, self.lengths, strict=True):
+            rod.ask(0.0 if has_moved else rod.speed() + (length - length_after(rod, h)) / h)
         for spring in self.springs:
-            if self.stage.has_moved:  # a spring acts before the move alone
+            if has_moved:  # a spring acts before the move alone
                 spring.pivot, spring.rhs = FREE, 0.0
             else:
                 spring.aim()

@@ -77,8 +77,8 @@ def find_heavy(
     held = {body for spring in springs for body in (spring.end_a, spring.end_b) if body.inv_mass}
     pulled = {c for c in contacts.touching if c.a in held or c.b in held} if held else set()
     is_heavy = is_heavy or bool(loads or tied or pulled)
-    frames = rods.frames if rods and (is_heavy or rods.any_heavy()) else []
-    if not (is_heavy or frames):
+    frames = rods.frames if rods else []
+    if not (is_heavy or any([frame.load > HEAVY * frame.lightest for frame in frames])):
         return []
     for frame in frames:
         loads.update(dict.fromkeys(frame.ends, frame.load))

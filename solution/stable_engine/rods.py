@@ -4,7 +4,6 @@ from .body import Body
 from .frame import Frame
 from .joint import Joints
 from .network import connect
-from .pile import HEAVY
 from .rod import Rod
 from .soft import Pace, softness
 
@@ -76,10 +75,6 @@ class Rods(Joints[Rod]):
         """Return whether a body is a ball on one of these."""
         self.find_frames()
         return body in self.frame_of
-
-    def any_heavy(self) -> bool:
-        """Return whether any frame presses like a heavy body."""
-        return any([frame.load > HEAVY * frame.lightest for frame in self.frames])
 
     def warm_start(self, h: float) -> None:
         for rod in self.awake:
