@@ -323,6 +323,20 @@ def test_a_ball_that_a_spring_pulls_onto_a_wall_keeps_its_energy(stiffness, leng
     assert hits > 10
 
 
+@pytest.mark.parametrize("substeps", [1, 4])
+def test_a_ball_that_a_soft_spring_draws_far_into_a_wall_gains_no_energy(substeps):
+    """On its way back to the wall, it loses the speed that the spring gave it."""
+    world = World((0, 0), substeps, [Contacts(), Bounce(), Springs()])
+    world.add(Body(Box((20, 200)), (-20, 0), **IDEAL))
+    peg = world.add(Body(Circle(4), (-80, 0)))
+    ball = world.add(Body(Circle(10), (200, 0), 1.0, **IDEAL))
+    spring = world.add(Spring(peg, ball, 60.0, 0.0, 20.0))
+    start = energy_on_spring(spring)
+    for _ in range(600):
+        world.step(1 / 60)
+        assert energy_on_spring(spring) < 1.001 * start
+
+
 def meet_on_joints(vx, vy):
     """Return where rough balls on a rod and a spring get, seen from a point with this velocity."""
     world = World((0, 0), effects=[Contacts(), Friction(), Bounce(), Rods(), Springs()])
