@@ -1,18 +1,17 @@
 """Flat faces in the impacts of a step: a ball stays on its side of a face."""
 
-from math import sqrt
+from math import hypot, sqrt
 
 from .contact import Contact, collide, is_at_face
-from .flight import Flight
+from .flight import Flight, way_out
 from .soft import SAME_DIRECTION
 
 
 class Faces:
     """The flat faces of static bodies at which balls are, and how deep in them these were."""
 
-    def __init__(self, flight: Flight, slow: float) -> None:
+    def __init__(self, flight: Flight) -> None:
         self.flight = flight
-        self.slow = slow  # px/s, slower impacts are ignored
         # their normals, and how far (px) along it the centres are at a touch
         self.normals: dict[Contact, tuple[float, float, float]] = {}
         self.depths: dict[Contact, float] = {}  # px, the gap before
@@ -28,8 +27,7 @@ class Faces:
                 self.flight.walls.setdefault(c.a, []).append(c.b)
             reach = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
             self.normals[c] = c.nx, c.ny, reach
-            if c.jn > 0 and abs(c.closing_speed()) <= self.slow:
-                self.flight.bearing.setdefault(c.a, []).append(c)
+            self.flight.rest(c)
 
     def look(self, c: Contact) -> None:
         """Find normal and gap of a contact anew. A ball stays on its side of a face."""
@@ -45,19 +43,30 @@ class Faces:
         """Return by how much (px) a ball is deeper in a face than it was at first."""
         return min(self.depths[c], 0.0) - c.gap
 
-    def lift(self, c: Contact) -> None:
-        """Put a ball onto a face that stops it, but not higher than it was at first.
+    def lift(self, faces: list[Contact]) -> None:
+        """Put a ball onto faces that stop it, but not higher than it was at first.
 
-        One that leaves the face pays with its speed, as if it had risen there.
+        One that leaves the faces pays with its speed, as if it had risen there.
         """
-        up = self.added_depth(c)
-        if up > 0:
-            g, lag = self.flight.pull(c)
-            speed = -c.closing_speed() - lag
-            if speed > 0:
-                slower = speed - sqrt(max(speed * speed - 2 * g * up, 0.0))
-                c.a.vx += c.nx * slower
-                c.a.vy += c.ny * slower
-            c.a.x -= c.nx * up
-            c.a.y -= c.ny * up
-            c.gap = c.found = c.gap + up
+        ways = way_out([(self.added_depth(c), c) for c in faces])
+        if not ways:
+            return
+        a, (up, c) = faces[0].a, ways[0]
+        nx, ny = c.nx, c.ny
+        if len(ways) > 1:
+            nx, ny = sum([c.nx * far for far, c in ways]), sum([c.ny * far for far, c in ways])
+            up = hypot(nx, ny)
+            nx, ny = nx / up, ny / up
+        g = speed = 0.0
+        for far, c in ways:
+            pull, lag = self.flight.pull(c)
+            g += far / up * pull
+            speed -= far / up * (c.closing_speed() + lag)
+        if speed > 0:
+            slower = speed - sqrt(max(speed * speed - 2 * g * up, 0.0))
+            a.vx += nx * slower
+            a.vy += ny * slower
+        a.x -= nx * up
+        a.y -= ny * up
+        for c in faces:
+            self.look(c)

@@ -1,17 +1,19 @@
 """How balls fly between the impacts of a step, forwards, and back to a touch."""
 
 from math import cos, hypot, sin
+from operator import itemgetter
 
 from .body import Body, State, state_of
 from .contact import Contact
 from .contacts import Contacts
-from .cores import CORE
+from .cores import CORE, split
 from .frame import Frame
 from .rods import Rods
 from .springs import Spring
 from .sweep import first_stop
 
 DEEPEST = 2.0  # radii that a ball may fly into a wall off which it will bounce
+HOW_FAR = itemgetter(0)
 BEFORE = 0.01  # radii between a ball and a wall, so that the next step finds the contact
 
 
@@ -22,16 +24,18 @@ class Flight:
     With semi-implicit Euler a velocity lags half a substep behind the position.
     """
 
-    def __init__(self, contacts: Contacts, h: float) -> None:
+    def __init__(self, contacts: Contacts, h: float, slow: float) -> None:
         rods, springs = contacts.rods, contacts.springs
         self.contacts = contacts
         self.world = contacts.world
         self.h = h  # s, of a substep
+        self.slow = slow  # px/s, slower impacts are ignored
         self.dt = contacts.last_dt  # s, of the step in which balls touched
         self.held: set[Body] = set()  # balls at static bodies that cannot go back
         self.cut_short: dict[Body, State] = {}  # balls that a wall stopped: where they would be
         self.walls: dict[Body, list[Body]] = {}  # at which a ball is: it may fly into them
-        self.bearing: dict[Body, list[Contact]] = {}  # at faces that bear a ball
+        self.rests: dict[Body, list[Contact]] = {}  # at faces on which a ball rested
+        self.bearing: dict[Body, list[Contact]] = {}  # those of them that bear it now
         self.frame_of: dict[Body, Frame] = {}
         self.pivots: dict[Body, Body] = {}  # of balls that swing on one rod
         if rods:
@@ -228,9 +232,9 @@ class Flight:
             rod_x, rod_y = body.x - self.pivots[body].x, body.y - self.pivots[body].y
             share = (x * rod_x + y * rod_y) / (rod_x * rod_x + rod_y * rod_y or 1.0)
             x, y = x - share * rod_x, y - share * rod_y
-        for c in self.bearing.get(body, []):
-            into = x * c.nx + y * c.ny
-            if into > 0:
+        bearing = self.bearing.get(body)
+        if bearing:
+            for into, c in way_out([(x * c.nx + y * c.ny, c) for c in bearing]):
                 x, y = x - c.nx * into, y - c.ny * into
         return x, y
 
@@ -250,6 +254,41 @@ class Flight:
         (ax, ay), (bx, by) = self.acceleration(c.a), self.acceleration(c.b)
         g = (ax - bx) * c.nx + (ay - by) * c.ny
         return g, g * self.h / 2
+
+    def rest(self, c: Contact) -> None:
+        """Let a face bear a ball if it presses on it."""
+        if c.jn > 0 and abs(c.closing_speed()) <= self.slow:
+            self.rests.setdefault(c.a, []).append(c)
+            self.bearing[c.a] = self.rests[c.a]
+
+    def release(self, body: Body) -> None:
+        """Let faces bear a ball only if it is slow there after an impact.
+
+        Only the velocity of a ball that falls lags behind.
+        """
+        bearing = [c for c in self.rests[body] if abs(c.closing_speed()) <= self.slow]
+        if bearing != self.bearing[body]:
+            x, y = self.acceleration(body)
+            self.bearing[body] = bearing
+            now_x, now_y = self.acceleration(body)
+            body.vx += (x - now_x) * self.h / 2
+            body.vy += (y - now_y) * self.h / 2
+
+
+def way_out(ways: list[tuple[float, Contact]]) -> list[tuple[float, Contact]]:
+    """Return how far along which normals a ball gets out of faces, by so much of each or more.
+
+    Two faces are left at once: one after the other, a ball would not leave a V in its middle.
+    """
+    far, first = max(ways, key=HOW_FAR)
+    if far <= 0 or len(ways) == 1:
+        return ways if far > 0 else []
+    others = [(way, first.nx * way[1].nx + first.ny * way[1].ny) for way in ways]
+    (more, second), cosine = max(others, key=lambda other: other[0][0] - far * other[1])
+    if more <= far * cosine:
+        return [(far, first)]
+    far, more = split(far, more, cosine)
+    return [way for way in ((far, first), (more, second)) if way[0] > 0]
 
 
 def find_pivots(rods: Rods) -> dict[Body, Body]:

@@ -50,9 +50,9 @@ class Impacts:
         self.queue = ImpactQueue(self.touching_gap)
         self.stops: dict[Body, State] = {}  # where walls stopped balls that `passes` let fly on
         self.beside: dict[Body, list[Contact]] = defaultdict(list)  # the contacts of each ball
-        self.flight = Flight(contacts, h)
+        self.flight = Flight(contacts, h, slow)
         self.frame_of = self.flight.frame_of
-        self.faces = Faces(self.flight, slow)
+        self.faces = Faces(self.flight)
         self.turned: list[Contact] = []  # contacts with the normal of their touch
         self.met: list[Contact] = []  # contacts that began through an impact
 
@@ -200,12 +200,13 @@ class Impacts:
         self.put_back(list(self.stops))
         for c in self.turned:
             self.turn_on(c, 0.0)
+        deep: dict[Body, list[Contact]] = {}
         for c in self.faces.normals:
             self.faces.look(c)
-        deep = [c for c in self.faces.normals if c.gap < 0]
-        for c in sorted(deep, key=lambda c: c.gap) if deep else []:
-            self.faces.look(c)
-            self.faces.lift(c)
+            if c.gap < 0:
+                deep.setdefault(c.a, []).append(c)
+        for faces in deep.values():
+            self.faces.lift(faces)
         self.flight.pass_on()
         self.keep_inside()
 
@@ -429,7 +430,14 @@ class Impacts:
         """
         if len(group) == 1 and not frames:
             resolve_one(group[0], *self.law(group[0]))
-            return
+        else:
+            self.resolve_together(group, frames)
+        for body in balls_of(group) if self.flight.rests else []:
+            if body in self.flight.rests and body not in self.frame_of:
+                self.flight.release(body)
+
+    def resolve_together(self, group: list[Contact], frames: list[Frame]) -> None:
+        """Resolve contacts of one moment, with the rods of these frames."""
         for frame in frames:
             frame.hold()
         hits = [Hit(c, self.law(c)) for c in group]
