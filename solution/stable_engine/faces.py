@@ -41,7 +41,7 @@ class Faces:
 
     def added_depth(self, c: Contact) -> float:
         """Return by how much (px) a ball is deeper in a face than it was at first."""
-        return min(self.depths[c], 0.0) - c.gap
+        return min(self.depths.get(c, 0.0), 0.0) - c.gap
 
     def lift(self, faces: list[Contact]) -> None:
         """Put a ball onto faces that stop it, but not higher than it was at first.

@@ -35,8 +35,9 @@ class Impacts:
     Flight. There they bounce, by the normal at the touch, and fly on. So nothing is left in a wall
     or in another ball, from which a push would lift it for nothing, and angular momentum is kept.
     If they meet others on the way, these impacts join the queue. Where the way back is not known,
-    on stiff springs, hanging chains and static corners, balls stay; energy gives their speeds. Rods
-    pass an impact on at once: they are rows beside the contacts, and all are solved together.
+    on stiff springs, hanging chains and static corners that they touched before, balls stay; energy
+    gives their speeds. Rods pass an impact on at once: they are rows beside the contacts, and all
+    are solved together.
     """
 
     def __init__(self, contacts: Contacts, slow: float, h: float) -> None:
@@ -313,9 +314,13 @@ class Impacts:
         for c in group:
             if c.b.is_static and c.b not in walls:
                 walls[c.b] = c.b.x, c.b.y
-                back = (c.b.vx * c.nx + c.b.vy * c.ny) * ago  # the way of a belt does not count
-                c.b.x -= c.nx * back
-                c.b.y -= c.ny * back
+                if c in self.faces.normals:
+                    back = (c.b.vx * c.nx + c.b.vy * c.ny) * ago  # a belt does not move
+                    c.b.x -= c.nx * back
+                    c.b.y -= c.ny * back
+                elif c.b.is_kinematic:
+                    c.b.x -= c.b.vx * ago
+                    c.b.y -= c.b.vy * ago
         self.flight.fly(hit, -ago)
         for body in hit if self.stops else []:
             self.stops.pop(body, None)
@@ -345,7 +350,7 @@ class Impacts:
             self.beside[c.a].append(c)
             if c.b.inv_mass:
                 self.beside[c.b].append(c)
-            elif c not in self.faces.normals or c.a.is_bullet:
+            elif c.a.is_bullet or not (c in self.faces.normals or c in self.begun):
                 self.flight.held.add(c.a)
 
     def follow(self, moved: list[Body]) -> None:
