@@ -25,6 +25,7 @@ from stable_engine import (
     Circle,
     Contacts,
     Friction,
+    Kinematics,
     Rod,
     Rods,
     Segment,
@@ -437,3 +438,98 @@ def test_as_many_balls_swing_out_of_a_cradle_on_rods_as_swung_in(thrown):
     assert off == pytest.approx([0] * 5, abs=seen().limit)
     fastest = max(abs(body.vx) for body in swing[: 5 - thrown])
     assert fastest < law(fall_speed(100 - drop)).limit
+
+
+# ---------------------------------------------------------------- at several walls
+
+
+def drop_on_resting_ball(degrees, restitution, drop):
+    """Let a ball rest on two faces that rise by this angle, then let another one fall on it."""
+    surface = {"restitution": restitution, "friction": 0.0}
+    world = World((0, G), effects=[Contacts(), Bounce()])
+    turn = math.radians(degrees)
+    for side in (-1, 1):
+        end = side * 400 * math.cos(turn), -400 * math.sin(turn)
+        world.add(Body(Segment(end, (0, 0)), **surface))
+    rests = world.add(Body(Circle(20), (0, -20 / math.cos(turn)), 3.0, **surface))
+    run(world, 1.0)
+    falls = world.add(Body(Circle(12), (0, rests.pos.y - 32 - drop), 1.0, **surface))
+    return world, rests, falls
+
+
+@pytest.mark.parametrize("drop", [2, 30, 100])  # 2 px: too slow to bounce off the faces
+@pytest.mark.parametrize("restitution", [0.5, 1.0])
+@pytest.mark.parametrize("degrees", [0, 10, 30, 60])
+def test_a_hit_on_a_ball_that_rests_in_a_v_stays_on_the_axis(degrees, restitution, drop):
+    """A mirrored law throws neither ball sideways; gravity does no work on a ball at rest."""
+    world, rests, falls = drop_on_resting_ball(degrees, restitution, drop)
+
+    def energy():
+        return sum(b.mass * (b.vel.length_squared() / 2 - G * b.pos.y) for b in (rests, falls))
+
+    start, sideways, energies = energy(), 0.0, []
+    for _ in range(60):
+        world.step(DT)
+        sideways = max(sideways, abs(rests.vel.x), abs(falls.vel.x))
+        energies.append(energy())
+    assert sideways <= 1e-9 * fall_speed(drop)
+    assert max(energies) <= start + 1e-6 * G * drop
+    if restitution == 1 and drop > 2:
+        assert min(energies) == pytest.approx(start, abs=1e-6 * G * drop)
+
+
+def test_a_ball_that_meets_floor_and_ramp_in_one_step_bounces_off_the_floor():
+    """Off the floor it flies past the end of the ramp, which it would have met later."""
+    world = World((0, 0), effects=[Contacts(), Bounce()])
+    world.add(Body(Box((400, 50)), (0, 50), restitution=0.6))
+    world.add(Body(Segment((50, 0), (300, -150)), restitution=0.6))
+    ball = world.add(Body(Circle(12), (46, -12.549), 1.0, restitution=0.6))
+    ball.vel = (-130, 278)
+    world.step(1 / 60)
+    risen = 0.6 * 278 * (1 / 60 - 0.549 / 278)
+    assert (*ball.pos, *ball.vel) == pytest.approx((46 - 130 / 60, -12 - risen, -130, -0.6 * 278))
+
+
+@pytest.mark.parametrize("degrees", [10, 30, 60])
+def test_no_shot_into_the_angle_of_floor_and_ramp_sinks_into_either(degrees):
+    """Impacts leave no overlap. A slow contact, at at most v, is solved once per substep."""
+    rng = random.Random(degrees)
+    slope_x, slope_y = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    for _ in range(sample([200, 60], 1)[0]):
+        world = World((0, 0), effects=[Contacts(), Bounce()])
+        world.add(Body(Box((5000, 50)), (0, 50), restitution=0.6))
+        world.add(Body(Segment((0, 0), (-300 * slope_x, -300 * slope_y)), restitution=0.6))
+        fast, turn = rng.uniform(100, 800), rng.uniform(math.pi / 2, math.pi)
+        at = rng.uniform(20, 120), rng.uniform(-60, -14)
+        ball = world.add(Body(Circle(12), at, 1.0, restitution=0.6))
+        ball.vel = fast * math.cos(turn), fast * math.sin(turn)
+        for _ in range(12):
+            world.step(1 / 60)
+            x, y = ball.pos
+            along = min(max(-x * slope_x - y * slope_y, 0.0), 300.0)
+            to_ramp = math.hypot(x + along * slope_x, y + along * slope_y)
+            assert min(-y, to_ramp) >= 12 - fast / 240
+
+
+@pytest.mark.parametrize("shape", [Box((40, 40)), Segment((0, 0), (40, 0), 0), Circle(5)])
+@pytest.mark.parametrize("frame", [(0, 0), (64, -32), (300, 500)])
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
+def test_a_ball_loses_no_time_at_a_corner(shape, frame, share):
+    """It flies straight to the touch, and by the law of reflection from there, in any frame."""
+    moving = {"kinematic": True} if any(frame) else {}
+    world = World((0, 0), effects=[Contacts(), Bounce(), *([Kinematics()] if moving else [])])
+    tip = {"Box": (40, 40), "Segment": (20, 0), "Circle": (0, 0)}[type(shape).__name__]
+    wall = world.add(Body(shape, tip, **IDEAL, **moving))
+    wall.vel = frame
+    reach = 15 if isinstance(shape, Circle) else 10
+    nx, ny = -math.cos(1.0), -math.sin(1.0)  # from the corner at (0, 0) to the ball
+    vx, vy = 300.0, 200.0
+    t = share / 60
+    ball = world.add(Body(Circle(10), (nx * reach - vx * t, ny * reach - vy * t), 1.0, **IDEAL))
+    ball.vel = vx + frame[0], vy + frame[1]
+    closing = -vx * nx - vy * ny
+    out_x, out_y, rest = vx + 2 * closing * nx, vy + 2 * closing * ny, 1 / 60 - t
+    world.step(1 / 60)
+    x, y = ball.x - frame[0] / 60, ball.y - frame[1] / 60
+    assert (x, y) == pytest.approx((nx * reach + out_x * rest, ny * reach + out_y * rest))
+    assert (ball.vx - frame[0], ball.vy - frame[1]) == pytest.approx((out_x, out_y))
