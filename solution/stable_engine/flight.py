@@ -73,7 +73,7 @@ class Flight:
     def can_all_go_back(self, bodies: list[Body]) -> bool:
         """Return whether balls can be moved back to a touch, with all that hangs on their rods."""
         for body in bodies:
-            if body in self.held or self.contacts.was_stopped(body):
+            if body in self.held:
                 return False
             if body.joint_count:
                 frame = self.frame_of.get(body)

@@ -350,7 +350,7 @@ class Impacts:
             self.beside[c.a].append(c)
             if c.b.inv_mass:
                 self.beside[c.b].append(c)
-            elif c.a.is_bullet or not (c in self.faces.normals or c in self.begun):
+            elif not (c in self.faces.normals or c in self.begun):
                 self.flight.held.add(c.a)
 
     def follow(self, moved: list[Body]) -> None:

@@ -1,0 +1,77 @@
+"""Test fast balls by conservation laws: they lose nothing to walls and pass through no ball.
+
+Smooth elastic impacts keep energy, so what is lost is rounding. Speeds are in px/s.
+"""
+
+import math
+
+import pytest
+from worlds_for_tests import balls, whole_energy
+
+from experiments.scenes import DT
+from stable_engine import Body, Bounce, Box, Bullets, Circle, Contacts, World
+
+IDEAL = {"restitution": 1.0, "friction": 0.0}
+ROUNDING = 1e-9  # relative
+
+
+def make_world():
+    return World((0, 0), effects=[Contacts(), Bounce(), Bullets()])
+
+
+def add_ball(world, pos, vel, r=10.0, mass=1.0, bullet=False):
+    """Add a smooth elastic ball."""
+    body = world.add(Body(Circle(r), pos, mass, bullet=bullet, **IDEAL))
+    body.vel = vel
+    return body
+
+
+def add_room(world, size):
+    """Add a closed square room from (0, 0)."""
+    for x, y, half in (
+        (size / 2, -100, (size, 100)),
+        (size / 2, size + 100, (size, 100)),
+        (-100, size / 2, (100, size)),
+        (size + 100, size / 2, (100, size)),
+    ):
+        world.add(Body(Box(half), (x, y), **IDEAL))
+
+
+def test_a_bullet_that_meets_a_wall_and_a_ball_in_one_step_keeps_its_energy():
+    """The other bullet turns it back towards the wall, which it does not reach again."""
+    world = make_world()
+    world.add(Body(Box((100, 500)), (-100, 0), **IDEAL))
+    add_ball(world, (29.8, 26.9), (-25, 499), 9, bullet=True)
+    add_ball(world, (10.4, 36.4), (-500, -3), 9, bullet=True)
+    before = whole_energy(world)
+    for _ in range(6):
+        world.step(1 / 60)
+        assert whole_energy(world) == pytest.approx(before, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("speed", [300, 1000, 3000, 8000])
+def test_a_gas_of_bullets_keeps_its_energy_and_its_room(speed):
+    world, size = make_world(), 500
+    add_room(world, size)
+    for i in range(60):
+        pos, vel = (40 + 60 * (i % 8), 40 + 60 * (i // 8)), (math.cos(i), math.sin(i))
+        add_ball(world, pos, [speed * v for v in vel], 9, 1 + i % 3, bullet=True)
+    before = whole_energy(world)
+    for _ in range(120):
+        world.step(DT)
+        assert whole_energy(world) == pytest.approx(before, rel=ROUNDING)
+        assert all(0 < place < size for body in balls(world) for place in body.pos)
+
+
+@pytest.mark.parametrize("count", [2, 5])
+@pytest.mark.parametrize("speed", [6000, 50_000])
+@pytest.mark.parametrize("phase", range(8))
+def test_a_fast_ball_sets_only_the_last_of_a_row_in_motion(count, speed, phase):
+    """Equal balls swap velocities, however many of their impacts fall in one step."""
+    world = make_world()
+    cue = add_ball(world, (-1000 - speed * DT * phase / 8, 0), (speed, 0))
+    row = [add_ball(world, (30 * i, 0), (0, 0)) for i in range(count)]
+    for _ in range(math.ceil(1200 / speed / DT) + 2):
+        world.step(DT)
+    speeds = [body.vx for body in [cue, *row]]
+    assert speeds == pytest.approx([0] * count + [speed], abs=ROUNDING * speed)
