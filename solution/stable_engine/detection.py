@@ -276,7 +276,7 @@ class Detection(Effect):
         way = sqrt(vx * vx + vy * vy) * seconds
         if way <= gap or way <= FAR * (a.r + b.r) or not b.r:
             return False
-        if a.joint_count or b.joint_count or self.was_stopped(a) or self.was_stopped(b):
+        if a.joint_count or b.joint_count:
             return False
         return moment_of_touch(a, b, seconds)[0] > 0
 

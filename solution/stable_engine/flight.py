@@ -32,7 +32,8 @@ class Flight:
         self.slow = slow  # px/s, slower impacts are ignored
         self.dt = contacts.last_dt  # s, of the step in which balls touched
         self.held: set[Body] = set()  # balls at static bodies that cannot go back
-        self.cut_short: dict[Body, State] = {}  # balls that a wall stopped: where they would be
+        # balls that a wall stopped: where they would be, and how much later (s)
+        self.cut_short: dict[Body, tuple[State, float]] = {}
         self.walls: dict[Body, list[Body]] = {}  # at which a ball is: it may fly into them
         self.rests: dict[Body, list[Contact]] = {}  # at faces on which a ball rested
         self.bearing: dict[Body, list[Contact]] = {}  # those of them that bear it now
@@ -163,7 +164,8 @@ class Flight:
             if share < 1:
                 share = max(share - BEFORE * body.r / hypot(x, y), 0.0)
                 vx, vy = body.vx + ax * seconds, body.vy + ay * seconds
-                self.cut_short[body] = body.x + x, body.y + y, vx, vy
+                end = body.x + x, body.y + y, vx, vy
+                self.cut_short[body] = end, seconds * (1 - share)
                 x, y, seconds = x * share, y * share, seconds * share
         body.x += x
         body.y += y

@@ -253,7 +253,7 @@ class Impacts:
             self.resolve_at_touch([c], hit, ago, [], late)
             self.faces.look(c)
             for body in hit:
-                self.contacts.note_impact(body, ago + late)
+                self.note_impact(body, ago + late)
         else:
             self.put_back(hit)
             self.resolve([c], [])
@@ -331,10 +331,15 @@ class Impacts:
             wall.x, wall.y = x, y
         self.flight.fly(hit, ago + late)
 
+    def note_impact(self, body: Body, ago: float) -> None:
+        """Note that a ball was hit some seconds ago, and has flown since, or until a wall."""
+        _, left = self.flight.cut_short.get(body, (None, 0.0))
+        self.contacts.note_impact(body, max(ago - left, 0.0))
+
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
         for body in hit:
-            self.contacts.note_impact(body, ago)
+            self.note_impact(body, ago)
         around = list(dict.fromkeys([c for body in hit for c in self.beside[body]]))
         if ago > 0:
             for c in around:
@@ -379,9 +384,12 @@ class Impacts:
             self.faces.note(c, 0.0)
         self.link(met)
         for body in hit:
-            end = self.flight.cut_short.get(body)
-            if end and any([c.a is body and c.b.is_static for c in met]):
-                self.passes(body, end)
+            cut = self.flight.cut_short.get(body)
+            if cut and any([c.a is body and c.b.is_static for c in met]):
+                flown = body.flown
+                self.contacts.note_impact(body, flown + cut[1])
+                if not self.passes(body, cut[0]):
+                    self.contacts.note_impact(body, flown)
         for c in met:
             self.look(c, is_new=True)
 

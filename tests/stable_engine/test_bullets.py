@@ -75,3 +75,20 @@ def test_a_fast_ball_sets_only_the_last_of_a_row_in_motion(count, speed, phase):
         world.step(DT)
     speeds = [body.vx for body in [cue, *row]]
     assert speeds == pytest.approx([0] * count + [speed], abs=ROUNDING * speed)
+
+
+@pytest.mark.parametrize("bullet", [False, True])
+@pytest.mark.parametrize("speed", [3000, 12_000, 50_000])
+@pytest.mark.parametrize("phase", range(8))
+def test_a_ball_does_not_pass_another_on_its_way_to_a_wall(bullet, speed, phase):
+    """On a line, balls keep their order, however many impacts fall in one step."""
+    world = make_world()
+    world.add(Body(Box((100, 500)), (160, 0), **IDEAL))
+    start = -300 - speed * DT * phase / 8
+    cue = add_ball(world, (start, 0), (speed, 0), 5, bullet=bullet)
+    other = add_ball(world, (0, 0), (0, 0), 5, bullet=bullet)
+    before = whole_energy(world)
+    for _ in range(math.ceil(1200 / speed / DT)):
+        world.step(DT)
+        assert cue.x < other.x < 60
+        assert whole_energy(world) == pytest.approx(before, rel=ROUNDING)
