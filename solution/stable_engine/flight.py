@@ -88,7 +88,7 @@ class Flight:
             return body in self.pivots and not body.is_bullet
         odd = self.held, self.springs_of, self.bearing, self.world.forces
         for ball in frame.balls:
-            if ball.is_bullet or any([ball in some for some in odd]) or self.swings(ball):
+            if ball.is_bullet or any([ball in some for some in odd]):
                 return False
         return True
 

@@ -21,6 +21,7 @@ from .sweep import NO_HIT, first_stop, moment_of_touch
 
 MOVED = 0.01  # radii; a ball that was hit and moved by less meets nothing new
 ARC = 1.1  # ratio by which the touch may lie further back for flights on an arc
+ARC_PASSES = 4  # of Newton's method, to find the touch of a ball on an arc
 LEAST = 1e-9  # share of the speed of the hardest impact of a moment; less may be left
 
 
@@ -75,12 +76,45 @@ class Impacts:
         """
         self.link(self.touching)
         contacts = self.contacts
+        stopped: dict[Frame, float] = {}
         for body, (stop, end) in contacts.ends.items():
             if state_of(body) == stop:
-                flown = body.flown
-                body.flown = flown + contacts.last_dt - contacts.stopped[body]
+                flown, late = body.flown, contacts.last_dt - contacts.stopped[body]
+                body.flown = flown + late
                 if not self.passes(body, end):
                     body.flown = flown
+                    frame = self.frame_of.get(body)
+                    if frame and not frame.hangs:
+                        stopped[frame] = max(late, stopped.get(frame, 0.0))
+        for frame, late in stopped.items():
+            self.take_back(frame, late)
+
+    def take_back(self, frame: Frame, late: float) -> None:
+        """Let a frame fly back to a touch, as a wall stopped one of its balls so long (s) ago.
+
+        Without the others, the ball would be off the lengths of its rods.
+        """
+        contacts, flight = self.contacts, self.flight
+        if any([ball in flight.held or ball in flight.springs_of for ball in frame.balls]):
+            return
+        stopped = [ball for ball in frame.balls if ball in contacts.ends]
+        walls = [c for ball in stopped for c in self.beside.get(ball, []) if c.b.is_static]
+        for ball in stopped:
+            ball.x, ball.y, ball.vx, ball.vy = contacts.ends[ball][1]
+            self.stops.pop(ball, None)
+        left = contacts.last_dt
+        for _ in range(ARC_PASSES):
+            flight.fly_frame(frame, -late)
+            left -= late
+            for c in walls:
+                self.faces.look(c)
+            walls = [c for c in walls if c.closing_speed() > self.slow]
+            if not walls:
+                break
+            late = min(max([-c.gap / c.closing_speed() for c in walls]), left)
+        for ball in frame.balls:
+            for c in self.beside.get(ball, []):
+                self.faces.look(c)
 
     def passes(self, body: Body, end: State) -> bool:
         """Put a ball that a wall stopped where it would be, if it will bounce off from there."""
@@ -143,7 +177,12 @@ class Impacts:
         touch while both flew freely. Nothing flies through a wall.
         """
         since = self.contacts.flight_of(c.a, c.b)
-        if since <= 0 or self.flight.swings(c.a) or self.flight.swings(c.b):
+        if since <= 0:
+            return 0.0
+        frame = self.frame_of.get(c.a)
+        if frame and not frame.hangs and is_at_face(c) and self.flight.is_loose(frame, c.a):
+            return self.time_on_arc(c, frame, since)
+        if self.flight.swings(c.a) or self.flight.swings(c.b):
             return 0.0
         if is_at_face(c):
             return self.time_below(c, since)
@@ -169,10 +208,33 @@ class Impacts:
         closing = c.closing_speed()
         speed = (speed_at_touch(c, closing, g, lag) + closing + lag) / 2
         deeper = -c.gap - speed * since
-        before = min(self.faces.depths.get(c, 0.0), 0.0)
-        if c.gap >= 0 or deeper > self.touching_gap + abs(g) * since * since - before:
+        if c.gap >= 0 or deeper > self.slack(c, since):
             return 0.0
         return since if deeper >= 0 else -c.gap / speed
+
+    def time_on_arc(self, c: Contact, frame: Frame, since: float) -> float:
+        """Return how long ago (s) a ball on rods passed a flat face; 0 if not `since` then."""
+        a, b, ago, gap = c.a, c.b, 0.0, c.gap
+        before = [(ball, state_of(ball), ball.turn) for ball in frame.balls]
+        x, y = a.x, a.y
+        for _ in range(ARC_PASSES):
+            speed = c.closing_speed()
+            if speed <= self.slow or abs(gap) <= self.touching_gap:
+                break
+            more = min(-gap / speed, since - ago)
+            ago += more
+            self.flight.fly_frame(frame, -more)
+            way_x, way_y = a.x - x + b.vx * ago, a.y - y + b.vy * ago
+            gap = c.gap - way_x * c.nx - way_y * c.ny
+        for ball, (at_x, at_y, vx, vy), turn in before:
+            ball.x, ball.y, ball.vx, ball.vy, ball.turn = at_x, at_y, vx, vy, turn
+        return ago if abs(gap) <= self.slack(c, since) else 0.0
+
+    def slack(self, c: Contact, since: float) -> float:
+        """Return how much deeper (px) a ball may be in a face, as it fell or was under a load."""
+        g, _ = self.flight.pull(c)
+        before = min(self.faces.depths.get(c, 0.0), 0.0)
+        return self.touching_gap + abs(g) * since * since - before
 
     def look_back(self, c: Contact, since: float) -> tuple[float, float, float]:
         """Return `since` (s) and the normal if two round bodies began to close in then, else zeros.
