@@ -46,7 +46,8 @@ class Faces:
     def lift(self, faces: list[Contact]) -> None:
         """Put a ball onto faces that stop it, but not higher than it was at first.
 
-        One that leaves the faces pays with its speed, as if it had risen there.
+        A free frame of rods is lifted as a whole, or its rods would be stretched. What leaves the
+        faces pays with its speed, as if it had risen there.
         """
         ways = way_out([(self.added_depth(c), c) for c in faces])
         if not ways:
@@ -57,16 +58,22 @@ class Faces:
             nx, ny = sum([c.nx * far for far, c in ways]), sum([c.ny * far for far, c in ways])
             up = hypot(nx, ny)
             nx, ny = nx / up, ny / up
+        frame, lifted, (vx, vy) = self.flight.frame_of.get(a), [a], (a.vx, a.vy)
+        if frame and not frame.hangs:
+            lifted, (vx, vy) = frame.balls, frame.velocity()
         g = speed = 0.0
         for far, c in ways:
             pull, lag = self.flight.pull(c)
             g += far / up * pull
-            speed -= far / up * (c.closing_speed() + lag)
+            closing = (vx - c.b.vx) * c.nx + (vy - c.b.vy) * c.ny
+            speed -= far / up * (closing + lag)
         if speed > 0:
             slower = speed - sqrt(max(speed * speed - 2 * g * up, 0.0))
-            a.vx += nx * slower
-            a.vy += ny * slower
-        a.x -= nx * up
-        a.y -= ny * up
+            for ball in lifted:
+                ball.vx += nx * slower
+                ball.vy += ny * slower
+        for ball in lifted:
+            ball.x -= nx * up
+            ball.y -= ny * up
         for c in faces:
             self.look(c)
