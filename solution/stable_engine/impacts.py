@@ -215,6 +215,8 @@ class Impacts:
     def time_on_arc(self, c: Contact, frame: Frame, since: float) -> float:
         """Return how long ago (s) a ball on rods passed a flat face; 0 if not `since` then."""
         a, b, ago, gap = c.a, c.b, 0.0, c.gap
+        if gap >= 0:
+            return 0.0
         before = [(ball, state_of(ball), ball.turn) for ball in frame.balls]
         x, y = a.x, a.y
         for _ in range(ARC_PASSES):

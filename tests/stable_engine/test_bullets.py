@@ -1,7 +1,8 @@
 """Test fast balls by conservation laws: they lose nothing to walls and pass through no ball.
 
-Smooth elastic impacts keep energy, so what is lost is rounding. Speeds are in px/s. Rods keep their
-lengths but for the square of what they turn by in a substep: 16 rad/s, as 400 px/s give, in 1/240 s.
+Smooth elastic impacts keep energy, so what is lost is rounding. Speeds are in px/s. Rods keep
+their lengths, except for the square of what they turn by in a substep: 16 rad/s, as 400 px/s give,
+in 1/240 s.
 """
 
 import math
