@@ -134,6 +134,8 @@ class Cores:
             contacts.ends[body] = state_of(body), contacts.ends.get(body, (end, end))[1]
         before = contacts.stopped.get(body, contacts.last_dt)
         contacts.stopped[body] = fraction * before
+        if not (contacts.rods and contacts.rods.holds(body)):
+            contacts.late[body] = contacts.last_dt - contacts.stopped[body]
         flown = body.flown if body.flown < inf else contacts.last_dt
         body.flown = flown - (1 - fraction) * before
         contacts.flying.append(body)

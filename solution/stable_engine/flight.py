@@ -43,6 +43,7 @@ class Flight:
             rods.find_frames()
             self.frame_of = rods.frame_of
             self.pivots = find_pivots(rods)
+        self.late = contacts.late
         self.springs_of: dict[Body, list[Spring]] = {}
         self.stiff: set[Body] = set()  # bodies whose springs swing too fast to follow
         if springs:
@@ -136,18 +137,28 @@ class Flight:
                 self.fly_frame(frame, seconds)
         if not self.springs_of:
             for body in free:
-                self.fly_ball(body, self.acceleration(body), seconds)
+                self.fly_ball(body, self.acceleration(body), self.own_time(body, seconds))
             return
         free, parts = [*free, *self.partners], self.world.substep_count
+        times = [self.own_time(body, seconds) / parts for body in free]
         for _ in range(parts):  # as the pull of springs changes on the way
             before = [(body, self.acceleration(body)) for body in free]
-            times = [self.fly_ball(body, pull, seconds / parts) for body, pull in before]
+            flown = [
+                self.fly_ball(body, pull, time)
+                for (body, pull), time in zip(before, times, strict=True)
+            ]
             self.time += seconds / parts
             after = [self.acceleration(body) for body in free]  # with the same speeds for all
-            for (body, pull), now, time in zip(before, after, times, strict=True):
+            for (body, pull), now, time in zip(before, after, flown, strict=True):
                 self.adjust(body, pull, now, time)
         if seconds > 0:
             self.leave_behind()
+
+    def own_time(self, body: Body, seconds: float) -> float:
+        """Return for how long a ball flies: back for less time if a wall stopped it before."""
+        if seconds < 0 and self.late:
+            return min(seconds + self.late.pop(body, 0.0), 0.0)
+        return seconds
 
     def fly_ball(self, body: Body, pull: tuple[float, float], seconds: float) -> float:
         """Let a ball fly on under a pull (px/s²). Return for how long (s) it could."""

@@ -80,12 +80,16 @@ class Impacts:
         for body, (stop, end) in contacts.ends.items():
             if state_of(body) == stop:
                 flown, late = body.flown, contacts.last_dt - contacts.stopped[body]
+                was_late = contacts.late.pop(body, 0.0)
                 body.flown = flown + late
-                if not self.passes(body, end):
-                    body.flown = flown
-                    frame = self.frame_of.get(body)
-                    if frame and not frame.hangs:
-                        stopped[frame] = max(late, stopped.get(frame, 0.0))
+                if self.passes(body, end):
+                    continue
+                body.flown = flown
+                frame = self.frame_of.get(body)
+                if frame and not frame.hangs:
+                    stopped[frame] = max(late, stopped.get(frame, 0.0))
+                elif was_late:
+                    contacts.late[body] = was_late
         for frame, late in stopped.items():
             self.take_back(frame, late)
 
@@ -137,6 +141,7 @@ class Impacts:
     def put_back(self, bodies: list[Body]) -> None:
         """Put balls that walls stopped back there, as they will not bounce off them."""
         for body in bodies:
+            self.contacts.late.pop(body, None)
             if body in self.stops:
                 self.put(body, self.stops.pop(body))
 
@@ -184,13 +189,18 @@ class Impacts:
             return self.time_on_arc(c, frame, since)
         if self.flight.swings(c.a) or self.flight.swings(c.b):
             return 0.0
+        late = self.contacts.late
         if is_at_face(c):
-            return self.time_below(c, since)
+            ago = self.time_below(c, since)
+            return ago + late.get(c.a, 0.0) if ago > 0 else 0.0
         is_arc = c.a in self.frame_of or c.b in self.frame_of
-        ago, nx, ny = self.look_back(c, since)
-        if ago == 0:
-            ago, nx, ny = moment_of_touch(c.a, c.b, since * ARC if is_arc else since)
-            ago = min(ago, since)
+        if c.a in late or c.b in late:
+            ago, nx, ny = self.contacts.look_back_late(c.a, c.b)
+        else:
+            ago, nx, ny = self.look_back(c, since)
+            if ago == 0:
+                ago, nx, ny = moment_of_touch(c.a, c.b, since * ARC if is_arc else since)
+                ago = min(ago, since)
         if c.b.is_static and nx * c.nx + ny * c.ny <= 0:
             return 0.0
         if ago > 0 and (nx, ny) != (c.nx, c.ny):
@@ -310,14 +320,11 @@ class Impacts:
     def resolve_alone(self, c: Contact, ago: float) -> list[Body]:
         """Resolve an impact, some seconds ago, that affects no other contact. Return its balls."""
         hit = [c.a] if c.b.is_static else [c.a, c.b]
-        is_free = c in self.faces.normals and c.a not in self.flight.stiff
-        is_stopped = is_free and self.contacts.was_stopped(c.a)
-        if ago > 0 and (is_stopped or self.flight.can_all_go_back(hit)):
-            late = self.contacts.last_dt - self.contacts.stopped.pop(c.a) if is_stopped else 0.0
-            self.resolve_at_touch([c], hit, ago, [], late)
+        if ago > 0 and self.flight.can_all_go_back(hit):
+            self.resolve_at_touch([c], hit, ago, [])
             self.faces.look(c)
             for body in hit:
-                self.note_impact(body, ago + late)
+                self.note_impact(body, ago)
         else:
             self.put_back(hit)
             self.resolve([c], [])
@@ -363,17 +370,9 @@ class Impacts:
             c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
 
     def resolve_at_touch(
-        self,
-        group: list[Contact],
-        hit: list[Body],
-        ago: float,
-        frames: list[Frame],
-        late: float = 0.0,
+        self, group: list[Contact], hit: list[Body], ago: float, frames: list[Frame]
     ) -> None:
-        """Move bodies back to the touch, some seconds ago. Resolve it, and let them fly on.
-
-        A bullet that was stopped is `late` (s): it flies on for that time as well.
-        """
+        """Move bodies back to the touch, some seconds ago. Resolve it, and let them fly on."""
         walls: dict[Body, tuple[float, float]] = {}
         for c in group:
             if c.b.is_static and c.b not in walls:
@@ -393,7 +392,7 @@ class Impacts:
         self.resolve(group, frames)
         for wall, (x, y) in walls.items():
             wall.x, wall.y = x, y
-        self.flight.fly(hit, ago + late)
+        self.flight.fly(hit, ago)
 
     def note_impact(self, body: Body, ago: float) -> None:
         """Note that a ball was hit some seconds ago, and has flown since, or until a wall."""

@@ -139,3 +139,16 @@ def test_dumbbells_in_a_crowd_keep_their_lengths():
         world.step(1 / 60)
         lengths = [math.dist(rod.a.pos, rod.b.pos) for rod in rods]
         assert lengths == pytest.approx([50] * len(rods), rel=LENGTH)
+
+
+@pytest.mark.parametrize("bullet", [False, True])
+@pytest.mark.parametrize("after", [0.011, 0.012, 0.013, 0.014, 0.015, 0.016])
+def test_a_ball_misses_one_that_a_wall_has_turned_back_before(bullet, after):
+    """The other crosses the way to the wall so late (s) that the ball has left it."""
+    world = make_world()
+    world.add(Body(Box((100, 500)), (100, 0), **IDEAL))
+    turned = add_ball(world, (-50, 0), (9000, 0), bullet=bullet)
+    other = add_ball(world, (-30, -12_000 * after), (0, 12_000), bullet=bullet)
+    for _ in range(2):
+        world.step(1 / 60)
+    assert (*turned.vel, *other.vel) == pytest.approx((-9000, 0, 0, 12_000), abs=1e-6)
