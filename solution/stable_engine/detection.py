@@ -277,7 +277,7 @@ class Detection(Effect):
         """Return whether two free balls have touched on their way here and passed each other."""
         if a.joint_count or b.joint_count or not b.r:
             return False
-        if a in self.late or b in self.late:
+        if self.late and (a in self.late or b in self.late):
             return self.look_back_late(a, b)[0] > 0
         vx, vy = a.vx - b.vx, a.vy - b.vy
         seconds = self.flight_of(a, b)

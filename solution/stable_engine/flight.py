@@ -137,7 +137,8 @@ class Flight:
                 self.fly_frame(frame, seconds)
         if not self.springs_of:
             for body in free:
-                self.fly_ball(body, self.acceleration(body), self.own_time(body, seconds))
+                time = self.own_time(body, seconds) if self.late else seconds
+                self.fly_ball(body, self.acceleration(body), time)
             return
         free, parts = [*free, *self.partners], self.world.substep_count
         times = [self.own_time(body, seconds) / parts for body in free]
@@ -156,7 +157,7 @@ class Flight:
 
     def own_time(self, body: Body, seconds: float) -> float:
         """Return for how long a ball flies: back for less time if a wall stopped it before."""
-        if seconds < 0 and self.late:
+        if seconds < 0:
             return min(seconds + self.late.pop(body, 0.0), 0.0)
         return seconds
 

@@ -184,7 +184,7 @@ class Impacts:
         since = self.contacts.flight_of(c.a, c.b)
         if since <= 0:
             return 0.0
-        frame = self.frame_of.get(c.a)
+        frame = self.frame_of.get(c.a) if self.frame_of else None
         if frame and not frame.hangs and is_at_face(c) and self.flight.is_loose(frame, c.a):
             return self.time_on_arc(c, frame, since)
         if self.flight.swings(c.a) or self.flight.swings(c.b):
@@ -192,9 +192,9 @@ class Impacts:
         late = self.contacts.late
         if is_at_face(c):
             ago = self.time_below(c, since)
-            return ago + late.get(c.a, 0.0) if ago > 0 else 0.0
+            return ago + late.get(c.a, 0.0) if ago > 0 and late else ago
         is_arc = c.a in self.frame_of or c.b in self.frame_of
-        if c.a in late or c.b in late:
+        if late and (c.a in late or c.b in late):
             ago, nx, ny = self.contacts.look_back_late(c.a, c.b)
         else:
             ago, nx, ny = self.look_back(c, since)
@@ -396,8 +396,10 @@ class Impacts:
 
     def note_impact(self, body: Body, ago: float) -> None:
         """Note that a ball was hit some seconds ago, and has flown since, or until a wall."""
-        _, left = self.flight.cut_short.get(body, (None, 0.0))
-        self.contacts.note_impact(body, max(ago - left, 0.0))
+        cut = self.flight.cut_short
+        if cut and body in cut:
+            ago = max(ago - cut[body][1], 0.0)
+        self.contacts.note_impact(body, ago)
 
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
