@@ -99,7 +99,7 @@ class Impacts:
         Without the others, the ball would be off the lengths of its rods.
         """
         contacts, flight = self.contacts, self.flight
-        if any([ball in flight.held or ball in flight.springs_of for ball in frame.balls]):
+        if any([ball in flight.springs_of for ball in frame.balls]):
             return
         stopped = [ball for ball in frame.balls if ball in contacts.ends]
         walls = [c for ball in stopped for c in self.beside.get(ball, []) if c.b.is_static]
