@@ -34,8 +34,7 @@ class Contacts(Detection):
     Each stage solves contacts of static bodies last, so that these hold best. Where passes would
     leave much, all that balls connect is then solved together, see Pile: where a body is more than
     2.5 times as heavy as a ball that it touches, or kinematic, in a narrow or flat V, in a tall
-    tower, where balls on rods land or overlap, where stiff springs press balls, and where balls
-    were thrown at each other.
+    tower, where balls on rods land or overlap, and where stiff springs press balls.
     """
 
     __slots__ = (
@@ -68,7 +67,10 @@ class Contacts(Detection):
         """
         if h != self.h:
             self.keep_forces(h)
-        hertz = FREQUENCY / self.pace.follow(h)
+        pace = self.pace.follow(h)
+        if not (self.groups or self.changed):
+            return
+        hertz = FREQUENCY / pace
         damping = max(LEAST_DAMPING, SUBSTEP_DAMPING * self.world.substep_count)
         for group in self.groups:
             rate = hertz if group.moves_b else 2 * hertz

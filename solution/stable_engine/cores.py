@@ -146,7 +146,7 @@ class Cores:
         If they went on alone, they would stretch springs by more energy than all had.
         """
         for body in bodies:
-            share = free_share(self.world.statics, CORE * body.r, body.x, body.y, -dx, -dy)
+            share = free_share(body, self.world.statics, CORE * body.r, (body.x, body.y), -dx, -dy)
             put_back(body, (dx * share, dy * share), 0.0, self.pull, h)
 
     def pull(self, body: Body) -> tuple[float, float]:

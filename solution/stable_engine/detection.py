@@ -30,7 +30,7 @@ class Detection(Effect):
     """The part of Contacts that finds them, once per step, and tells the program of new ones."""
 
     __slots__ = (
-        *("on_hit", "on_part", "hits", "parted", "touching", "begun", "renewed", "changed"),
+        *("on_hit", "on_part", "news", "touching", "begun", "renewed", "changed"),
         *("lets_none_pass", "last_dt", "flying", "hit_ago", "stopped", "late", "ends"),
         *("broad_phase", "crowd", "beside_static", "landings", "rods", "balls", "statics"),
         *("groups", "unpaired", "ignored", "h", "touching_gap", "slow", "springs"),
@@ -43,8 +43,8 @@ class Detection(Effect):
         if on_part is not None and not callable(on_part):
             refuse("Contacts.on_part", on_part, "a function of two bodies, or None")
         self.on_hit, self.on_part = on_hit, on_part
-        self.hits: list[tuple[Body, Body, float]] = []  # of this step, if on_hit is set
-        self.parted: list[tuple[Body, Body]] = []  # in this step, if on_part is set
+        # pairs that met in this step, with their speed (px/s), or parted, with None
+        self.news: list[tuple[Body, Body, float | None]] = []
         self.touching: list[Contact] = []
         self.begun: list[Contact] = []  # contacts that are new in this step
         self.changed = False  # whether any contact was found anew, began or ended
@@ -228,7 +228,7 @@ class Detection(Effect):
     def note_hit(self, c: Contact) -> None:
         """Note that two bodies began to touch, if the program asks for that."""
         if self.on_hit:
-            self.hits.append((c.a, c.b, self.meeting_speed(c)))
+            self.news.append((c.a, c.b, self.meeting_speed(c)))
 
     def meeting_speed(self, c: Contact) -> float:
         """Return the speed (px/s) at which A and B came together when they began to touch."""
@@ -259,7 +259,7 @@ class Detection(Effect):
         """End the contact of two bodies that have parted."""
         c, pair.contact = pair.contact, None
         if self.on_part and c not in self.landings.speeds:
-            self.parted.append((pair.a, pair.b))
+            self.news.append((pair.a, pair.b, None))
 
     def end_unpaired(self) -> None:
         """End the contacts of bodies that are no longer near each other, except sleeping ones.
@@ -271,7 +271,7 @@ class Detection(Effect):
             if c.a.sleeps and c.b.idle:
                 self.unpaired[number] = c
             elif c not in self.landings.speeds and self.on_part:
-                self.parted.append((c.a, c.b))
+                self.news.append((c.a, c.b, None))
 
     def have_passed(self, a: Body, b: Body, gap: float) -> bool:
         """Return whether two free balls have touched on their way here and passed each other."""
@@ -314,27 +314,27 @@ class Detection(Effect):
 
     def finish(self, h: float) -> None:
         """Note how long (s) each ball has flown freely, and begin a new list of hits."""
-        self.begun, self.renewed, self.changed = [], [], False
+        if self.changed:
+            self.begun, self.renewed, self.changed = [], [], False
         self.last_dt = h * self.world.substep_count
         for body in self.flying:
             body.flown = inf
         for body, ago in self.hit_ago.items():
             body.flown = ago + self.last_dt
-        self.flying, self.hit_ago = [*self.hit_ago], {}
-        self.stopped, self.ends, self.late = {}, {}, {}
+        if self.flying or self.hit_ago:
+            self.flying, self.hit_ago = [*self.hit_ago], {}
+        if self.stopped or self.ends or self.late:
+            self.stopped, self.ends, self.late = {}, {}, {}
 
     def tell(self, h: float) -> None:
-        """Call on_hit and on_part, for bodies that are still in the world."""
+        """Call on_hit and on_part, in order, for bodies that are still in the world."""
         self.last_dt, self.ends = 0.0, {}  # impacts are over; a program may change anything now
-        if self.hits and self.on_hit:
-            hits, self.hits = self.hits, []
-            for a, b, speed in hits:
-                if a.world is b.world is self.world:
+        news, self.news = self.news, []
+        for a, b, speed in news:
+            if a.world is b.world is self.world:
+                if speed is not None and self.on_hit:
                     self.on_hit(a, b, speed)
-        if self.parted and self.on_part:
-            parted, self.parted = self.parted, []
-            for a, b in parted:
-                if a.world is b.world is self.world:
+                elif speed is None and self.on_part:
                     self.on_part(a, b)
 
     def let_touch(self, a: Body, b: Body, may: bool) -> None:

@@ -10,11 +10,10 @@ from .cores import CORE, split
 from .frame import Frame
 from .rods import Rods
 from .springs import Spring
-from .sweep import first_stop
+from .sweep import free_share
 
 DEEPEST = 2.0  # radii that a ball may fly into a wall off which it will bounce
 HOW_FAR = itemgetter(0)
-BEFORE = 0.01  # radii between a ball and a wall, so that the next step finds the contact
 
 
 class Flight:
@@ -172,9 +171,8 @@ class Flight:
         if seconds > 0 and (body.is_bullet or x * x + y * y > radius * radius):
             known = self.walls.get(body, []) if hypot(x, y) <= DEEPEST * body.r else []
             others = [s for s in self.world.statics if s not in known]
-            share = first_stop(others, radius, body.x, body.y, x, y)
+            share = free_share(body, others, radius, (body.x, body.y), x, y)
             if share < 1:
-                share = max(share - BEFORE * body.r / hypot(x, y), 0.0)
                 vx, vy = body.vx + ax * seconds, body.vy + ay * seconds
                 end = body.x + x, body.y + y, vx, vy
                 self.cut_short[body] = end, seconds * (1 - share)

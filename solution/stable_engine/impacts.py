@@ -10,14 +10,14 @@ from .contacts import Contacts
 from .cores import CORE
 from .detection import FAR, pair_number
 from .faces import Faces
-from .flight import BEFORE, DEEPEST, Flight
+from .flight import DEEPEST, Flight
 from .frame import Frame
 from .hit import Hit, Rub, resolve_at_once, resolve_one
 from .impact_queue import ImpactQueue
 from .joint import Joint
 from .order import balls_of
 from .soft import SAME_DIRECTION
-from .sweep import NO_HIT, first_stop, moment_of_touch
+from .sweep import free_share, moment_of_touch
 
 MOVED = 0.01  # radii; a ball that was hit and moved by less meets nothing new
 ARC = 1.1  # ratio by which the touch may lie further back for flights on an arc
@@ -298,9 +298,8 @@ class Impacts:
             dx, dy = body.x - x, body.y - y
             length = sqrt(dx * dx + dy * dy)
             if length > core:
-                share = first_stop(statics, core, x, y, dx, dy)
-                if share < NO_HIT:
-                    share = max(share - BEFORE * body.r / length, 0.0)
+                share = free_share(body, statics, core, (x, y), dx, dy)
+                if share < 1:
                     body.x, body.y = x + dx * share, y + dy * share
                     for c in self.beside.get(body, []):
                         c.nx, c.ny, c.gap = collide(c.a, c.b)

@@ -58,4 +58,4 @@ class Landings:
         for c in [c for c in self.speeds if c.jn > 0 or c.last > 0]:
             speed = self.speeds.pop(c)
             if self.contacts.on_hit:
-                self.contacts.hits.append((c.a, c.b, speed))
+                self.contacts.news.append((c.a, c.b, speed))

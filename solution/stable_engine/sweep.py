@@ -7,7 +7,7 @@ from .body import Body
 from .shapes import Segment
 
 NO_HIT = 1.0
-BEFORE = 0.02  # radii that are left between a ball and a wall
+BEFORE = 0.01  # radii that are left between a ball and a wall
 
 
 def put_back(
@@ -86,14 +86,14 @@ def first_stop(
 
 
 def free_share(
-    statics: list[Body], radius: float, x: float, y: float, dx: float, dy: float
+    body: Body, statics: list[Body], core: float, start: tuple[float, float], dx: float, dy: float
 ) -> float:
-    """Return how much of a way a ball can go before static bodies, 0 to 1.
+    """Return how much of a way from `start` a ball's core (px) can go, 1 if nothing stops it.
 
-    It ends a little before them, so that the next step finds the contact.
+    It stops a little before them, so that the next step finds the contact.
     """
-    share = first_stop(statics, radius, x, y, dx, dy)
-    return max(share - BEFORE * radius / sqrt(dx * dx + dy * dy), 0.0) if share < NO_HIT else 1.0
+    share = first_stop(statics, core, start[0], start[1], dx, dy)
+    return max(share - BEFORE * body.r / sqrt(dx * dx + dy * dy), 0.0) if share < NO_HIT else 1.0
 
 
 def hit_body(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -> float:

@@ -2,6 +2,8 @@
 
 import copy
 import math
+import random
+from itertools import product
 
 import numpy as np
 import pytest
@@ -631,3 +633,26 @@ def test_hits_and_partings_alternate_where_balls_bounce():
 def test_a_callback_must_be_callable():
     with pytest.raises(ValueError, match=r"Contacts\.on_part"):
         Contacts(on_part=3)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_pair_is_told_to_meet_and_part_in_turns(seed):
+    """A program that keeps a set of the pairs in touch is right, also if a pair meets twice."""
+    rng, touching = random.Random(seed), set()
+
+    def meet(a, b, _):
+        assert frozenset((a, b)) not in touching
+        touching.add(frozenset((a, b)))
+
+    def part(a, b):
+        touching.remove(frozenset((a, b)))
+
+    world = World((0, 0), 4, [Contacts(meet, part), Bounce()])
+    for way in (-1, 1):
+        world.add(Body(Box((50, 160)), (110 * way, 0), restitution=1.0))
+        world.add(Body(Box((160, 50)), (0, 110 * way), restitution=1.0))
+    for i, j in product((-36, 0, 36), repeat=2):
+        ball = world.add(Body(Circle(12), (i, j), 1.0, restitution=1.0))
+        ball.vel = rng.uniform(-900, 900), rng.uniform(-900, 900)
+    for _ in range(120):
+        world.step(1 / 60)
