@@ -5,7 +5,7 @@ then any other effect. Effects with more than one file:
 
 - Contacts finds in detection, by broad_phase (bounds), contact and landings. It solves in contacts,
   by order and piles (pile, unload). It keeps balls out of walls in cores (sweep) and crowd.
-- Bounce: bounce, impacts, impact_queue, flight, faces, hit.
+- Bounce: bounce, impacts, impact_queue, time_of_impact, flight, faces, hit.
 - Rods and Springs: rods (rod, frame) and springs, by joint and network; limits is for all rows.
 """
 

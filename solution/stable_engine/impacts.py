@@ -5,7 +5,7 @@ from math import hypot, inf, sqrt
 
 from .body import Body, State, state_of
 from .broad_phase import Pair
-from .contact import Contact, collide, is_at_face, leave_as_entered
+from .contact import Contact, collide, leave_as_entered
 from .contacts import Contacts
 from .cores import CORE
 from .detection import FAR, pair_number
@@ -17,11 +17,10 @@ from .impact_queue import ImpactQueue
 from .joint import Joint
 from .order import balls_of
 from .soft import SAME_DIRECTION
-from .sweep import free_share, moment_of_touch
+from .sweep import free_share
+from .time_of_impact import ARC_PASSES, TimeOfImpact, speed_at_touch
 
 MOVED = 0.01  # radii; a ball that was hit and moved by less meets nothing new
-ARC = 1.1  # ratio by which the touch may lie further back for flights on an arc
-ARC_PASSES = 4  # of Newton's method, to find the touch of a ball on an arc
 LEAST = 1e-9  # share of the speed of the hardest impact of a moment; less may be left
 
 
@@ -55,7 +54,7 @@ class Impacts:
         self.flight = Flight(contacts, h, slow)
         self.frame_of = self.flight.frame_of
         self.faces = Faces(self.flight)
-        self.turned: list[Contact] = []  # contacts with the normal of their touch
+        self.times = TimeOfImpact(contacts, self.faces)
         self.met: list[Contact] = []  # contacts that began through an impact
 
     def find(self, fast: list[Contact]) -> None:
@@ -161,7 +160,7 @@ class Impacts:
             return
         if c.gap < 0 or is_new:
             now = c.nx, c.ny, c.gap
-            ago = self.turn_back(c)
+            ago = self.times.turn_back(c)
             speed = c.closing_speed()
             if speed <= self.slow:
                 c.nx, c.ny, c.gap = now
@@ -175,97 +174,6 @@ class Impacts:
             return False
         return c.gap > self.reach or c.closing_speed() * self.dt > FAR * (c.a.r + c.b.r)
 
-    def turn_back(self, c: Contact) -> float:
-        """Turn a contact's normal back to that of the touch. Return the time (s) since then.
-
-        A flat face of a static body has one normal. Other normals stay unless the two began to
-        touch while both flew freely. Nothing flies through a wall.
-        """
-        since = self.contacts.flight_of(c.a, c.b)
-        if since <= 0:
-            return 0.0
-        frame = self.frame_of.get(c.a) if self.frame_of else None
-        if frame and not frame.hangs and is_at_face(c) and self.flight.is_loose(frame, c.a):
-            return self.time_on_arc(c, frame, since)
-        if self.flight.swings(c.a) or self.flight.swings(c.b):
-            return 0.0
-        late = self.contacts.late
-        if is_at_face(c):
-            ago = self.time_below(c, since)
-            return ago + late.get(c.a, 0.0) if ago > 0 and late else ago
-        is_arc = c.a in self.frame_of or c.b in self.frame_of
-        if late and (c.a in late or c.b in late):
-            ago, nx, ny = self.contacts.look_back_late(c.a, c.b)
-        else:
-            ago, nx, ny = self.look_back(c, since)
-            if ago == 0:
-                ago, nx, ny = moment_of_touch(c.a, c.b, since * ARC if is_arc else since)
-                ago = min(ago, since)
-        if c.b.is_static and nx * c.nx + ny * c.ny <= 0:
-            return 0.0
-        if ago > 0 and (nx, ny) != (c.nx, c.ny):
-            c.nx, c.ny = nx, ny
-            c.gap = -c.closing_speed() * ago
-            self.turned.append(c)
-        return ago
-
-    def time_below(self, c: Contact, since: float) -> float:
-        """Return how long ago (s) a ball fell through a flat face; 0 if not `since` then.
-
-        In that time it may have been hit, so this has slack for a fall; a load overlaps before it.
-        """
-        g, lag = self.flight.pull(c)
-        closing = c.closing_speed()
-        speed = (speed_at_touch(c, closing, g, lag) + closing + lag) / 2
-        deeper = -c.gap - speed * since
-        if c.gap >= 0 or deeper > self.slack(c, since):
-            return 0.0
-        return since if deeper >= 0 else -c.gap / speed
-
-    def time_on_arc(self, c: Contact, frame: Frame, since: float) -> float:
-        """Return how long ago (s) a ball on rods passed a flat face; 0 if not `since` then."""
-        a, b, ago, gap = c.a, c.b, 0.0, c.gap
-        if gap >= 0:
-            return 0.0
-        before = [(ball, state_of(ball), ball.turn) for ball in frame.balls]
-        x, y = a.x, a.y
-        for _ in range(ARC_PASSES):
-            speed = c.closing_speed()
-            if speed <= self.slow or abs(gap) <= self.touching_gap:
-                break
-            more = min(-gap / speed, since - ago)
-            ago += more
-            self.flight.fly_frame(frame, -more)
-            way_x, way_y = a.x - x + b.vx * ago, a.y - y + b.vy * ago
-            gap = c.gap - way_x * c.nx - way_y * c.ny
-        for ball, (at_x, at_y, vx, vy), turn in before:
-            ball.x, ball.y, ball.vx, ball.vy, ball.turn = at_x, at_y, vx, vy, turn
-        return ago if abs(gap) <= self.slack(c, since) else 0.0
-
-    def slack(self, c: Contact, since: float) -> float:
-        """Return how much deeper (px) a ball may be in a face, as it fell or was under a load."""
-        g, _ = self.flight.pull(c)
-        before = min(self.faces.depths.get(c, 0.0), 0.0)
-        return self.touching_gap + abs(g) * since * since - before
-
-    def look_back(self, c: Contact, since: float) -> tuple[float, float, float]:
-        """Return `since` (s) and the normal if two round bodies began to close in then, else zeros.
-
-        One of them was hit then, while they touched: by rounding alone, or under a load.
-        """
-        a, b = c.a, c.b
-        vx, vy = b.vx - a.vx, b.vy - a.vy
-        x, y = b.x - a.x - vx * since, b.y - a.y - vy * since
-        distance = sqrt(x * x + y * y)
-        gap = distance - a.r - b.r
-        if gap > self.touching_gap or x * vx + y * vy >= 0 or not b.r:
-            return 0.0, 0.0, 0.0
-        was_hit = since in (self.contacts.hit_ago.get(a), self.contacts.hit_ago.get(b))
-        is_loaded = was_hit and distance > 0 and not (a.joint_count or b.joint_count)
-        if gap < -self.touching_gap and not is_loaded:
-            return 0.0, 0.0, 0.0
-        return since, x / distance, y / distance
-
     def resolve_all(self) -> None:
         """Resolve all impacts, and those that they cause, until no pair closes in fast."""
         if not self.beside:
@@ -273,7 +181,7 @@ class Impacts:
         while self.queue.due:
             self.resolve_first()
         self.put_back(list(self.stops))
-        for c in self.turned:
+        for c in self.times.turned:
             self.turn_on(c, 0.0)
         deep: dict[Body, list[Contact]] = {}
         for c in self.faces.normals:
@@ -543,9 +451,3 @@ def seen_from_start(a: Body, b: Body) -> tuple[float, float, float]:
     before.nx, before.ny, _ = collide(a, b)
     a.x, a.y = x, y
     return leave_as_entered(before, *collide(a, b))
-
-
-def speed_at_touch(c: Contact, closing: float, g: float, lag: float) -> float:
-    """Return how fast (px/s) a pair came together when it touched; g and lag: see Flight.pull."""
-    speed = closing + lag
-    return sqrt(max(speed * abs(speed) + 2 * g * c.gap, 0.0)) if g else speed
