@@ -13,6 +13,7 @@ from .unload import in_touch
 TALL = 13.3  # weights of its effective mass; a contact that bears more carries a tower. Not whole,
 # so that rounding does not decide between towers of equal balls
 LEANING = 0.1  # a sine; a tower leans less
+SUNK = 0.01  # in units of the world; a contact that gives way by less sinks too little to be seen
 BEARING = 0.05  # weights of its effective mass; a contact with less bears nothing
 TIED = 0.005  # of both radii; rods take over what a push of balls that overlap by more leaves
 RESTING = 30.0  # 1/s, in units of the world; a ball that bounces faster is left to impacts
@@ -24,10 +25,13 @@ OPPOSITE = -0.5  # cosine; faces that turn further apart clamp what is between t
 
 def find_piles(contacts: Detection, before: list[Pile], h: float) -> list[Pile]:
     """Return the piles of a step with substeps of h seconds, and end those of the step before."""
-    world = contacts.world
+    world, balls = contacts.world, contacts.balls
     gx, gy = world.g
     weight = hypot(gx, gy) * h  # px/s, of 1 kg in a substep
-    tall = TALL * weight or inf  # px/s, by mass; a contact that bears more is left to towers
+    tall = inf  # px/s, by mass; a contact that bears more is left to towers
+    if weight and balls.contacts:
+        sinks = (1 - balls.mass_scale) / balls.bias_rate  # px by px/s, if it is not
+        tall = max(TALL * weight, SUNK * world.unit / sinks)
     is_heavy = is_tall = False  # whether masses differ much; whether there is any tower
     for c in contacts.touching:
         is_heavy = is_heavy or c.ratio > HEAVY
