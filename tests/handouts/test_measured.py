@@ -97,7 +97,7 @@ def test_no_point_of_a_curve_lies_beyond_its_axes(name: str) -> None:
         ("accuracy-dials-tower", "step", 0, "tower of 20, lesson, 8 passes, 1/60 s: sink"),
         ("accuracy-dials-tower", "step", -1, "tower of 20, lesson, 8 passes, 1/480 s: sink"),
         ("accuracy-dials-tower", "passes", -1, "tower of 20, lesson, 64 passes: sink"),
-        ("accuracy-engines-tower", "stable", 5, "tower of 20, stable, 64 substeps: sink"),
+        ("accuracy-engines-tower", "stable", 4, "tower of 20, stable, 32 substeps: sink"),
         ("accuracy-smooth-energy", "rk4", 0, "orbit, rk4: energy error of the first round"),
         ("accuracy-smooth-energy", "rk4", -1, "orbit, rk4: energy error of the last round"),
     ],
