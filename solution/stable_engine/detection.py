@@ -92,7 +92,10 @@ class Detection(Effect):
             self.find_contacts(dt)
 
     def note_moved(self) -> bool:
-        """Note which bodies with others near have moved since their contacts were last found."""
+        """Note which bodies with others near have moved since their contacts were last found.
+
+        Return whether any has.
+        """
         far = REDETECT_DISTANCE * self.world.unit
         far2, any_moved = far * far, False
         for one in self.broad_phase.near:

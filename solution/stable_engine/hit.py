@@ -47,25 +47,6 @@ class Rub(Hit):
         self.end_b.w -= self.arm_b * j * self.end_b.inv_inertia
 
 
-def resolve_one(c: Contact, speed: float, share: float) -> None:
-    """Make one contact separate at a speed (px/s). Friction gets a share of its limit."""
-    a, b = c.a, c.b
-    j = max(0.0, (speed + c.closing_speed()) * c.mn)
-    c.push_apart(j)
-    most = c.mu * share * j
-    if most:
-        c.set_arms(c.gap)
-        slip = (b.vy - a.vy) * c.nx - (b.vx - a.vx) * c.ny - (a.w * c.arm_a + b.w * c.arm_b)
-        j = max(-most, min(-slip * c.mt, most))
-        px, py = -c.ny * j, c.nx * j
-        a.vx -= px * a.inv_mass
-        a.vy -= py * a.inv_mass
-        b.vx += px * b.inv_mass
-        b.vy += py * b.inv_mass
-        a.w -= c.arm_a * j * a.inv_inertia
-        b.w -= c.arm_b * j * b.inv_inertia
-
-
 def resolve_at_once(rows: Sequence[Hit], rods: list[Joint], least: float) -> None:
     """Give the rows the impulses that they need together. Rods are to keep their lengths."""
     if len(rows) == 1 and not rods:

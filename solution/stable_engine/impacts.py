@@ -12,7 +12,7 @@ from .detection import FAR, pair_number
 from .faces import Faces
 from .flight import DEEPEST, Flight
 from .frame import Frame
-from .hit import Hit, Rub, resolve_at_once, resolve_one
+from .hit import Hit, Rub, resolve_at_once
 from .impact_queue import ImpactQueue
 from .joint import Joint
 from .order import balls_of
@@ -376,16 +376,6 @@ class Impacts:
 
         Normal impulses come first, then friction limited by them, so no energy is created.
         """
-        if len(group) == 1 and not frames:
-            resolve_one(group[0], *self.law(group[0]))
-        else:
-            self.resolve_together(group, frames)
-        for body in balls_of(group) if self.flight.rests else []:
-            if body in self.flight.rests and body not in self.frame_of:
-                self.flight.release(body)
-
-    def resolve_together(self, group: list[Contact], frames: list[Frame]) -> None:
-        """Resolve contacts of one moment, with the rods of these frames."""
         for frame in frames:
             frame.hold()
         hits = [Hit(c, self.law(c)) for c in group]
@@ -393,6 +383,9 @@ class Impacts:
         least = LEAST * max([hit.wanted - hit.speed() for hit in hits])
         resolve_at_once(hits, rods, least)
         resolve_at_once([Rub(hit) for hit in hits if hit.mu * hit.total], rods, least)
+        for body in balls_of(group) if self.flight.rests else []:
+            if body in self.flight.rests and body not in self.frame_of:
+                self.flight.release(body)
 
 
 def select_fast(contacts: list[Contact], slow: float) -> list[Contact]:

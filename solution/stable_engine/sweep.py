@@ -90,7 +90,7 @@ def free_share(
 ) -> float:
     """Return how much of a way from `start` a ball's core (px) can go, 1 if nothing stops it.
 
-    It stops a little before them, so that the next step finds the contact.
+    It stops a little before a static body, so that the next step finds the contact.
     """
     share = first_stop(statics, core, start[0], start[1], dx, dy)
     return max(share - BEFORE * body.r / sqrt(dx * dx + dy * dy), 0.0) if share < NO_HIT else 1.0
