@@ -10,7 +10,7 @@ from types import SimpleNamespace
 
 import pytest
 from samples import sample
-from worlds_for_tests import balls, build
+from worlds_for_tests import balls, build, whole_energy
 
 from experiments.engines import Stable
 from experiments.measures import run, states, watch
@@ -463,15 +463,11 @@ def drop_on_resting_ball(degrees, restitution, drop):
 def test_a_hit_on_a_ball_that_rests_in_a_v_stays_on_the_axis(degrees, restitution, drop):
     """A mirrored law throws neither ball sideways; gravity does no work on a ball at rest."""
     world, rests, falls = drop_on_resting_ball(degrees, restitution, drop)
-
-    def energy():
-        return sum(b.mass * (b.vel.length_squared() / 2 - G * b.pos.y) for b in (rests, falls))
-
-    start, sideways, energies = energy(), 0.0, []
+    start, sideways, energies = whole_energy(world), 0.0, []
     for _ in range(60):
         world.step(DT)
         sideways = max(sideways, abs(rests.vel.x), abs(falls.vel.x))
-        energies.append(energy())
+        energies.append(whole_energy(world))
     assert sideways <= 1e-9 * fall_speed(drop)
     assert max(energies) <= start + 1e-6 * G * drop
     if restitution == 1 and drop > 2:
