@@ -108,6 +108,13 @@ class BroadPhase:
             self.is_stale = True
         return leavers
 
+    def note_leaver(self, body: Body) -> None:
+        """Note a body that was put elsewhere since find_leavers, if it is out of its room."""
+        one = self.rooms[body]
+        if not one.holds() and one not in self.leavers:
+            self.leavers.append(one)
+            self.is_stale = self.is_stale or self.is_quiet
+
     def renew(
         self, g: tuple[float, float], held: set[Body], dt: float, back: float, margin: float
     ) -> list[Pair]:

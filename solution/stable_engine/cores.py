@@ -29,7 +29,7 @@ class Cores:
     def keep_out(self, h: float) -> None:
         """Put balls back whose cores met a static body in this step, or are in one."""
         contacts = self.contacts
-        for one in contacts.broad_phase.find_leavers(contacts.last_dt):
+        for one in [*contacts.broad_phase.find_leavers(contacts.last_dt)]:
             if self.world.statics:
                 if not one.near:
                     one.find_start(contacts.last_dt)
@@ -82,6 +82,7 @@ class Cores:
             closing, closing_2 = split(closing, closing_2, nx * x + ny * y)
             move_out(body, x, y, back_2, closing_2)
         move_out(body, nx, ny, back, closing)
+        self.contacts.broad_phase.note_leaver(body)
 
     def went_through(self, c: Contact) -> bool:
         """Return whether the centre of a ball was in a static body at any time in this step."""
@@ -135,13 +136,22 @@ class Cores:
     def take_along(self, bodies: list[Body], dx: float, dy: float, h: float) -> None:
         """Put balls back by (dx, dy) px with one that they are stiffly tied to, up to a wall.
 
-        If they went on alone, they would stretch springs by more energy than all had.
-        Those whose cores are in a static body stay: the way out of it is not known.
+        If they went on alone, they would stretch springs by more energy than all had. They go
+        straight from where they were at the start of the step, as they may be in a wall by now.
+        Those whose cores were in a static body stay: the way out of it is not known.
         """
-        deep = {c.a for c in self.contacts.statics.contacts if c.found < -CORE * c.a.r}
+        contacts = self.contacts
+        deep = {c.a for c in contacts.statics.contacts if c.found < -CORE * c.a.r}
         for body in [body for body in bodies if body not in deep]:
-            share = free_share(body, self.world.statics, CORE * body.r, (body.x, body.y), -dx, -dy)
-            put_back(body, (dx * share, dy * share), 0.0, self.pull, h)
+            room = contacts.broad_phase.rooms[body]
+            if not room.near:
+                room.find_start(contacts.last_dt)
+            x, y = body.last_x, body.last_y
+            way = body.x - dx - x, body.y - dy - y
+            share = free_share(body, self.world.statics, CORE * body.r, (x, y), *way)
+            back = body.x - x - way[0] * share, body.y - y - way[1] * share
+            put_back(body, back, 0.0, self.pull, h)
+            contacts.broad_phase.note_leaver(body)
 
     def pull(self, body: Body) -> tuple[float, float]:
         """Return the acceleration of a body (px/s²) by gravity, forces and soft springs."""
