@@ -12,6 +12,7 @@ from .network import Network, bodies_of
 TURNS = 16  # of changing all rows that are wrong, without fewer; then one is changed at a time
 MOST_TURNS = 200
 FREE = 1e30  # 1/kg, the pivot of a row that takes no impulse
+ROUNDING = 2.0**-52  # share of a number
 
 
 class Limited(Joint):
@@ -76,8 +77,12 @@ def solve_between(
     aim: Callable[[], None],
     taken: dict[Joint, float],
     has_moved: bool,
-) -> None:
-    """Take rows at a limit there, and solve for all others. Add their impulses to those taken."""
+    most: float,
+) -> bool:
+    """Take rows at a limit there, and solve for all others. Add their impulses to those taken.
+
+    Return False, and take none, if any would be more than `most` (kg px/s).
+    """
     for row in limited:
         if row.at:
             j = row.excess()
@@ -91,9 +96,12 @@ def solve_between(
     for row in limited:
         if row.at:
             row.rhs = 0.0
+    if not all([abs(one.rhs) <= most for one in network.joints]):
+        return False
     for one in network.joints:
         taken[one] += one.rhs
         one.take(one.rhs, has_moved)
+    return True
 
 
 def solve_within(
@@ -108,17 +116,20 @@ def solve_within(
 
     aim sets each row's pivot and rhs, see Network.solve. Each turn solves for some rows, then lets
     go of those beyond their limits, and takes those that still lack more than `least` px/s (block
-    pivoting, Júdice and Pires 1994). If that does not end, or `accepts` refuses its end, nothing
-    changes.
+    pivoting, Júdice and Pires 1994). If that does not end, or `accepts` refuses its end, or if
+    impulses get so large that speeds are rounded by more than `least`, nothing changes.
     """
     before = [(body, body.vx, body.vy, body.w) for body in bodies_of(network.joints)]
+    lightest = min([body.m for body, *_ in before if body.inv_mass])
+    most = least / ROUNDING * lightest  # kg px/s
     taken = dict.fromkeys(network.joints, 0.0)  # kg px/s
     aim()
     for row in limited:
         row.begin(least)
     fewest, patience = len(limited) + 1, TURNS
     for _ in range(MOST_TURNS):
-        solve_between(network, limited, aim, taken, has_moved)
+        if not solve_between(network, limited, aim, taken, has_moved, most):
+            break
         aim()
         wrong = [row for row in limited if row.is_wrong(least)]
         if not wrong:
