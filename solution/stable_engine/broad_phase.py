@@ -148,10 +148,13 @@ class BroadPhase:
         return self.pairs[count:]
 
     def follow(self, bodies: list[Body], dt: float, margin: float) -> list[Pair]:
-        """Make room for bodies that were thrown out of theirs. Return the new near pairs."""
+        """Make room for bodies that were thrown out of theirs. Return the new near pairs.
+
+        Rooms also cover the path since the throw, at most a step: others may be on it.
+        """
         leavers, count = [self.rooms[body] for body in bodies], len(self.pairs)
         for one in leavers:
-            one.make_room(0.0, max(self.ahead - self.age, dt))
+            one.make_room(min(one.body.flown, dt), max(self.ahead - self.age, dt))
         self.search(leavers, margin)
         return self.pairs[count:]
 

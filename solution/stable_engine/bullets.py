@@ -1,12 +1,7 @@
 """Bullets: fast balls do not get into static bodies."""
 
-from math import hypot
-
 from .contacts import RESTING_SPEED, Contacts
 from .effect import Users
-
-SWEEP_FROM = 0.5  # radii, a bullet that moves further in one step is swept
-OVERLAP = 0.05  # radii, the overlap of a stopped bullet, so that the next step finds the contact
 
 
 class Bullets(Users):
@@ -17,7 +12,7 @@ class Bullets(Users):
     each other on their way, bullets or not.
     """
 
-    __slots__ = ("contacts", "starts")
+    __slots__ = ("contacts",)
     rank = 7
 
     def attach(self) -> None:
@@ -25,17 +20,10 @@ class Bullets(Users):
 
     def impact(self, h: float) -> None:
         """Stop a bullet that did not bounce: a soft contact would give way too far."""
-        fast = RESTING_SPEED * self.world.unit
+        fast, least = RESTING_SPEED * self.world.unit, self.contacts.touching_gap
         for c in self.contacts.touching if self.bodies else []:
-            if (c.a.is_bullet or c.b.is_bullet) and c.closing_speed() > fast:
+            if c.gap <= least and (c.a.is_bullet or c.b.is_bullet) and c.closing_speed() > fast:
                 c.push_apart(c.mn * c.closing_speed())
 
     def prepare(self, h: float) -> None:
-        self.starts = [(bullet, bullet.x, bullet.y) for bullet in self.bodies]
-
-    def finish(self, h: float) -> None:
-        cores = self.contacts.cores
-        for bullet, x, y in self.starts:
-            if hypot(bullet.x - x, bullet.y - y) > SWEEP_FROM * bullet.r:
-                overlap = OVERLAP * bullet.r
-                cores.sweep(bullet, (x, y), bullet.r, overlap, h)
+        self.contacts.cores.starts = [(bullet, bullet.x, bullet.y) for bullet in self.bodies]

@@ -9,6 +9,8 @@ from .soft import SAME_DIRECTION
 from .sweep import NO_HIT, first_hit, free_share, put_back, share_left
 
 CORE = 0.5  # radii
+SWEEP_FROM = 0.5  # radii, a bullet that moves further in one step is swept
+OVERLAP = 0.05  # radii, the overlap of a stopped bullet, so that the next step finds the contact
 SEAM = 1e-9  # a squared sine; faces that turn less are one
 CORNER_PASSES = 4  # of keeping cores out: a ball put back may meet another static body
 
@@ -20,15 +22,19 @@ class Cores:
     the ball, so that a sliding ball does not catch on a seam.
     """
 
-    __slots__ = ("contacts", "world")
+    __slots__ = ("contacts", "starts", "world")
 
     def __init__(self, contacts: Detection) -> None:
         self.contacts = contacts
         self.world = contacts.world
+        self.starts: list[tuple[Body, float, float]] = []  # of bullets, where their step began
 
     def keep_out(self, h: float) -> None:
         """Put balls back whose cores met a static body in this step, or are in one."""
         contacts = self.contacts
+        for bullet, x, y in self.starts:
+            if hypot(bullet.x - x, bullet.y - y) > SWEEP_FROM * bullet.r:
+                self.sweep(bullet, (x, y), bullet.r, OVERLAP * bullet.r, h)
         for one in [*contacts.broad_phase.find_leavers(contacts.last_dt)]:
             if self.world.statics:
                 if not one.near:
@@ -129,6 +135,8 @@ class Cores:
             contacts.ends[body] = state_of(body), contacts.ends.get(body, (end, end))[1]
         before = contacts.stopped.get(body, contacts.last_dt)
         contacts.stopped[body] = fraction * before
+        if not (contacts.rods and contacts.rods.holds(body)):
+            contacts.late[body] = contacts.last_dt - contacts.stopped[body]
         flown = body.flown if body.flown < inf else contacts.last_dt
         body.flown = flown - (1 - fraction) * before
         contacts.flying.append(body)

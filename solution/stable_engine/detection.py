@@ -31,9 +31,10 @@ class Detection(Effect):
 
     __slots__ = (
         *("on_hit", "on_part", "news", "touching", "begun", "renewed", "changed"),
-        *("lets_none_pass", "last_dt", "flying", "hit_ago", "stopped", "ends", "broad_phase"),
-        *("crowd", "beside_static", "landings", "rods", "balls", "statics", "groups", "unpaired"),
-        *("ignored", "h", "touching_gap", "slow", "springs", "begin_contact_hooks"),
+        *("lets_none_pass", "last_dt", "flying", "hit_ago", "stopped", "late", "ends"),
+        *("broad_phase", "crowd", "beside_static", "landings", "rods", "balls", "statics"),
+        *("groups", "unpaired", "ignored", "h", "touching_gap", "slow", "springs"),
+        "begin_contact_hooks",
     )
 
     def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:
@@ -54,6 +55,7 @@ class Detection(Effect):
         self.flying: list[Body] = []  # balls that were hit in the step before, or stopped
         self.hit_ago: dict[Body, float] = {}  # s, since the last impact of a ball in this step
         self.stopped: dict[Body, float] = {}  # s, into the step, until a static body stopped it
+        self.late: dict[Body, float] = {}  # s, by which a ball that stopped is behind the others
         # of a stopped ball: where it is, and where it would be
         self.ends: dict[Body, tuple[State, State]] = {}
         self.broad_phase = BroadPhase()
@@ -150,7 +152,7 @@ class Detection(Effect):
         renewed: list[Contact] = []
         slow, touching_gap = self.slow, self.touching_gap
         margin, slow2 = slow * dt, slow * slow
-        back = self.last_dt if self.lets_none_pass else 0.0
+        back, late = self.last_dt if self.lets_none_pass else 0.0, self.late
         for pair in self.broad_phase.pairs:
             a, b = pair.a, pair.b
             if not (a.has_moved or b.has_moved):
@@ -165,6 +167,8 @@ class Detection(Effect):
                 if back:
                     dvx, dvy = b.vx - a.vx, b.vy - a.vy
                     reach += sqrt(dvx * dvx + dvy * dvy) * back
+                if late:
+                    reach += self.way_left(a) + self.way_left(b)
                 if dx * dx + dy * dy > reach * reach:
                     if pair.contact:
                         self.end_contact(pair)
@@ -274,14 +278,33 @@ class Detection(Effect):
 
     def have_passed(self, a: Body, b: Body, gap: float) -> bool:
         """Return whether two free balls have touched on their way here and passed each other."""
+        if a.joint_count or b.joint_count or not b.r:
+            return False
+        if self.late and (a in self.late or b in self.late):
+            return self.look_back_late(a, b)[0] > 0
         vx, vy = a.vx - b.vx, a.vy - b.vy
         seconds = self.flight_of(a, b)
         way = sqrt(vx * vx + vy * vy) * seconds
-        if way <= gap or way <= FAR * (a.r + b.r) or not b.r:
-            return False
-        if a.joint_count or b.joint_count or self.was_stopped(a) or self.was_stopped(b):
+        if way <= gap or way <= FAR * (a.r + b.r):
             return False
         return moment_of_touch(a, b, seconds)[0] > 0
+
+    def way_left(self, body: Body) -> float:
+        """Return how far (px) a ball would have flown on, had no wall stopped it."""
+        return sqrt(body.vx * body.vx + body.vy * body.vy) * self.late.get(body, 0.0)
+
+    def look_back_late(self, a: Body, b: Body) -> tuple[float, float, float]:
+        """Return how long ago (s) two bodies began to touch, and the normal, if a wall stopped one.
+
+        Return zeros if the wall came first. As if nothing had stopped it, it counts as further on.
+        """
+        by_a, by_b = self.late.get(a, 0.0), self.late.get(b, 0.0)
+        since = min(a.flown + by_a, b.flown + by_b, self.last_dt)
+        ax, ay, bx, by = a.x, a.y, b.x, b.y
+        a.x, a.y, b.x, b.y = ax + a.vx * by_a, ay + a.vy * by_a, bx + b.vx * by_b, by + b.vy * by_b
+        ago, nx, ny = moment_of_touch(a, b, since)
+        a.x, a.y, b.x, b.y = ax, ay, bx, by
+        return (ago, nx, ny) if ago >= max(by_a, by_b) else (0.0, 0.0, 0.0)
 
     def flight_of(self, a: Body, b: Body) -> float:
         """Return how long (s) two bodies have flown freely: a step, if none was hit or stopped."""
@@ -291,10 +314,6 @@ class Detection(Effect):
     def note_impact(self, body: Body, ago: float) -> None:
         """Note that a ball was hit some seconds ago, and has flown freely since."""
         self.hit_ago[body] = body.flown = ago
-
-    def was_stopped(self, body: Body) -> bool:
-        """Return whether a bullet met something static in the step before."""
-        return body.is_bullet and body in self.stopped
 
     def finish(self, h: float) -> None:
         """Note how long (s) each ball has flown freely, and begin a new list of hits."""
@@ -307,8 +326,8 @@ class Detection(Effect):
             body.flown = ago + self.last_dt
         if self.flying or self.hit_ago:
             self.flying, self.hit_ago = [*self.hit_ago], {}
-        if self.stopped or self.ends:
-            self.stopped, self.ends = {}, {}
+        if self.stopped or self.ends or self.late:
+            self.stopped, self.ends, self.late = {}, {}, {}
 
     def tell(self, h: float) -> None:
         """Call on_hit and on_part, in order, for bodies that are still in the world."""

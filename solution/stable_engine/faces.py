@@ -46,7 +46,8 @@ class Faces:
     def lift(self, faces: list[Contact]) -> None:
         """Put a ball onto faces that stop it, but not higher than it was at first.
 
-        One that leaves the faces pays with its speed, as if it had risen there.
+        A free frame of rods is lifted as a whole if it can pay: its rods would be stretched. What
+        leaves the faces pays with its speed, as if it had risen there.
         """
         ways = way_out([(self.added_depth(c), c) for c in faces])
         if not ways:
@@ -57,16 +58,34 @@ class Faces:
             nx, ny = sum([c.nx * far for far, c in ways]), sum([c.ny * far for far, c in ways])
             up = hypot(nx, ny)
             nx, ny = nx / up, ny / up
+        frame, lifted = self.flight.frame_of.get(a), [a]
+        g, speed = self.leave(ways, up, a.vx, a.vy)
+        if frame and not frame.hangs:
+            whole_g, whole_speed = self.leave(ways, up, *frame.velocity())
+            if max(whole_speed, 0.0) ** 2 >= 2 * whole_g * up:  # else it would rise for nothing
+                lifted, g, speed = frame.balls, whole_g, whole_speed
+        if speed > 0:
+            slower = speed - sqrt(max(speed * speed - 2 * g * up, 0.0))
+            for ball in lifted:
+                ball.vx += nx * slower
+                ball.vy += ny * slower
+        for ball in lifted:
+            ball.x -= nx * up
+            ball.y -= ny * up
+        for c in faces:
+            self.look(c)
+
+    def leave(
+        self, ways: list[tuple[float, Contact]], up: float, vx: float, vy: float
+    ) -> tuple[float, float]:
+        """Return the pull (px/s²) back to faces, and the speed (px/s) away from them.
+
+        `ways` lead `up` px out of them in all; vx and vy are the velocity of what leaves.
+        """
         g = speed = 0.0
         for far, c in ways:
             pull, lag = self.flight.pull(c)
+            closing = (vx - c.b.vx) * c.nx + (vy - c.b.vy) * c.ny
             g += far / up * pull
-            speed -= far / up * (c.closing_speed() + lag)
-        if speed > 0:
-            slower = speed - sqrt(max(speed * speed - 2 * g * up, 0.0))
-            a.vx += nx * slower
-            a.vy += ny * slower
-        a.x -= nx * up
-        a.y -= ny * up
-        for c in faces:
-            self.look(c)
+            speed -= far / up * (closing + lag)
+        return g, speed

@@ -31,7 +31,8 @@ class Flight:
         self.slow = slow  # px/s, slower impacts are ignored
         self.dt = contacts.last_dt  # s, of the step in which balls touched
         self.held: set[Body] = set()  # balls at static bodies that cannot go back
-        self.cut_short: dict[Body, State] = {}  # balls that a wall stopped: where they would be
+        # balls that a wall stopped: where they would be, and how much later (s)
+        self.cut_short: dict[Body, tuple[State, float]] = {}
         self.walls: dict[Body, list[Body]] = {}  # at which a ball is: it may fly into them
         self.rests: dict[Body, list[Contact]] = {}  # at faces on which a ball rested
         self.bearing: dict[Body, list[Contact]] = {}  # those of them that bear it now
@@ -41,6 +42,7 @@ class Flight:
             rods.find_frames()
             self.frame_of = rods.frame_of
             self.pivots = find_pivots(rods)
+        self.late = contacts.late
         self.springs_of: dict[Body, list[Spring]] = {}
         self.stiff: set[Body] = set()  # bodies whose springs swing too fast to follow
         if springs:
@@ -72,7 +74,7 @@ class Flight:
     def can_all_go_back(self, bodies: list[Body]) -> bool:
         """Return whether balls can be moved back to a touch, with all that hangs on their rods."""
         for body in bodies:
-            if body in self.held or self.contacts.was_stopped(body):
+            if body in self.held:
                 return False
             if body.joint_count:
                 frame = self.frame_of.get(body)
@@ -86,7 +88,7 @@ class Flight:
             return body in self.pivots and not body.is_bullet
         odd = self.held, self.springs_of, self.bearing, self.world.forces
         for ball in frame.balls:
-            if ball.is_bullet or any([ball in some for some in odd]) or self.swings(ball):
+            if ball.is_bullet or any([ball in some for some in odd]):
                 return False
         return True
 
@@ -134,18 +136,29 @@ class Flight:
                 self.fly_frame(frame, seconds)
         if not self.springs_of:
             for body in free:
-                self.fly_ball(body, self.acceleration(body), seconds)
+                time = self.own_time(body, seconds) if self.late else seconds
+                self.fly_ball(body, self.acceleration(body), time)
             return
         free, parts = [*free, *self.partners], self.world.substep_count
+        times = [self.own_time(body, seconds) / parts for body in free]
         for _ in range(parts):  # as the pull of springs changes on the way
             before = [(body, self.acceleration(body)) for body in free]
-            times = [self.fly_ball(body, pull, seconds / parts) for body, pull in before]
+            flown = [
+                self.fly_ball(body, pull, time)
+                for (body, pull), time in zip(before, times, strict=True)
+            ]
             self.time += seconds / parts
             after = [self.acceleration(body) for body in free]  # with the same speeds for all
-            for (body, pull), now, time in zip(before, after, times, strict=True):
+            for (body, pull), now, time in zip(before, after, flown, strict=True):
                 self.adjust(body, pull, now, time)
         if seconds > 0:
             self.leave_behind()
+
+    def own_time(self, body: Body, seconds: float) -> float:
+        """Return for how long a ball flies: back for less time if a wall stopped it before."""
+        if seconds < 0:
+            return min(seconds + self.late.pop(body, 0.0), 0.0)
+        return seconds
 
     def fly_ball(self, body: Body, pull: tuple[float, float], seconds: float) -> float:
         """Let a ball fly on under a pull (px/s²). Return for how long (s) it could."""
@@ -161,7 +174,8 @@ class Flight:
             share = free_share(body, others, radius, (body.x, body.y), x, y)
             if share < 1:
                 vx, vy = body.vx + ax * seconds, body.vy + ay * seconds
-                self.cut_short[body] = body.x + x, body.y + y, vx, vy
+                end = body.x + x, body.y + y, vx, vy
+                self.cut_short[body] = end, seconds * (1 - share)
                 x, y, seconds = x * share, y * share, seconds * share
         body.x += x
         body.y += y

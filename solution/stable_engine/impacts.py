@@ -18,7 +18,7 @@ from .joint import Joint
 from .order import balls_of
 from .soft import SAME_DIRECTION
 from .sweep import free_share
-from .time_of_impact import TimeOfImpact, speed_at_touch
+from .time_of_impact import ARC_PASSES, TimeOfImpact, speed_at_touch
 
 MOVED = 0.01  # radii; a ball that was hit and moved by less meets nothing new
 LEAST = 1e-9  # share of the speed of the hardest impact of a moment; less may be left
@@ -75,12 +75,49 @@ class Impacts:
         """
         self.link(self.touching)
         contacts = self.contacts
+        stopped: dict[Frame, float] = {}
         for body, (stop, end) in contacts.ends.items():
             if state_of(body) == stop:
-                flown = body.flown
-                body.flown = flown + contacts.last_dt - contacts.stopped[body]
-                if not self.passes(body, end):
-                    body.flown = flown
+                flown, late = body.flown, contacts.last_dt - contacts.stopped[body]
+                was_late = contacts.late.pop(body, 0.0)
+                body.flown = flown + late
+                if self.passes(body, end):
+                    continue
+                body.flown = flown
+                frame = self.frame_of.get(body)
+                if frame and not frame.hangs:
+                    stopped[frame] = max(late, stopped.get(frame, 0.0))
+                elif was_late:
+                    contacts.late[body] = was_late
+        for frame, late in stopped.items():
+            self.take_back(frame, late)
+
+    def take_back(self, frame: Frame, late: float) -> None:
+        """Let a frame fly back to a touch, as a wall stopped one of its balls so long (s) ago.
+
+        Without the others, the ball would be off the lengths of its rods.
+        """
+        contacts, flight = self.contacts, self.flight
+        if any([ball in flight.springs_of for ball in frame.balls]):
+            return
+        stopped = [ball for ball in frame.balls if ball in contacts.ends]
+        walls = [c for ball in stopped for c in self.beside.get(ball, []) if c.b.is_static]
+        for ball in stopped:
+            ball.x, ball.y, ball.vx, ball.vy = contacts.ends[ball][1]
+            self.stops.pop(ball, None)
+        left = contacts.last_dt
+        for _ in range(ARC_PASSES):
+            flight.fly_frame(frame, -late)
+            left -= late
+            for c in walls:
+                self.faces.look(c)
+            walls = [c for c in walls if c.closing_speed() > self.slow]
+            if not walls:
+                break
+            late = min(max([-c.gap / c.closing_speed() for c in walls]), left)
+        for ball in frame.balls:
+            for c in self.beside.get(ball, []):
+                self.faces.look(c)
 
     def passes(self, body: Body, end: State) -> bool:
         """Put a ball that a wall stopped where it would be, if it will bounce off from there."""
@@ -103,6 +140,7 @@ class Impacts:
     def put_back(self, bodies: list[Body]) -> None:
         """Put balls that walls stopped back there, as they will not bounce off them."""
         for body in bodies:
+            self.contacts.late.pop(body, None)
             if body in self.stops:
                 self.put(body, self.stops.pop(body))
 
@@ -189,14 +227,11 @@ class Impacts:
     def resolve_alone(self, c: Contact, ago: float) -> list[Body]:
         """Resolve an impact, some seconds ago, that affects no other contact. Return its balls."""
         hit = [c.a] if c.b.is_static else [c.a, c.b]
-        is_free = c in self.faces.normals and c.a not in self.flight.stiff
-        is_stopped = is_free and self.contacts.was_stopped(c.a)
-        if ago > 0 and (is_stopped or self.flight.can_all_go_back(hit)):
-            late = self.contacts.last_dt - self.contacts.stopped.pop(c.a) if is_stopped else 0.0
-            self.resolve_at_touch([c], hit, ago, [], late)
+        if ago > 0 and self.flight.can_all_go_back(hit):
+            self.resolve_at_touch([c], hit, ago, [])
             self.faces.look(c)
             for body in hit:
-                self.contacts.note_impact(body, ago + late)
+                self.note_impact(body, ago)
         else:
             self.put_back(hit)
             self.resolve([c], [])
@@ -242,17 +277,9 @@ class Impacts:
             c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
 
     def resolve_at_touch(
-        self,
-        group: list[Contact],
-        hit: list[Body],
-        ago: float,
-        frames: list[Frame],
-        late: float = 0.0,
+        self, group: list[Contact], hit: list[Body], ago: float, frames: list[Frame]
     ) -> None:
-        """Move bodies back to the touch, some seconds ago. Resolve it, and let them fly on.
-
-        A bullet that was stopped is `late` (s): it flies on for that time as well.
-        """
+        """Move bodies back to the touch, some seconds ago. Resolve it, and let them fly on."""
         walls: dict[Body, tuple[float, float]] = {}
         for c in group:
             if c.b.is_static and c.b not in walls:
@@ -272,12 +299,19 @@ class Impacts:
         self.resolve(group, frames)
         for wall, (x, y) in walls.items():
             wall.x, wall.y = x, y
-        self.flight.fly(hit, ago + late)
+        self.flight.fly(hit, ago)
+
+    def note_impact(self, body: Body, ago: float) -> None:
+        """Note that a ball was hit some seconds ago, and has flown since, or until a wall."""
+        cut = self.flight.cut_short
+        if cut and body in cut:
+            ago = max(ago - cut[body][1], 0.0)
+        self.contacts.note_impact(body, ago)
 
     def look_around(self, hit: list[Body], ago: float) -> None:
         """Find impacts of balls that were hit, and perhaps moved back to the moment of the hit."""
         for body in hit:
-            self.contacts.note_impact(body, ago)
+            self.note_impact(body, ago)
         around = list(dict.fromkeys([c for body in hit for c in self.beside[body]]))
         if ago > 0:
             for c in around:
@@ -293,7 +327,7 @@ class Impacts:
             self.beside[c.a].append(c)
             if c.b.inv_mass:
                 self.beside[c.b].append(c)
-            elif c.a.is_bullet or not (c in self.faces.normals or c in self.begun):
+            elif not (c in self.faces.normals or c in self.begun):
                 self.flight.held.add(c.a)
 
     def follow(self, moved: list[Body]) -> None:
@@ -322,9 +356,12 @@ class Impacts:
             self.faces.note(c, 0.0)
         self.link(met)
         for body in hit:
-            end = self.flight.cut_short.get(body)
-            if end and any([c.a is body and c.b.is_static for c in met]):
-                self.passes(body, end)
+            cut = self.flight.cut_short.get(body)
+            if cut and any([c.a is body and c.b.is_static for c in met]):
+                flown = body.flown
+                self.contacts.note_impact(body, flown + cut[1])
+                if not self.passes(body, cut[0]):
+                    self.contacts.note_impact(body, flown)
         for c in met:
             self.look(c, is_new=True)
 

@@ -2,12 +2,15 @@
 
 from math import sqrt
 
+from .body import state_of
 from .contact import Contact, is_at_face
 from .contacts import Contacts
 from .faces import Faces
+from .frame import Frame
 from .sweep import moment_of_touch
 
 ARC = 1.1  # ratio by which the touch may lie further back for flights on an arc
+ARC_PASSES = 4  # of Newton's method, to find the touch of a ball on an arc
 
 
 class TimeOfImpact:
@@ -18,6 +21,7 @@ class TimeOfImpact:
         self.faces = faces
         self.flight = faces.flight
         self.frame_of = faces.flight.frame_of
+        self.slow = faces.flight.slow  # px/s, slower impacts are ignored
         self.touching_gap = contacts.touching_gap
         self.turned: list[Contact] = []  # contacts with the normal of their touch
 
@@ -28,15 +32,25 @@ class TimeOfImpact:
         touch while both flew freely. Nothing flies through a wall.
         """
         since = self.contacts.flight_of(c.a, c.b)
-        if since <= 0 or self.flight.swings(c.a) or self.flight.swings(c.b):
+        if since <= 0:
             return 0.0
+        frame = self.frame_of.get(c.a) if self.frame_of else None
+        if frame and not frame.hangs and is_at_face(c) and self.flight.is_loose(frame, c.a):
+            return self.time_on_arc(c, frame, since)
+        if self.flight.swings(c.a) or self.flight.swings(c.b):
+            return 0.0
+        late = self.contacts.late
         if is_at_face(c):
-            return self.time_below(c, since)
+            ago = self.time_below(c, since)
+            return ago + late.get(c.a, 0.0) if ago > 0 and late else ago
         is_arc = c.a in self.frame_of or c.b in self.frame_of
-        ago, nx, ny = self.look_back(c, since)
-        if ago == 0:
-            ago, nx, ny = moment_of_touch(c.a, c.b, since * ARC if is_arc else since)
-            ago = min(ago, since)
+        if late and (c.a in late or c.b in late):
+            ago, nx, ny = self.contacts.look_back_late(c.a, c.b)
+        else:
+            ago, nx, ny = self.look_back(c, since)
+            if ago == 0:
+                ago, nx, ny = moment_of_touch(c.a, c.b, since * ARC if is_arc else since)
+                ago = min(ago, since)
         if c.b.is_static and nx * c.nx + ny * c.ny <= 0:
             return 0.0
         if ago > 0 and (nx, ny) != (c.nx, c.ny):
@@ -54,10 +68,35 @@ class TimeOfImpact:
         closing = c.closing_speed()
         speed = (speed_at_touch(c, closing, g, lag) + closing + lag) / 2
         deeper = -c.gap - speed * since
-        before = min(self.faces.depths.get(c, 0.0), 0.0)
-        if c.gap >= 0 or deeper > self.touching_gap + abs(g) * since * since - before:
+        if c.gap >= 0 or deeper > self.slack(c, since):
             return 0.0
         return since if deeper >= 0 else -c.gap / speed
+
+    def time_on_arc(self, c: Contact, frame: Frame, since: float) -> float:
+        """Return how long ago (s) a ball on rods passed a flat face; 0 if not `since` then."""
+        a, b, ago, gap = c.a, c.b, 0.0, c.gap
+        if gap >= 0:
+            return 0.0
+        before = [(ball, state_of(ball), ball.turn) for ball in frame.balls]
+        x, y = a.x, a.y
+        for _ in range(ARC_PASSES):
+            speed = c.closing_speed()
+            if speed <= self.slow or abs(gap) <= self.touching_gap:
+                break
+            more = min(-gap / speed, since - ago)
+            ago += more
+            self.flight.fly_frame(frame, -more)
+            way_x, way_y = a.x - x + b.vx * ago, a.y - y + b.vy * ago
+            gap = c.gap - way_x * c.nx - way_y * c.ny
+        for ball, (at_x, at_y, vx, vy), turn in before:
+            ball.x, ball.y, ball.vx, ball.vy, ball.turn = at_x, at_y, vx, vy, turn
+        return ago if abs(gap) <= self.slack(c, since) else 0.0
+
+    def slack(self, c: Contact, since: float) -> float:
+        """Return how much deeper (px) a ball may be in a face, as it fell or was under a load."""
+        g, _ = self.flight.pull(c)
+        before = min(self.faces.depths.get(c, 0.0), 0.0)
+        return self.touching_gap + abs(g) * since * since - before
 
     def look_back(self, c: Contact, since: float) -> tuple[float, float, float]:
         """Return `since` (s) and the normal if two round bodies began to close in then, else zeros.
