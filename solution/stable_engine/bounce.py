@@ -40,7 +40,7 @@ class Bounce(Effect):
             return
         impacts = Impacts(contacts, slow, h)
         impacts.find(fast)
-        if impacts.queue.due:
+        if impacts.queue.due or impacts.turned_back:
             impacts.resolve_all()
             for c in impacts.met:  # only the next step may push balls apart or stop them
                 if not c.b.is_static:

@@ -60,7 +60,7 @@ class Cores:
         """Stop a ball that moved far, or was hit, where its core met a static body."""
         distance = abs(body.x - body.last_x) + abs(body.y - body.last_y)
         is_far = distance > body.r > 0 or (distance > 0 and body.flown < inf)
-        if is_far and not (body.is_bullet or body.is_static):
+        if is_far and not body.is_static:
             self.sweep(body, (body.last_x, body.last_y), CORE * body.r, 0.0, h)
 
     def find_way_out(self, c: Contact, gap: float, ways: dict[Body, list[State]]) -> None:

@@ -55,6 +55,7 @@ class Impacts:
         self.frame_of = self.flight.frame_of
         self.faces = Faces(self.flight)
         self.times = TimeOfImpact(contacts, self.faces)
+        self.turned_back: list[Frame] = []  # frames a ball of which a wall stopped
         self.met: list[Contact] = []  # contacts that began through an impact
 
     def find(self, fast: list[Contact]) -> None:
@@ -90,7 +91,9 @@ class Impacts:
                 elif was_late:
                     contacts.late[body] = was_late
         for frame, late in stopped.items():
-            self.take_back(frame, late)
+            if not any([ball in self.flight.springs_of for ball in frame.balls]):
+                self.take_back(frame, late)
+                self.turned_back.append(frame)
 
     def take_back(self, frame: Frame, late: float) -> None:
         """Let a frame fly back to a touch, as a wall stopped one of its balls so long (s) ago.
@@ -98,8 +101,6 @@ class Impacts:
         Without the others, the ball would be off the lengths of its rods.
         """
         contacts, flight = self.contacts, self.flight
-        if any([ball in flight.springs_of for ball in frame.balls]):
-            return
         stopped = [ball for ball in frame.balls if ball in contacts.ends]
         walls = [c for ball in stopped for c in self.beside.get(ball, []) if c.b.is_static]
         for ball in stopped:
@@ -199,13 +200,14 @@ class Impacts:
         moved = [*self.contacts.hit_ago, *[body for body, _ in self.flight.changes]]
         if self.frame_of:
             frames = dict.fromkeys([self.frame_of[body] for body in moved if body in self.frame_of])
+            frames.update(dict.fromkeys(self.turned_back))
             moved = list(dict.fromkeys([*moved, *[b for frame in frames for b in frame.balls]]))
         stopped: list[Body] = []
         for body in moved:
             x, y, core = body.last_x, body.last_y, body.r if body.is_bullet else CORE * body.r
             dx, dy = body.x - x, body.y - y
-            length = sqrt(dx * dx + dy * dy)
-            if length > core:
+            walls = [c for c in self.beside.get(body, []) if c.b.is_static]
+            if dx * dx + dy * dy > core * core or any([c.gap < -core for c in walls]):
                 share = free_share(body, statics, core, (x, y), dx, dy)
                 if share < 1:
                     body.x, body.y = x + dx * share, y + dy * share
