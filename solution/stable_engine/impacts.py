@@ -204,6 +204,8 @@ class Impacts:
             moved = list(dict.fromkeys([*moved, *[b for frame in frames for b in frame.balls]]))
         stopped: list[Body] = []
         for body in moved:
+            if body not in self.contacts.hit_ago:
+                self.contacts.note_impact(body, 0.0)  # so the next step may stop it before a wall
             x, y, core = body.last_x, body.last_y, body.r if body.is_bullet else CORE * body.r
             dx, dy = body.x - x, body.y - y
             walls = [c for c in self.beside.get(body, []) if c.b.is_static]
@@ -215,7 +217,7 @@ class Impacts:
                         c.nx, c.ny, c.gap = collide(c.a, c.b)
                         c.found = c.gap
                     stopped.append(body)
-                    self.contacts.note_impact(body, 0.0)  # so the next step stops it there as well
+                    self.contacts.note_impact(body, 0.0)
                 body.last_x, body.last_y = body.x, body.y
         if stopped:
             self.follow(stopped)
