@@ -33,6 +33,8 @@ class Bounce(Effect):
         c.e = min(c.a.e, c.b.e)
 
     def impact(self, h: float) -> None:
+        if not self.contacts.groups:
+            return
         contacts, slow = self.contacts, self.slow_speed(h * self.world.substep_count)
         fast = select_fast(contacts.touching, slow)
         may_hit = contacts.begun and (fast or contacts.ends)

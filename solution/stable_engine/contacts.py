@@ -68,7 +68,7 @@ class Contacts(Detection):
         if h != self.h:
             self.keep_forces(h)
         pace = self.pace.follow(h)
-        if not (self.groups or self.changed):
+        if not (self.groups or self.piles or self.crowd):
             return
         hertz = FREQUENCY / pace
         damping = max(LEAST_DAMPING, SUBSTEP_DAMPING * self.world.substep_count)

@@ -154,40 +154,33 @@ class Detection(Effect):
         margin, slow2 = slow * dt, slow * slow
         back, late = self.last_dt if self.lets_none_pass else 0.0, self.late
         for pair in self.broad_phase.pairs:
-            a, b = pair.a, pair.b
-            if not (a.has_moved or b.has_moved):
-                c = pair.contact
-                if c is None:
-                    continue
-                if c.gap == c.found:
+            a, b, c = pair.a, pair.b, pair.contact
+            if not (a.has_moved or b.has_moved) and (c is None or c.gap == c.found):
+                if c:
                     touching.append(c)
-                    continue
+                continue
+            dx, dy, reach = b.x - a.x, b.y - a.y, a.r + b.r + margin
+            dvx, dvy = b.vx - a.vx, b.vy - a.vy
             if b.r:
-                dx, dy, reach = b.x - a.x, b.y - a.y, a.r + b.r + margin
                 if back:
-                    dvx, dvy = b.vx - a.vx, b.vy - a.vy
                     reach += sqrt(dvx * dvx + dvy * dvy) * back
                 if late:
                     reach += self.way_left(a) + self.way_left(b)
-                if dx * dx + dy * dy > reach * reach:
-                    if pair.contact:
-                        self.end_contact(pair)
-                    continue
-            dvx, dvy = b.vx - a.vx, b.vy - a.vy
-            nx, ny, gap = collide(a, b)
-            if (
-                gap > touching_gap
-                and (
-                    gap > margin
-                    or (pair.contact and abs(dvx * nx + dvy * ny) > slow)
-                    or (not pair.contact and dvx * dvx + dvy * dvy > slow2)
-                )
-                and not (back and self.have_passed(a, b, gap))
-            ):
-                if pair.contact:
+                is_apart = dx * dx + dy * dy > reach * reach
+            else:
+                is_apart = abs(dx) > b.hx + reach or abs(dy) > b.hy + reach
+            if not is_apart:
+                nx, ny, gap = collide(a, b)
+                if gap > touching_gap:
+                    closing = dvx * nx + dvy * ny
+                    is_fast = abs(closing) > slow if c else dvx * dvx + dvy * dvy > slow2
+                    is_apart = gap > margin or is_fast
+                    if is_apart and back and b.r:
+                        is_apart = not self.have_passed(a, b, gap)
+            if is_apart:
+                if c:
                     self.end_contact(pair)
                 continue
-            c = pair.contact
             if c is None:
                 c = pair.contact = self.make_contact(a, b, nx, ny)
                 self.note_hit(c)
