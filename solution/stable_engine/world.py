@@ -33,7 +33,7 @@ class World:
 
     __slots__ = (
         *("lengths", "substep_count", "g", "bodies", "awake", "statics", "added", "declared"),
-        *("ranked", "hooks", "has_changed", "lag_h", "unchecked", "warned", "forces", "pushed"),
+        *("listeners", "hooks", "has_changed", "lag_h", "unchecked", "warned", "forces", "pushed"),
     )
 
     def __init__(
@@ -66,8 +66,11 @@ class World:
             found = f"a list with {name}() twice"
             require(name not in self.declared, "World.effects", found, "one of each effect")
             self.declared[name] = effect
-        self.ranked = sorted(self.declared.values(), key=lambda effect: effect.rank)
-        self.hooks = {name: find_hooks(name, self.ranked) for name in HOOKS}
+        ranked = sorted(self.declared.values(), key=lambda effect: effect.rank)
+        self.listeners = {name: find_listeners(name, ranked) for name in HOOKS}
+        self.hooks: dict[str, list[Callable[..., Any]]] = {}
+        for name, listening in self.listeners.items():
+            self.hooks[name] = [getattr(effect, name) for effect in listening]
         for effect in self.declared.values():
             name, found = f"World.effects' {effect!r}", "in another world already"
             require(not hasattr(effect, "world"), name, found, "a new one: each world has its own")
@@ -77,8 +80,9 @@ class World:
 
     def update_hooks(self) -> None:
         """Leave idle effects out of the substeps."""
-        busy = [effect for effect in self.ranked if not effect.is_idle()]
-        self.hooks |= {name: find_hooks(name, busy) for name in SUBSTEP}
+        for name in SUBSTEP:
+            busy = [effect for effect in self.listeners[name] if not effect.is_idle()]
+            self.hooks[name] = [getattr(effect, name) for effect in busy]
         self.lag_h = 0.0
 
     def call(self, name: str, *arguments: Any) -> None:
@@ -299,7 +303,8 @@ class World:
         hooks = self.hooks
 
         # 1 detect: the step before has, unless the program has changed anything since
-        lags = self.g != (0.0, 0.0) or bool(hooks["lag"] or self.forces)
+        falls = self.g != (0.0, 0.0)
+        lags = falls or bool(hooks["lag"] or self.forces)
         is_known = h == self.lag_h and self.forces.keys() == self.pushed.keys()
         if self.pushed and self.forces != self.pushed:
             self.end_pushes()
@@ -328,7 +333,8 @@ class World:
             # 3 forces
             for force in forces:
                 force(h)
-            self.accelerate(h)
+            if falls or self.forces:
+                self.accelerate(h)
 
             # 4 solve
             for warm_start in warm_starts:
@@ -410,10 +416,11 @@ class World:
         for body in self.awake:
             body.x += body.vx * h
             body.y += body.vy * h
-            body.turn += body.w * h
+            if body.w:
+                body.turn += body.w * h
 
 
-def find_hooks(name: str, effects: list[Effect]) -> list[Callable[..., Any]]:
-    """Return the hooks of this name that these effects override."""
+def find_listeners(name: str, effects: list[Effect]) -> list[Effect]:
+    """Return the effects that override the hook of this name."""
     base = getattr(Effect, name)
-    return [getattr(effect, name) for effect in effects if getattr(type(effect), name) is not base]
+    return [effect for effect in effects if getattr(type(effect), name) is not base]
