@@ -156,17 +156,14 @@ class Impacts:
     def look(self, c: Contact, is_new: bool = False) -> None:
         """Note an impact if the pair closes in fast, or did before it passed each other."""
         self.queue.due.pop(c, None)
-        speed, ago = c.closing_speed(), 0.0
-        if not is_new and (speed <= self.slow or self.is_open(c)):
+        if not is_new and (c.closing_speed() <= self.slow or self.is_open(c)):
             return
-        if c.gap < 0 or is_new:
-            now = c.nx, c.ny, c.gap
-            ago = self.times.turn_back(c)
-            speed = c.closing_speed()
-            if speed <= self.slow:
-                c.nx, c.ny, c.gap = now
-        is_late = ago > 0 or not self.is_open(c)
-        if speed > self.slow and is_late:
+        now = c.nx, c.ny, c.gap
+        ago = self.times.turn_back(c) if c.gap < 0 or is_new else 0.0
+        speed = c.closing_speed()
+        if speed <= self.slow:
+            c.nx, c.ny, c.gap = now
+        elif ago > 0 or not self.is_open(c):
             self.queue.add(c, ago, speed)
 
     def is_open(self, c: Contact) -> bool:
@@ -226,11 +223,11 @@ class Impacts:
         """Return whether an impact affects no other contact."""
         if self.frame_of and (c.a in self.frame_of or c.b in self.frame_of):
             return False
-        return len(self.beside[c.a]) == 1 and (c.b.is_static or len(self.beside[c.b]) == 1)
+        return len(self.beside[c.a]) == 1 and not (c.b.inv_mass and len(self.beside[c.b]) > 1)
 
     def resolve_alone(self, c: Contact, ago: float) -> list[Body]:
         """Resolve an impact, some seconds ago, that affects no other contact. Return its balls."""
-        hit = [c.a] if c.b.is_static else [c.a, c.b]
+        hit = [c.a, c.b] if c.b.inv_mass else [c.a]
         if ago > 0 and self.flight.can_all_go_back(hit):
             self.resolve_at_touch([c], hit, ago, [])
             self.faces.look(c)
@@ -286,15 +283,16 @@ class Impacts:
         """Move bodies back to the touch, some seconds ago. Resolve it, and let them fly on."""
         walls: dict[Body, tuple[float, float]] = {}
         for c in group:
-            if c.b.is_static and c.b not in walls:
-                walls[c.b] = c.b.x, c.b.y
+            wall = c.b
+            if not wall.inv_mass and (wall.vx or wall.vy) and wall not in walls:
+                walls[wall] = wall.x, wall.y
                 if c in self.faces.normals:
-                    back = (c.b.vx * c.nx + c.b.vy * c.ny) * ago  # a belt does not move
-                    c.b.x -= c.nx * back
-                    c.b.y -= c.ny * back
-                elif c.b.is_kinematic:
-                    c.b.x -= c.b.vx * ago
-                    c.b.y -= c.b.vy * ago
+                    back = (wall.vx * c.nx + wall.vy * c.ny) * ago  # a belt does not move
+                    wall.x -= c.nx * back
+                    wall.y -= c.ny * back
+                elif wall.is_kinematic:
+                    wall.x -= wall.vx * ago
+                    wall.y -= wall.vy * ago
         self.flight.fly(hit, -ago)
         for body in hit if self.stops else []:
             self.stops.pop(body, None)

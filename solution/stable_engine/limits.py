@@ -43,7 +43,7 @@ class Limited(Joint):
         self.nx, self.ny = sign * self.c.nx, sign * self.c.ny
 
     def take(self, j: float, has_moved: bool) -> None:
-        super().take(j, has_moved)
+        self.apply_impulse(j)
         self.total += j
 
     def begin(self, least: float) -> None:
