@@ -35,7 +35,8 @@ class Cores:
         for bullet, x, y in self.starts:
             if hypot(bullet.x - x, bullet.y - y) > SWEEP_FROM * bullet.r:
                 self.sweep(bullet, (x, y), bullet.r, OVERLAP * bullet.r, h)
-        for one in [*contacts.broad_phase.find_leavers(contacts.last_dt)]:
+        leavers = contacts.broad_phase.find_leavers(contacts.last_dt)
+        for one in [*leavers]:  # as to stop one may make others leave
             if self.world.statics:
                 if not one.near:
                     one.find_start(contacts.last_dt)

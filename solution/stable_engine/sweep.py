@@ -53,12 +53,7 @@ def moment_of_touch(a: Body, b: Body, dt: float) -> tuple[float, float, float]:
     fraction = hit_body(b, a.r, x, y, dx, dy)
     if fraction >= NO_HIT:
         return 0.0, 0.0, 0.0
-    x, y = x + dx * fraction, y + dy * fraction
-    if b.segment is not None:
-        near_x, near_y = b.segment.nearest(x, y)
-        x, y = x - near_x, y - near_y
-    elif not b.r:
-        x, y = x - max(-b.hx, min(x, b.hx)), y - max(-b.hy, min(y, b.hy))
+    x, y = seen_from_nearest(b, x + dx * fraction, y + dy * fraction)
     distance = sqrt(x * x + y * y)
     return (1 - fraction) * dt, -x / distance, -y / distance
 
@@ -93,13 +88,22 @@ def first_stop(
 
 def distance_from(s: Body, x: float, y: float) -> float:
     """Return how far (px) a point, seen from the centre of s, is from that body: 0 if inside."""
-    rim = s.r
+    rim = s.r if s.segment is None else s.segment.rim
+    x, y = seen_from_nearest(s, x, y)
+    return max(sqrt(x * x + y * y) - rim, 0.0)
+
+
+def seen_from_nearest(s: Body, x: float, y: float) -> tuple[float, float]:
+    """Return where a point is, seen from the nearest point of s; x and y are from its centre.
+
+    That is the centre of a circle, a point of a segment's axis, and any point of a box.
+    """
+    if s.r:
+        return x, y
     if s.segment is not None:
         near_x, near_y = s.segment.nearest(x, y)
-        x, y, rim = x - near_x, y - near_y, s.segment.rim
-    elif not s.r:
-        x, y = max(abs(x) - s.hx, 0.0), max(abs(y) - s.hy, 0.0)
-    return max(sqrt(x * x + y * y) - rim, 0.0)
+        return x - near_x, y - near_y
+    return x - max(-s.hx, min(x, s.hx)), y - max(-s.hy, min(y, s.hy))
 
 
 def free_share(
