@@ -1,6 +1,6 @@
 """Contacts: bodies do not pass through each other."""
 
-from math import hypot
+from math import hypot, pi
 
 from .body import Body
 from .contact import Contact, turn_normals
@@ -78,7 +78,11 @@ class Contacts(Detection):
         if not self.changed:
             return
         if self.crowd:
-            self.crowd = gather_crowd(self.crowd, self.begun, self.touching, self.slow)
+            omega = (
+                2 * pi * hertz
+            )  # 1/s; overlaps of `most` are those that it turns into that speed
+            most, give = self.max_push_speed / omega, 1 / (h * omega**2)
+            self.crowd = gather_crowd(self, most, give)
             for c in self.crowd:  # they just touch, so that the solver does not push them apart
                 c.gap = max(c.gap, self.touching_gap)
         self.find_order()
@@ -224,7 +228,7 @@ class Contacts(Detection):
     def finish(self, h: float) -> None:
         super().finish(h)
         if self.crowd:
-            deepest = part_crowd(self.crowd, self.max_push_speed * self.last_dt)
+            deepest = part_crowd(self.groups, self.crowd, self.max_push_speed * self.last_dt)
             if deepest < REDETECT_DISTANCE * self.world.unit:
                 self.crowd = {}
         self.cores.keep_out(h)

@@ -59,7 +59,7 @@ class Detection(Effect):
         # of a stopped ball: where it is, and where it would be
         self.ends: dict[Body, tuple[State, State]] = {}
         self.broad_phase = BroadPhase()
-        self.crowd: dict[Contact, None] = {}  # of balls that part_crowd separates
+        self.crowd: dict[Contact, bool] = {}  # of bodies that part_crowd separates
         self.beside_static: dict[Body, None] = {}  # balls that are near static bodies
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
         self.groups: list[Group] = []  # of these two, those with any contact
@@ -184,6 +184,8 @@ class Detection(Effect):
             if c is None:
                 c = pair.contact = self.make_contact(a, b, nx, ny)
                 self.note_hit(c)
+                if gap < -touching_gap and self.last_dt == 0:  # a program has put them there
+                    self.crowd[c] = True
             if not b.r:
                 nx, ny, gap = leave_as_entered(c, nx, ny, gap)
             if nx * c.nx + ny * c.ny < SAME_DIRECTION:
@@ -192,7 +194,7 @@ class Detection(Effect):
             touching.append(c)
             renewed.append(c)
             if b.inv_mass and (gap < -a.r or gap < -b.r):
-                self.crowd[c] = None
+                self.crowd.setdefault(c, False)
         self.touching, self.renewed = touching, [*self.renewed, *renewed]
         balls = [c for c in touching if c.b.inv_mass]
         for c in balls:

@@ -241,8 +241,6 @@ class Impacts:
     def resolve_first(self) -> None:
         """Resolve the first impacts, and find those that they cause."""
         group, ago = self.queue.take_first()
-        for c in group if self.contacts.crowd else []:
-            self.contacts.crowd.pop(c, None)  # they overlapped because they met
         if len(group) == 1 and self.is_alone(group[0]):
             hit = self.resolve_alone(group[0], ago)
         else:

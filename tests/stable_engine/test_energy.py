@@ -13,6 +13,7 @@ from worlds_for_tests import whole_energy
 
 import stable_engine
 from stable_engine import Body, Bounce, Box, Circle, Contacts, Rod, Spring, Springs, World
+from stable_engine.contacts import MAX_PUSH_SPEED
 
 G = 980.0
 
@@ -112,3 +113,44 @@ def test_a_stiff_spring_thrown_at_a_wall_gains_no_energy(degrees, restitution):
         for _ in range(60):
             world.step(1 / rate)
             assert whole_energy(world) < most, (stiffness, speed, rate)
+
+
+def jam(effects, masses, narrow, substeps, high):
+    """Build a slot that is `narrow` px too narrow for balls side by side, up to `high` px high."""
+    declared = [getattr(stable_engine, name)() for name in ("Contacts", *effects)]
+    world = World((0, 0), substeps, declared)
+    surface = {
+        "restitution": 0.5 * ("Bounce" in effects),
+        "friction": 0.5 * ("Friction" in effects),
+    }
+    width = 20.0 * len(masses) - narrow
+    for pos, half in (((-50, 0), (50, 600)), ((width + 50, 0), (50, 600)), ((0, 50), (900, 50))):
+        world.add(Body(Box(half), pos, **surface))
+    for i, mass in enumerate(masses):
+        x = 10 + i * (width - 20) / (len(masses) - 1)
+        world.add(Body(Circle(10), (x, -10 - high * (i % 2)), mass, **surface))
+    return world
+
+
+@pytest.mark.parametrize("effects", [(), ("Friction",), ("Bounce",), ("Friction", "Bounce")])
+@pytest.mark.parametrize(("count", "narrow"), [(2, 10), (3, 6), (3, 8), (4, 6), (6, 10)])
+@pytest.mark.parametrize(("rate", "substeps"), [(60, 8), (120, 4), (240, 4), (600, 1), (600, 4)])
+def test_a_jam_does_not_shoot_balls_away(effects, count, narrow, rate, substeps):
+    """Overlap is pushed out no faster than MAX_PUSH_SPEED, and nothing else moves the balls."""
+    world = jam(effects, [1.0] * count, narrow, substeps, 2.0)
+    for _ in range(rate):
+        world.step(1 / rate)
+        assert max(body.vel.length() for body in world.bodies) < MAX_PUSH_SPEED
+
+
+@pytest.mark.parametrize("masses", [(1, 1, 1), (1, 100, 1), (100, 1, 100)])
+@pytest.mark.parametrize(("rate", "substeps"), [(60, 4), (120, 4), (600, 4)])
+def test_a_jam_stores_no_energy(masses, rate, substeps):
+    """The balls had none. A wall that is taken away lets them part, without speed."""
+    world = jam(("Friction",), masses, 6.0, substeps, 0.0)
+    for _ in range(rate):
+        world.step(1 / rate)
+    world.remove(world.bodies[0])
+    for _ in range(rate):
+        world.step(1 / rate)
+        assert max(body.vel.length() for body in world.bodies) < 1
