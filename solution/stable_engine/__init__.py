@@ -4,7 +4,8 @@ Read in this order: shapes, body, effect, world, detection, contacts, order, pil
 then any other effect. Effects with more than one file:
 
 - Contacts finds in detection, by broad_phase (bounds), contact and landings. It solves in contacts,
-  by order and piles (pile, unload). It keeps balls out of walls in cores (sweep) and crowd.
+  by order and piles (pile, unload). It keeps balls out of walls in cores (sweep),
+  and parts bodies that a program puts into each other in crowd.
 - Bounce: bounce, impacts, impact_queue, time_of_impact, flight, faces, hit.
 - Rods and Springs: rods (rod, frame) and springs, by joint and network; limits is for all rows.
 """

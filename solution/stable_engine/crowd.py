@@ -1,6 +1,7 @@
-"""Crowds: bodies that did not get into each other by motion. They are moved apart, without speed.
+"""Crowds: bodies that a program puts into each other, and balls whose centre is in another ball.
 
-A program puts them there. Pushed out by impulses, as springs, balls in a jam would be shot away.
+They are moved apart and get no speed by that. Contacts would push them apart as springs: balls in a
+jam would store the push of many substeps, and be shot away by it.
 """
 
 from .contact import Contact, collide, leave_as_entered
