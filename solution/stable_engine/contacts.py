@@ -78,10 +78,8 @@ class Contacts(Detection):
         if not self.changed:
             return
         if self.crowd:
-            omega = (
-                2 * pi * hertz
-            )  # 1/s; overlaps of `most` are those that it turns into that speed
-            most, give = self.max_push_speed / omega, 1 / (h * omega**2)
+            omega = 2 * pi * hertz  # 1/s, at which contacts of balls swing
+            most, give = self.max_push_speed / omega, 1 / (h * omega * omega)
             self.crowd = gather_crowd(self, most, give)
             for c in self.crowd:  # they just touch, so that the solver does not push them apart
                 c.gap = max(c.gap, self.touching_gap)

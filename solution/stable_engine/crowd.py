@@ -35,6 +35,7 @@ def gather_crowd(contacts: Detection, most: float, give: float) -> Crowd:
 def is_deep(c: Contact, most: float, give: float) -> bool:
     """Return whether bodies overlap by more than `most` px beyond what their load explains.
 
+    Contacts would turn more overlap into more than the largest speed of a push.
     `give` is by how much (px) a contact gives way to an impulse of 1 px/s times its mass.
     """
     return c.gap + give * c.jn / c.mn < -most
