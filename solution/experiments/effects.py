@@ -155,10 +155,10 @@ class RepeatedStep:
                     body.last_x += 0.001  # px, so it looks for contacts anew
                 put_back(body, data)
         for each in getattr(self.engine.world, "effects", {}).values():
-            if self.kind == "still" and isinstance(each, contacts.Contacts):
-                each.crowd = {}  # they rest, so nobody has to part them
-                for found in each.touching:
-                    found.jn = 0.0
+            if isinstance(each, contacts.Contacts):
+                each.crowd = {}  # they rest, so none has to be parted
+            for found in getattr(each, "touching", []) if self.kind == "still" else []:
+                found.jn = 0.0
 
 
 def put_back(body, data):
