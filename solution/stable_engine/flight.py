@@ -9,7 +9,7 @@ from .contacts import Contacts
 from .cores import CORE, split
 from .frame import Frame
 from .rods import Rods
-from .springs import Spring
+from .springs import Spring, share_before
 from .sweep import free_share
 
 DEEPEST = 2.0  # radii that a ball may fly into a wall off which it will bounce
@@ -266,6 +266,19 @@ class Flight:
         (ax, ay), (bx, by) = self.acceleration(c.a), self.acceleration(c.b)
         g = (ax - bx) * c.nx + (ay - by) * c.ny
         return g, g * self.h / 2
+
+    def stiff_lag(self, c: Contact) -> float:
+        """Return by how much (px/s) a closing speed lags by the pull of stiff springs from A to B.
+
+        Those to other bodies do not count: they may draw a ball into more than one impact.
+        """
+        lag = 0.0
+        for spring in self.springs_of.get(c.a, []) if c.a in self.stiff else []:
+            if spring.other_end(c.a) is c.b and spring.is_stiff(self.h):
+                fx, fy = spring.pull_between(state_of(c.a), state_of(c.b))
+                share = share_before(self.h * self.h * spring.crowd)
+                lag += (fx * c.nx + fy * c.ny) / c.mn * share * self.h / 2
+        return lag
 
     def rest(self, c: Contact) -> None:
         """Let a face bear a ball if it presses on it."""

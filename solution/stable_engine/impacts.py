@@ -399,9 +399,10 @@ class Impacts:
         """
         closing, e = c.closing_speed(), c.e
         g, lag = self.flight.pull(c)
-        if g == 0:
+        lag += self.flight.stiff_lag(c)
+        if g == lag == 0:
             return e * closing, 1.0
-        crossing = speed_at_touch(c, closing, g, lag)
+        crossing = max(speed_at_touch(c, closing, g, lag), 0.0)
         gap = c.gap if abs(c.gap) > self.touching_gap else 0.0
         most = (closing + lag) * (closing + lag)
         parting = sqrt(max(min(e * e * crossing * crossing - 2 * g * gap, most), 0.0)) + lag

@@ -201,7 +201,7 @@ class Springs(Joints[Spring]):
             spring.measure()
             k = spring.k
             turn2 = h * h * spring.crowd  # rad², its swing in a substep, squared
-            ahead = 1 - 1 / (1 + turn2 * turn2 * turn2)  # the share of the stretch after the move
+            ahead = 1 - share_before(turn2)  # the share of the stretch after the move
             heavier = (1 - ahead) * NUMEROV * h * h * k  # kg
             last = h * spring.c * part_after(h * spring.rate)  # kg, damping by the speed after
             first = h * spring.c - last
@@ -264,6 +264,11 @@ class Springs(Joints[Spring]):
         for spring in self.awake:
             for body in (spring.end_a, spring.end_b) if spring.c else ():
                 rates[body] = rates.get(body, 0.0) + spring.c * body.inv_mass
+
+
+def share_before(turn2: float) -> float:
+    """Return the share of a pull that is by the stretch before the move; turn2 is in rad²."""
+    return 1 / (1 + turn2 * turn2 * turn2)
 
 
 def part_after(lost: float) -> float:

@@ -115,6 +115,28 @@ def test_a_stiff_spring_thrown_at_a_wall_gains_no_energy(degrees, restitution):
             assert whole_energy(world) < most, (stiffness, speed, rate)
 
 
+@pytest.mark.parametrize("swing", [0.55, 0.7])  # rad in a substep
+@pytest.mark.parametrize(("rate", "substeps"), [(60, 1), (60, 4), (120, 4)])
+@pytest.mark.parametrize("restitution", [0.8, 1.0])
+def test_ends_of_a_stiff_spring_that_hit_each_other_gain_no_energy(
+    swing, rate, substeps, restitution
+):
+    """Speeds half a substep old may show (1 + swing / 2)² times the energy, and no more."""
+    for gap, off in ((0, 0), (2, 4), (5, 0)):
+        world = World((0, 0), substeps, effects=[Contacts(), Bounce(), Springs()])
+        ends = [
+            world.add(Body(Circle(10), place, 1, restitution=restitution))
+            for place in ((0, 0), (20 + gap, off))
+        ]
+        for ball, speed in zip(ends, (300, -300), strict=True):
+            ball.vel = speed, 0
+        world.add(Spring(*ends, stiffness=(swing * rate * substeps) ** 2 / 2))
+        most = (1 + swing / 2) ** 2 * whole_energy(world)
+        for _ in range(2 * rate):
+            world.step(1 / rate)
+            assert whole_energy(world) < most, (gap, off)
+
+
 def jam(effects, masses, narrow, substeps, high):
     """Build a slot that is `narrow` px too narrow for balls side by side, up to `high` px high."""
     declared = [getattr(stable_engine, name)() for name in ("Contacts", *effects)]
