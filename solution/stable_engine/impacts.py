@@ -205,12 +205,14 @@ class Impacts:
                 self.contacts.note_impact(body, 0.0)  # so the next step may stop it before a wall
             x, y, core = body.last_x, body.last_y, body.r if body.is_bullet else CORE * body.r
             dx, dy = body.x - x, body.y - y
-            walls = [c for c in self.beside.get(body, []) if c.b.is_static]
-            if dx * dx + dy * dy > core * core or any([c.gap < -core for c in walls]):
+            beside = self.beside.get(body, [])
+            if dx * dx + dy * dy > core * core or any(
+                [c.gap < -core and c.b.is_static for c in beside]
+            ):
                 share = free_share(body, statics, core, (x, y), dx, dy)
                 if share < 1:
                     body.x, body.y = x + dx * share, y + dy * share
-                    for c in self.beside.get(body, []):
+                    for c in beside:
                         c.nx, c.ny, c.gap = collide(c.a, c.b)
                         c.found = c.gap
                     stopped.append(body)

@@ -66,10 +66,8 @@ def first_hit(
     The time is a fraction of the step: 0 at its start, 1 at its end.
     """
     fraction = NO_HIT
-    reach_x, reach_y = abs(dx) + radius, abs(dy) + radius
-    for s in statics:
-        if abs(x - s.x) <= s.hx + reach_x and abs(y - s.y) <= s.hy + reach_y:
-            fraction = min(fraction, hit_body(s, radius, x - s.x, y - s.y, dx, dy))
+    for s in within_reach(statics, radius, x, y, dx, dy):
+        fraction = min(fraction, hit_body(s, radius, x - s.x, y - s.y, dx, dy))
     return fraction
 
 
@@ -78,12 +76,18 @@ def first_stop(
 ) -> float:
     """Return the time of impact as first_hit does. A ball that starts closer gets no closer."""
     fraction = NO_HIT
-    reach_x, reach_y = abs(dx) + radius, abs(dy) + radius
-    for s in statics:
-        if abs(x - s.x) <= s.hx + reach_x and abs(y - s.y) <= s.hy + reach_y:
-            near = min(radius, distance_from(s, x - s.x, y - s.y) * (1 - GRAZING))
-            fraction = min(fraction, hit_body(s, near, x - s.x, y - s.y, dx, dy))
+    for s in within_reach(statics, radius, x, y, dx, dy):
+        near = min(radius, distance_from(s, x - s.x, y - s.y) * (1 - GRAZING))
+        fraction = min(fraction, hit_body(s, near, x - s.x, y - s.y, dx, dy))
     return fraction
+
+
+def within_reach(
+    statics: list[Body], radius: float, x: float, y: float, dx: float, dy: float
+) -> list[Body]:
+    """Return the bodies whose boxes a ball that moves from (x, y) by (dx, dy) may touch."""
+    reach_x, reach_y = abs(dx) + radius, abs(dy) + radius
+    return [s for s in statics if abs(x - s.x) <= s.hx + reach_x and abs(y - s.y) <= s.hy + reach_y]
 
 
 def distance_from(s: Body, x: float, y: float) -> float:
