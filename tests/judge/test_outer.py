@@ -185,3 +185,20 @@ def test_a_command_that_is_ended_ends_what_it_watches():
     process.kill()
     assert process.stdout.read() == ""  # also the watched process is gone, whose output this is
     process.wait()
+
+
+def test_a_signal_that_comes_at_once_is_forwarded():
+    early = """
+import signal
+fork = os.fork
+def fork_and_be_ended():
+    parent = os.getpid()
+    if pid := fork():
+        os.kill(parent, signal.SIGTERM)
+    return pid
+os.fork = fork_and_be_ended
+"""
+    imports, rest = WHOLE.split("try:", 1)
+    command = [sys.executable, "-c", f"{imports}{early}try:{rest}", "waits"]
+    ended = subprocess.run(command, cwd=KIT, stdout=subprocess.DEVNULL, check=False)
+    assert ended.returncode == 128 + 15

@@ -18,8 +18,8 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, suppress
+from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -432,8 +432,13 @@ def go_on_within(allowance: Allowance) -> None:
     if not WATCHES_FORKS:
         return
     (watched, ours), (over, theirs) = os.pipe(), os.pipe()
+    forwarded = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
     flush()
-    pid = os.fork()
+    with held_back(forwarded):  # none comes before it can be forwarded
+        pid = os.fork()
+        for number in forwarded if pid else ():
+            if signal.getsignal(number) != signal.SIG_IGN:
+                signal.signal(number, lambda number, _: os.kill(pid, number))
     if not pid:
         os.close(ours)
         os.close(over)
@@ -445,10 +450,17 @@ def go_on_within(allowance: Allowance) -> None:
         return
     os.close(watched)
     os.close(theirs)
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) != signal.SIG_IGN:
-            signal.signal(number, lambda number, _: os.kill(pid, number))
     os._exit(wait_for(pid, over, Watch(pid, allowance)))
+
+
+@contextmanager
+def held_back(numbers: Collection[signal.Signals]) -> Iterator[None]:
+    """Let these signals wait until the end of the block, in both processes of a fork."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, numbers)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def wait_for(pid: int, over: int, watch: Watch) -> int:
