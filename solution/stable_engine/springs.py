@@ -228,20 +228,26 @@ class Springs(Joints[Spring]):
         """Add the pull of soft springs: that of a third of a substep before, as it changes.
 
         Where any spring of a network is stiff, only gravity lags, or momentum would not be kept;
-        nothing does where contacts, rods or static bodies hold the network.
+        nothing does where a contact or static body holds it, or what joints tie it to.
         """
         self.find_networks()
         h = 2 * abs(seconds)
         for network in self.networks:
             if not any([spring.is_stiff(h) for spring in network.joints]):
                 self.lag_softly(network.joints, seconds)
-            elif any([self.is_held(body) for body in bodies_of(network.joints)]):
+            elif any([body.is_pressed or body.is_static for body in self.tied_to(network)]):
                 for body in bodies_of(network.joints):
                     body.is_pressed = True
 
-    def is_held(self, body: Body) -> bool:
-        """Return whether a body at a spring is static, in contact or on rods as well."""
-        return body.is_pressed or body.joint_count > len(self.springs_of[body]) or body.is_static
+    def tied_to(self, network: Network[Spring]) -> list[Body]:
+        """Return all bodies that joints connect with a network, and its own."""
+        bodies = bodies_of(network.joints)
+        if all([body.joint_count == len(self.springs_of[body]) for body in bodies]):
+            return bodies
+        effects = self.world.effects.values()
+        joints = [one for effect in effects if isinstance(effect, Joints) for one in effect.awake]
+        groups = [bodies_of(group) for group in connected(joints, couple(joints))]
+        return next(group for group in groups if set(bodies) <= set(group))
 
     def lag_softly(self, springs: list[Spring], seconds: float) -> None:
         """Let velocities lag by the pull of springs in so many seconds."""

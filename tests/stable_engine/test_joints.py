@@ -227,15 +227,16 @@ def test_velocities_belong_to_the_time_of_the_positions(substeps):
         assert now == pytest.approx(start, abs=4e-4 * scale)
 
 
+@pytest.mark.parametrize("rods", [[], [(1, 2)]])
 @pytest.mark.parametrize("stiffness", [1e2, 1e4, 1e6])
-def test_balls_on_a_spring_fall_like_any_other(stiffness):
+def test_balls_on_springs_and_rods_fall_like_any_other(stiffness, rods):
     """All bodies fall alike, and read the same speed meanwhile."""
-    bodies = [Ball((0, 0)), Ball((0, 50), mass=3.0), Ball((50, 30))]
+    bodies = [Ball((0, 0)), Ball((0, 50), mass=3.0), Ball((0, 100)), Ball((50, 30))]
     spring = Spring(0, 1, stiffness, 0.0, 50.0)
-    engine = Stable(Scene(bodies, ("Springs",), springs=[spring]))
+    engine = Stable(Scene(bodies, ("Rods", "Springs"), rods, [spring]))
     run(engine, 1)
-    one, other, alone = (engine.read(i) for i in range(3))
-    for ball, start in ((one, 0), (other, 50)):
+    *molecule, alone = (engine.read(i) for i in range(4))
+    for ball, start in zip(molecule, (0, 50, 100), strict=True):
         assert ball.y - start == pytest.approx(alone.y - 30, abs=1e-6)
         assert ball.vy == pytest.approx(alone.vy, abs=1e-6)
 
