@@ -1,13 +1,16 @@
 """Simulate rolling balls, and stay stable. A scene declares its effects.
 
-Read in this order: shapes, body, effect, world, detection, contacts, order, pile, friction, bounce,
-then any other effect. Effects with more than one file:
+Read in this order: shapes, body, effect, world (lags, check), contact, detection, order, contacts,
+friction, bounce, then any other effect. Effects with more than one file:
 
 - Contacts finds in detection, by broad_phase (bounds), contact and landings. It solves in contacts,
   by order and piles (pile, unload). It keeps balls out of walls in cores (sweep),
   and parts bodies that a program puts into each other in crowd.
 - Bounce: bounce, impacts, impact_queue, time_of_impact, flight, faces, hit.
 - Rods and Springs: rods (rod, frame) and springs, by joint and network; limits is for all rows.
+
+Below all of these: validate for arguments, reading for positions and velocities that programs read,
+and soft for constraints that give way.
 """
 
 from .body import Body

@@ -38,7 +38,7 @@ class Body:
         *("outline", "segment", "r", "hx", "hy", "m", "inv_mass", "inv_inertia"),
         *("e", "mu", "restitution_given", "friction_given"),
         *("x", "y", "vx", "vy", "turn", "w", "last_x", "last_y"),
-        *("id", "world", "is_bullet", "is_kinematic", "idle", "sleeps", "island", "joint_count"),
+        *("id", "world", "is_bullet", "is_kinematic", "idle", "island", "joint_count"),
         *("still", "calm", "kept", "place", "touches", "has_moved"),
         *("lag_x", "lag_y", "is_pressed", "is_fresh", "flown"),
     )
@@ -79,7 +79,7 @@ class Body:
         if pos is None:
             refuse("Body.pos", pos, "a pair of numbers, except for a Segment")
         self.x, self.y = pair("Body.pos", pos)  # px
-        self.last_x, self.last_y = self.x, self.y  # px, for Contacts: at the start of the step
+        self.last_x, self.last_y = self.x, self.y  # px, when its contacts were last found
         self.e, self.mu = RESTITUTION, FRICTION
         self.restitution_given = self.friction_given = False
         self.world: World | None = None
@@ -87,7 +87,6 @@ class Body:
         self.joint_count = 0  # of the world's joints that are tied to it
         self.is_bullet = bullet
         self.is_kinematic = kinematic
-        self.sleeps = False
         self.still = 0.0  # s, how long it has been slow and steady enough to sleep
         # s of free flight, if it was hit or stopped in the step before; else infinity
         self.flown = inf
@@ -131,7 +130,7 @@ class Body:
     @property
     def asleep(self) -> bool:
         """Return whether it sleeps: steps skip it until something wakes it."""
-        return self.sleeps
+        return self.idle and self.inv_mass > 0
 
     @property
     def bullet(self) -> bool:

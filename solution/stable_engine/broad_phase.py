@@ -58,9 +58,9 @@ class BroadPhase:
         self.pairs: list[Pair] = []
         self.spare: list[Pair] = []  # pairs of the last sweep: reuse is cheaper
         self.near: list[Bounds] = []  # of bodies that can move and have others near
-        self.leavers: list[Bounds] = []  # of bodies that have left their rooms
         self.far: list[Bounds] = []  # of the others that can move
         self.is_listed = False  # whether these two lists are up to date
+        self.leavers: list[Bounds] = []  # of bodies that have left their rooms
         self.lanes: list[list[Bounds]] = []  # the boxes that cross each since the last sweep
         self.lanes_per_px = 0.0
         self.hull = 0.0, 0.0, 0.0, 0.0  # px, what the sweep has covered, along it and across
@@ -83,7 +83,10 @@ class BroadPhase:
         self.is_stale = True
 
     def find_leavers(self, dt: float) -> list[Bounds]:
-        """Return the bounds of the bodies that have left their rooms in a step of dt seconds."""
+        """Note that dt seconds have passed, and which bodies have left their rooms. Return these.
+
+        The next detect makes room for them.
+        """
         self.age += dt
         late, doubtful = self.age > self.end, self.moving
         if not (late or self.falls):

@@ -251,4 +251,4 @@ class Contacts(Detection):
 
     def awake_changed(self) -> None:
         super().awake_changed()
-        self.pace.awake_changed(any([c.a.sleeps for c in self.all_contacts()]))
+        self.pace.awake_changed(any([c.a.asleep for c in self.all_contacts()]))

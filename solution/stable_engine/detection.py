@@ -266,7 +266,7 @@ class Detection(Effect):
         """
         unpaired, self.unpaired = self.unpaired, {}
         for number, c in unpaired.items():
-            if c.a.sleeps and c.b.idle:
+            if c.a.asleep and c.b.idle:
                 self.unpaired[number] = c
             elif c not in self.landings.speeds and self.on_part:
                 self.news.append((c.a, c.b, None))
@@ -381,7 +381,7 @@ class Detection(Effect):
             self.wake_beside(body)
             for other in world.bodies:
                 dx, dy = abs(other.x - body.x), abs(other.y - body.y)
-                if other.sleeps and dx < other.hx + body.hx and dy < other.hy + body.hy:
+                if other.asleep and dx < other.hx + body.hx and dy < other.hy + body.hy:
                     other.wake()
 
     def forget(self, body: Body) -> None:

@@ -85,19 +85,24 @@ class Effect:
     def solve(self, h: float) -> None:
         """Correct velocities by impulses, and position errors by extra velocity (the bias)."""
 
-    def press(self, h: float) -> None:
-        """Mark bodies that this effect holds, so that their velocities do not lag."""
-
-    def lag(self, seconds: float) -> None:
-        """Add to what velocities change by in so many seconds (below 0: back) where bodies are."""
-
     def relax(self, h: float) -> None:
         """After bodies have moved, take back the speed of the bias."""
+
+    # at the start and end of a step, see Lags
+
+    def press(self, h: float) -> None:
+        """Mark bodies that this effect holds (is_pressed), so that their velocities do not lag."""
+
+    def lag(self, seconds: float) -> None:
+        """Change lag_x and lag_y of bodies by what it adds to velocities in so many seconds.
+
+        That is h / 2, below 0 at the start of a step.
+        """
 
     # between effects
 
     def begin_contact(self, c: Contact) -> None:
-        """Fill in this effect's fields of a new contact, such as its friction."""
+        """Fill in this effect's fields of a new or changed contact, such as its friction."""
 
     def body_changed(self, body: Body) -> None:
         """Take over a new mass, friction or restitution of a body."""

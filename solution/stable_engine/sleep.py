@@ -55,14 +55,14 @@ class Sleep(Effect):
 
     def find_sleepers(self, contacts: Contacts) -> list[Body]:
         """Return the sleeping balls in contacts, and those against which these may be thrown."""
-        touched = [(c, body) for c in contacts.touching for body in (c.a, c.b) if body.sleeps]
+        touched = [(c, body) for c in contacts.touching for body in (c.a, c.b) if body.asleep]
         found = dict.fromkeys([body for _, body in touched])
         # px, the longest way in a step: a ball that is hit flies off at most twice as fast. This is
         # their whole speed, as those that have passed each other no longer close in
         speeds = [hypot(c.a.vx - c.b.vx, c.a.vy - c.b.vy) for c, _ in touched]
         far = 2 * max(speeds, default=0.0) * contacts.last_dt
         ahead = list(found) if far > contacts.touching_gap else []
-        asleep = [body for body in self.world.bodies if body.sleeps] if ahead else []
+        asleep = [body for body in self.world.bodies if body.asleep] if ahead else []
         while ahead:
             ball = ahead.pop()
             for other in asleep:
@@ -117,14 +117,14 @@ class Sleep(Effect):
         still = [i for i in self.find_islands() if self.is_still(i)]
         for island in still:
             for body in island:
-                body.island, body.sleeps, body.idle = island, True, True
+                body.island, body.idle = island, True
                 body.vx = body.vy = body.w = body.lag_x = body.lag_y = 0.0
         if still:
             self.update_awake()
 
     def wake(self, island: list[Body]) -> None:
         for body in island:
-            body.island, body.sleeps, body.idle = [], False, False
+            body.island, body.idle = [], False
             body.still = body.kept = 0.0
         self.update_awake()
 

@@ -11,10 +11,11 @@ from .body import Body
 from .check import missing, odd_gravity, overloaded_rods, unused
 from .effect import Effect, Push
 from .joint import Joint
+from .lags import Lags
 from .rays import RayHit, cast_ray
 from .validate import pair, positive, refuse, require, whole
 
-HOOKS = [name for name in vars(Effect) if not name.startswith("_")]
+HOOKS = [name for name, hook in vars(Effect).items() if callable(hook) and name[0] != "_"]
 SUBSTEP = ("force", "warm_start", "solve", "press", "lag", "relax")  # hooks of the substeps
 
 Thing = TypeVar("Thing", bound=Body | Joint)
@@ -33,7 +34,7 @@ class World:
 
     __slots__ = (
         *("lengths", "substep_count", "g", "bodies", "awake", "statics", "added", "declared"),
-        *("listeners", "hooks", "has_changed", "lag_h", "unchecked", "warned", "forces", "pushed"),
+        *("listeners", "hooks", "has_changed", "lags", "unchecked", "warned", "forces"),
     )
 
     def __init__(
@@ -51,11 +52,10 @@ class World:
         self.statics: list[Body] = []
         self.added = 0  # bodies added so far
         self.has_changed = True  # whether contacts must be found anew before the next step
-        self.lag_h = 0.0  # s, the substep for which lags are known; 0 if anything has changed
         self.unchecked: list[Body] = []  # bodies and ends of joints that are new or changed
         self.warned: set[str] = set()  # the effects that a step has warned of
         self.forces: dict[Body, Push] = {}  # of the next step
-        self.pushed: dict[Body, Push] = {}  # the forces of the step before
+        self.lags = Lags(self)
         self.declared: dict[str, Effect] = {}
         if not isinstance(effects, Iterable):
             refuse("World.effects", effects, "a list of effects")
@@ -79,11 +79,11 @@ class World:
         self.update_hooks()
 
     def update_hooks(self) -> None:
-        """Leave idle effects out of the substeps."""
+        """Leave idle effects out of the substeps. Lags may be other ones then."""
         for name in SUBSTEP:
             busy = [effect for effect in self.listeners[name] if not effect.is_idle()]
             self.hooks[name] = [getattr(effect, name) for effect in busy]
-        self.lag_h = 0.0
+        self.lags.forget()
 
     def call(self, name: str, *arguments: Any) -> None:
         """Call the hooks of this name."""
@@ -121,7 +121,8 @@ class World:
 
     @gravity.setter
     def gravity(self, value: Iterable[float]) -> None:
-        (gx, gy), self.g, self.lag_h = self.g, pair("World.gravity", value), 0.0
+        (gx, gy), self.g = self.g, pair("World.gravity", value)
+        self.lags.forget()
         lost = gx - self.g[0], gy - self.g[1]
         if lost != (0.0, 0.0):
             size = math.hypot(*lost)
@@ -180,15 +181,18 @@ class World:
             body.wake()
         for body in (joint.a, joint.b):
             body.joint_count += 1
-        self.lag_h = 0.0
         effect.add(joint)
-        self.has_changed = True
+        self.begin_anew()
 
     def look_again(self, body: Body) -> None:
         """Check this new or changed body in the next step."""
-        self.has_changed = True
+        self.begin_anew()
         self.unchecked.append(body)
-        self.lag_h = 0.0
+
+    def begin_anew(self) -> None:
+        """Let the next step find contacts and lags anew, as the program has changed something."""
+        self.has_changed = True
+        self.lags.forget()
 
     def remove(self, thing: Body | Joint) -> None:
         """Remove a body, rod or spring; with a body, also the rods and springs tied to it.
@@ -206,7 +210,6 @@ class World:
     def remove_body(self, body: Body) -> None:
         require(body.world is self, "World.remove's body", body, "one that is in this world")
         body.wake()
-        self.lag_h = 0.0
         self.forces.pop(body, None)
         self.relieve({body: math.inf})
         self.call("forget", body)
@@ -215,18 +218,17 @@ class World:
         self.awake = [other for other in self.awake if other is not body]
         self.statics = [other for other in self.statics if other is not body]
         body.world, body.id = None, 0
-        self.has_changed = True
+        self.begin_anew()
 
     def remove_joint(self, joint: Joint) -> None:
-        effect = self.declared.get(joint.effect)
+        effect: Any = self.declared.get(joint.effect)
         ours = joint in getattr(effect, "joints", [])
         require(ours, f"World.remove's {type(joint).__name__}", joint, "one that is in this world")
         for body in (joint.a, joint.b):
             body.wake()
             body.joint_count -= 1
-        self.lag_h = 0.0
-        self.need(joint.effect, joint).remove(joint)
-        self.has_changed = True
+        effect.remove(joint)
+        self.begin_anew()
 
     def bodies_at(self, point: Iterable[float]) -> list[Body]:
         """Return the bodies that a point (px) is in or on the edge of, in the order of adding."""
@@ -254,14 +256,6 @@ class World:
         """Tell effects of masses (kg) that bodies have lost: infinity if they leave."""
         pull = math.hypot(*self.g) or 1.0
         self.call("unload", {body: mass * pull for body, mass in lost.items()}, self.g)
-
-    def end_pushes(self) -> None:
-        """Tell effects of forces that are less than in the step before."""
-        for body, (before_x, before_y, _) in self.pushed.items():
-            fx, fy, _ = self.forces.get(body, (0.0, 0.0, 0.0))
-            lost = before_x - fx, before_y - fy
-            if body.world is self and lost[0] * before_x + lost[1] * before_y > 0:
-                self.call("unload", {body: math.hypot(*lost)}, lost)
 
     def check(self) -> list[str]:
         """Return a sentence for each effect that is needed but undeclared, or declared but unused.
@@ -304,22 +298,15 @@ class World:
 
         # 1 detect: the step before has, unless the program has changed anything since
         falls = self.g != (0.0, 0.0)
-        lags = falls or bool(hooks["lag"] or self.forces)
-        is_known = h == self.lag_h and self.forces.keys() == self.pushed.keys()
-        if self.pushed and self.forces != self.pushed:
-            self.end_pushes()
-            is_known = is_known and self.substep_count == 1  # else their impulse would not be whole
-        if is_known:
-            self.lag_behind()
+        has_lags = falls or bool(hooks["lag"] or self.forces)
+        is_known = self.lags.take_off(h)
         has_changed = self.has_changed
         if has_changed:
             if self.unchecked:
                 self.warn()
             self.detect(h)
-        if lags and not is_known:
-            self.change_velocities(-h / 2)
-            for body in self.awake:
-                body.is_pressed = body.is_fresh = False
+        if has_lags and not is_known:
+            self.lags.take_off_new(h)
         for impact in hooks["impact"] if has_changed else []:
             impact(h)
 
@@ -355,10 +342,10 @@ class World:
             self.detect(h)
             for impact in hooks["impact"]:
                 impact(h)
-        self.lag_h = h if lags else 0.0
-        if lags:
-            self.change_velocities(h / 2)  # to the time of the positions
-        self.pushed, self.forces = self.forces, {}
+        self.lags.forget()
+        if has_lags:
+            self.lags.add(h)
+        self.lags.pushed, self.forces = self.forces, {}
         for tell in hooks["tell"]:
             tell(h)
 
@@ -367,38 +354,6 @@ class World:
         self.has_changed = False
         for detect in self.hooks["detect"]:
             detect(h)
-
-    def lag_behind(self) -> None:
-        """Take velocities back by half a substep, as in a leapfrog: they are those of the moves.
-
-        Between steps velocities and positions belong to the same time.
-        """
-        for body in self.awake:
-            body.vx -= body.lag_x
-            body.vy -= body.lag_y
-            body.is_pressed = False
-
-    def change_velocities(self, seconds: float) -> None:
-        """Change velocities as so many seconds would (below 0: back) where bodies are now.
-
-        Those of pressed bodies stay.
-        """
-        gx, gy = self.g[0] * seconds, self.g[1] * seconds
-        for body in self.awake:
-            body.lag_x, body.lag_y = gx, gy
-        for body, (fx, fy, _) in self.forces.items():
-            body.lag_x += fx * body.inv_mass * seconds
-            body.lag_y += fy * body.inv_mass * seconds
-        for press in self.hooks["press"]:
-            press(2 * abs(seconds))
-        for lag in self.hooks["lag"]:
-            lag(seconds)
-        for body in self.awake:
-            if body.is_pressed:
-                body.lag_x = body.lag_y = 0.0
-            else:
-                body.vx += body.lag_x
-                body.vy += body.lag_y
 
     def accelerate(self, h: float) -> None:
         """Accelerate balls for h seconds, by forces on them and by gravity."""
