@@ -1,15 +1,22 @@
-"""The room in which a body may move, and the box around it, for the broad phase."""
+"""For the broad phase: bodies that are near each other, and the room in which each may move."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from .body import Body
-
-if TYPE_CHECKING:
-    from .broad_phase import Pair
+from .contact import Contact
 
 ROOM = 0.1  # radii, on each side of a body that can move
+
+
+class Pair:
+    """Two bodies that are near each other, and their contact while they touch."""
+
+    __slots__ = ("a", "b", "contact")
+
+    def __init__(self, a: Body, b: Body) -> None:
+        self.a = a  # always a ball with mass: the one with the higher id
+        self.b = b
+        self.contact: Contact | None = None
 
 
 class Bounds:

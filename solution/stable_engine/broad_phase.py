@@ -4,8 +4,7 @@ from math import inf, sqrt
 from operator import attrgetter
 
 from .body import Body
-from .bounds import Bounds
-from .contact import Contact
+from .bounds import Bounds, Pair
 from .sweep import NO_HIT, hit_point
 
 SWEEP = 5  # checks of near pairs per body that can move, which cost as much as a sweep
@@ -19,17 +18,6 @@ SHARE = 0.25  # of the bodies that can move: without gravity, at least so many
 
 LOW = attrgetter("low")
 RANK = attrgetter("rank")
-
-
-class Pair:
-    """Two bodies that are near each other, and their contact while they touch."""
-
-    __slots__ = ("a", "b", "contact")
-
-    def __init__(self, a: Body, b: Body) -> None:
-        self.a = a  # always a ball with mass: the one with the higher id
-        self.b = b
-        self.contact: Contact | None = None
 
 
 class BroadPhase:

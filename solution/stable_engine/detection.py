@@ -4,7 +4,8 @@ from collections.abc import Callable
 from math import inf, sqrt
 
 from .body import Body, State
-from .broad_phase import BroadPhase, Pair
+from .bounds import Pair
+from .broad_phase import BroadPhase
 from .contact import Contact, collide, leave_as_entered
 from .effect import Effect
 from .landings import Landings

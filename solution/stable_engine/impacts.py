@@ -4,7 +4,7 @@ from collections import defaultdict
 from math import hypot, inf, sqrt
 
 from .body import Body, State, state_of
-from .broad_phase import Pair
+from .bounds import Pair
 from .contact import Contact, collide, leave_as_entered
 from .contacts import Contacts
 from .cores import CORE

@@ -6,7 +6,7 @@ from math import sqrt
 from typing import TYPE_CHECKING
 
 from .body import Body
-from .broad_phase import Pair
+from .bounds import Pair
 from .contact import Contact, collide
 from .sweep import NO_HIT, hit_body
 
