@@ -111,8 +111,8 @@ def overloaded_rods(world: World) -> list[str]:
     rods: list[Joint] = getattr(world.effects.get("Rods"), "joints", [])
     h, pull = FRAME / 2 / world.substep_count, hypot(*world.g) + whirl(rods)
     for frame in connect(rods):
-        load = max([body.m for body in bodies_of(frame.joints)])
-        for body, length in [(end, rod.rest) for rod in frame.joints for end in (rod.a, rod.b)]:
+        load = max([body.m for body in bodies_of(frame.rows)])
+        for body, length in [(end, rod.rest) for rod in frame.rows for end in (rod.a, rod.b)]:
             if not body.is_static and h * h * pull * load > SHAKY * body.m * length:
                 return [
                     f"{body!r} is on a rod with up to {load:g} kg: it may shake faster than "

@@ -6,10 +6,10 @@ from math import hypot, sqrt
 from typing import TYPE_CHECKING
 
 from .body import Body
-from .joint import FIRM
 from .network import Network
 from .pile import HEAVY
 from .rod import Rod
+from .row import FIRM
 from .soft import SAME_DIRECTION
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ class Frame:
     def __init__(self, network: Network[Rod], world: World) -> None:
         self.world = world
         self.network = network
-        self.rods = network.joints
+        self.rods = network.rows
         ends = dict.fromkeys([body for rod in self.rods for body in (rod.end_a, rod.end_b)])
         self.balls = [body for body in ends if not body.is_static]
         self.ends = list(ends)

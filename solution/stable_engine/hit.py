@@ -3,19 +3,18 @@
 from collections.abc import Sequence
 
 from .contact import Contact
-from .joint import Joint
-from .limits import Limited, solve_within
+from .limits import LimitedRow, solve_within
 from .network import Network
+from .row import Row
 
 
-class Hit(Limited):
+class Hit(LimitedRow):
     """A contact whose impact is resolved together with others of the same moment."""
 
     __slots__ = ("mu", "wanted")
 
     def __init__(self, c: Contact, law: tuple[float, float]) -> None:
         super().__init__(c)
-        self.m = c.mn
         self.wanted, share = law  # px/s, the speed at which to separate
         self.mu = c.mu * share
 
@@ -47,7 +46,7 @@ class Rub(Hit):
         self.end_b.w -= self.arm_b * j * self.end_b.inv_inertia
 
 
-def resolve_at_once(rows: Sequence[Hit], rods: list[Joint], least: float) -> None:
+def resolve_at_once(rows: Sequence[Hit], rods: list[Row], least: float) -> None:
     """Give the rows the impulses that they need together. Rods are to keep their lengths."""
     if len(rows) == 1 and not rods:
         row = rows[0]
@@ -57,7 +56,7 @@ def resolve_at_once(rows: Sequence[Hit], rods: list[Joint], least: float) -> Non
         solve_together(rows, rods, least)
 
 
-def solve_together(rows: Sequence[Hit], rods: list[Joint], least: float) -> None:
+def solve_together(rows: Sequence[Hit], rods: list[Row], least: float) -> None:
     """Solve for the impulses of all rows and rods."""
 
     def aim() -> None:
@@ -66,6 +65,6 @@ def solve_together(rows: Sequence[Hit], rods: list[Joint], least: float) -> None
         for rod in rods:
             rod.ask(0.0)
 
-    network: Network[Joint] = Network([*rows, *rods])
+    network: Network[Row] = Network([*rows, *rods])
     for _ in range(2):  # the second takes back what firmness has left
         solve_within(network, rows, aim, least, True)

@@ -14,8 +14,8 @@ from .flight import DEEPEST, Flight
 from .frame import Frame
 from .hit import Hit, Rub, resolve_at_once
 from .impact_queue import ImpactQueue
-from .joint import Joint
 from .order import balls_of
+from .row import Row
 from .soft import SAME_DIRECTION
 from .sweep import free_share
 from .time_of_impact import ARC_PASSES, TimeOfImpact, speed_at_touch
@@ -419,7 +419,7 @@ class Impacts:
         for frame in frames:
             frame.hold()
         hits = [Hit(c, self.law(c)) for c in group]
-        rods = [Joint(rod.end_a, rod.end_b) for frame in frames for rod in frame.rods]
+        rods = [Row(rod.end_a, rod.end_b, rod.nx, rod.ny) for frame in frames for rod in frame.rods]
         least = LEAST * max([hit.wanted - hit.speed() for hit in hits])
         resolve_at_once(hits, rods, least)
         resolve_at_once([Rub(hit) for hit in hits if hit.mu * hit.total], rods, least)

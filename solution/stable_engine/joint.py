@@ -5,22 +5,18 @@ from typing import ClassVar, Generic, TypeVar
 
 from .body import Body
 from .effect import Effect
+from .row import Row
 from .validate import not_negative, refuse, require
 
-FIRM = 1 + 1e-9  # times a pivot: with more rows than needed, a matrix has no inverse
 
-
-class Joint:
+class Joint(Row):
     """A constraint along the line between the centres of a and b, which turns neither.
 
     Setting one of its numbers later on wakes both. Raises ValueError if a number makes no sense, if
     a and b are the same body, or if both are static.
     """
 
-    __slots__ = (
-        *("arm_a", "arm_b", "distance", "dx", "dy", "end_a", "end_b", "given", "m", "nx", "ny"),
-        *("pivot", "rest", "rhs"),
-    )
+    __slots__ = ("distance", "dx", "dy", "given", "rest")
     effect: ClassVar[str]  # the name of the effect that owns it
 
     def __init__(self, a: Body, b: Body) -> None:
@@ -31,12 +27,8 @@ class Joint:
         require(a is not b, name, f"the same body as a, at {a.pos}", "another body")
         static = a.is_static and b.is_static
         require(not static, name, f"static like a, at {b.pos}", "a body with mass")
-        self.end_a = a
-        self.end_b = b
-        self.pivot = self.rhs = 0.0  # see Network.solve
-        self.arm_a = self.arm_b = 0.0  # px, with which an impulse along it turns A and B
+        super().__init__(a, b, 0.0, 1.0)
         self.given = 0.0  # kg px/s, the impulse of the latest substep
-        self.weigh()
         self.measure()
         self.rest = self.distance  # px, its length
 
@@ -84,10 +76,6 @@ class Joint:
         self.end_b.wake()
         self.end_a.changed()
 
-    def weigh(self) -> None:
-        """Take over the masses of a and b."""
-        self.m = 1 / (self.end_a.inv_mass + self.end_b.inv_mass)  # kg, effective mass
-
     def measure(self) -> None:
         """Update distance and direction from A to B."""
         self.dx, self.dy = self.end_b.x - self.end_a.x, self.end_b.y - self.end_a.y  # px
@@ -96,27 +84,6 @@ class Joint:
             self.nx, self.ny = self.dx / self.distance, self.dy / self.distance
         else:
             self.nx, self.ny = 0.0, 1.0
-
-    def speed(self) -> float:
-        """Return how fast B moves away from A, in px/s."""
-        return (self.end_b.vx - self.end_a.vx) * self.nx + (self.end_b.vy - self.end_a.vy) * self.ny
-
-    def ask(self, speed: float) -> None:
-        """Ask for a speed (px/s) along it: set pivot and rhs for Network.solve."""
-        self.pivot, self.rhs = FIRM / self.m, speed - self.speed()
-
-    def apply_impulse(self, j: float) -> None:
-        """Push B away from A by impulse j (kg px/s), and A by the opposite."""
-        a, b = self.end_a, self.end_b
-        px, py = self.nx * j, self.ny * j
-        a.vx -= px * a.inv_mass
-        a.vy -= py * a.inv_mass
-        b.vx += px * b.inv_mass
-        b.vy += py * b.inv_mass
-
-    def take(self, j: float, has_moved: bool) -> None:
-        """Apply an impulse j (kg px/s), and count it: before the move, or after it."""
-        self.apply_impulse(j)
 
 
 AnyJoint = TypeVar("AnyJoint", bound=Joint)

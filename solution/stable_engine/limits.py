@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from math import inf
 
 from .contact import Contact
-from .joint import Joint
 from .network import Network, bodies_of
+from .row import Row
 
 TURNS = 16  # of changing all rows that are wrong, without fewer; then one is changed at a time
 MOST_TURNS = 200
@@ -15,24 +15,21 @@ FREE = 1e30  # 1/kg, the pivot of a row that takes no impulse
 ROUNDING = 2.0**-52  # share of a number
 
 
-class Limited(Joint):
+class LimitedRow(Row):
     """A contact as a row of a network, whose total impulse stays within limits.
 
     Which body is A does not depend on the contact's.
     """
 
     __slots__ = ("at", "c", "high", "low", "total")
-    effect = "Contacts"
 
     def __init__(self, c: Contact) -> None:
-        self.c = c
         a, b = c.a, c.b
-        self.end_a, self.end_b = a, b
         if b.inv_mass and (b.x < a.x or (b.x == a.x and b.y < a.y)):
-            self.end_a, self.end_b = b, a
+            a, b = b, a
+        super().__init__(a, b, 0.0, 0.0)
+        self.c = c
         self.follow()
-        self.arm_a = self.arm_b = 0.0
-        self.pivot = self.rhs = 0.0
         self.low, self.high = 0.0, inf  # kg px/s
         self.total = 0.0  # kg px/s, its impulse so far
         self.at = 0.0  # -1 at the lower limit, 1 at the upper one, 0 between them
@@ -72,10 +69,10 @@ class Limited(Joint):
 
 
 def solve_between(
-    network: Network[Joint],
-    limited: Sequence[Limited],
+    network: Network[Row],
+    limited: Sequence[LimitedRow],
     aim: Callable[[], None],
-    taken: dict[Joint, float],
+    taken: dict[Row, float],
     has_moved: bool,
     most: float,
 ) -> bool:
@@ -96,17 +93,17 @@ def solve_between(
     for row in limited:
         if row.at:
             row.rhs = 0.0
-    if not all([abs(one.rhs) <= most for one in network.joints]):
+    if not all([abs(one.rhs) <= most for one in network.rows]):
         return False
-    for one in network.joints:
+    for one in network.rows:
         taken[one] += one.rhs
         one.take(one.rhs, has_moved)
     return True
 
 
 def solve_within(
-    network: Network[Joint],
-    limited: Sequence[Limited],
+    network: Network[Row],
+    limited: Sequence[LimitedRow],
     aim: Callable[[], None],
     least: float,
     has_moved: bool,
@@ -119,10 +116,10 @@ def solve_within(
     pivoting, Júdice and Pires 1994). If that does not end, or `accepts` refuses its end, or if
     impulses get so large that speeds are rounded by more than `least`, nothing changes.
     """
-    before = [(body, body.vx, body.vy, body.w) for body in bodies_of(network.joints)]
+    before = [(body, body.vx, body.vy, body.w) for body in bodies_of(network.rows)]
     lightest = min([body.m for body, *_ in before if body.inv_mass])
     most = least / ROUNDING * lightest  # kg px/s
-    taken = dict.fromkeys(network.joints, 0.0)  # kg px/s
+    taken = dict.fromkeys(network.rows, 0.0)  # kg px/s
     aim()
     for row in limited:
         row.begin(least)

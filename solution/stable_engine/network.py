@@ -1,4 +1,4 @@
-"""Joints that share balls, solved together: elimination in a sparse matrix (LDLᵀ)."""
+"""Rows that share balls, solved together: elimination in a sparse matrix (LDLᵀ)."""
 
 from __future__ import annotations
 
@@ -6,66 +6,68 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Generic, TypeVar
 
 from .body import Body
-from .joint import AnyJoint, Joint
+from .row import Row
+
+AnyRow = TypeVar("AnyRow", bound=Row)
+Thing = TypeVar("Thing")
 
 
 class Coupling:
-    """The effect of an impulse on one joint on the speed of another.
+    """The effect of the impulse of one row on the speed of another.
 
-    They share a ball, or each shares one with a joint that is eliminated earlier. The matrix is
+    They share a ball, or each shares one with a row that is eliminated earlier. The matrix is
     symmetric; once the order is known, `one` is eliminated before `other`.
     """
 
     __slots__ = ("one", "other", "share", "spin", "value", "weight")
 
-    def __init__(self, one: Joint, other: Joint) -> None:
+    def __init__(self, one: Row, other: Row) -> None:
         self.one = one
         self.other = other
         self.weight = 0.0  # 1/kg, of the balls they share; negative between links of a chain
         self.spin = 0.0  # 1/kg, of the spins of these balls, between rows with arms
         self.value = 0.0  # 1/kg, the entry of the matrix
-        self.share = 0.0  # how much of the row of `one` is taken off that of `other`
+        self.share = 0.0  # how much of `one` is taken off `other`
 
 
-Thing = TypeVar("Thing")
 Fill = tuple[Coupling, Coupling, Coupling]
 
 
-class Row:
-    """A joint, its couplings to later ones, and the changes that eliminating it makes to those."""
+class Elimination:
+    """The elimination of a row: its couplings to later rows, and the changes it makes to those."""
 
-    __slots__ = ("couplings", "fills", "joint")
+    __slots__ = ("couplings", "fills", "row")
 
-    def __init__(self, joint: Joint, couplings: list[Coupling], fills: list[Fill]) -> None:
-        self.joint = joint
+    def __init__(self, row: Row, couplings: list[Coupling], fills: list[Fill]) -> None:
+        self.row = row
         self.couplings = couplings
         self.fills = fills
 
 
-class Network(Generic[AnyJoint]):
-    """Connected joints in the order of elimination: next is the one with the fewest couplings left.
+class Network(Generic[AnyRow]):
+    """Connected rows in the order of elimination: next is the one with the fewest couplings left.
 
-    So a chain or tree costs as much per joint as a pass that treats each joint alone.
+    So a chain or tree costs as much per row as a pass that treats each row alone.
     """
 
-    def __init__(self, joints: list[AnyJoint]) -> None:
-        self.joints = joints
-        beside = couple(joints)
-        self.couplings = [c for joint in beside for c in beside[joint].values() if c.one is joint]
+    def __init__(self, rows: list[AnyRow]) -> None:
+        self.rows = rows
+        beside = couple(rows)
+        self.couplings = [c for row in beside for c in beside[row].values() if c.one is row]
         self.filled: list[Coupling] = []
-        self.rows: list[Row] = []
+        self.eliminations: list[Elimination] = []
         while beside:
-            joint = min(beside, key=lambda one: len(beside[one]))
-            self.rows.append(self.eliminate(joint, beside))
-        self.backwards = self.rows[::-1]
+            row = min(beside, key=lambda one: len(beside[one]))
+            self.eliminations.append(self.eliminate(row, beside))
+        self.backwards = self.eliminations[::-1]
 
-    def eliminate(self, joint: Joint, beside: dict[Joint, dict[Joint, Coupling]]) -> Row:
-        """Remove a joint from those left, and couple its neighbours to each other."""
+    def eliminate(self, row: Row, beside: dict[Row, dict[Row, Coupling]]) -> Elimination:
+        """Remove a row from those left, and couple its neighbours to each other."""
         couplings: list[Coupling] = []
         fills: list[Fill] = []
-        for other, c in beside.pop(joint).items():
-            del beside[other][joint]
-            c.one, c.other = joint, other
+        for other, c in beside.pop(row).items():
+            del beside[other][row]
+            c.one, c.other = row, other
             for before in couplings:
                 there = beside[other].get(before.other)
                 if there is None:
@@ -74,12 +76,12 @@ class Network(Generic[AnyJoint]):
                     self.filled.append(there)
                 fills.append((before, c, there))
             couplings.append(c)
-        return Row(joint, couplings, fills)
+        return Elimination(row, couplings, fills)
 
     def solve(self) -> None:
-        """Find the impulses that together give each joint its speed.
+        """Find the impulses that together give each row its speed.
 
-        Each joint has `pivot`, its change of speed per unit of impulse (1/kg), and `rhs`, the
+        Each row has `pivot`, its change of speed per unit of impulse (1/kg), and `rhs`, the
         change of speed to reach (px/s). Afterwards `rhs` holds its impulse (kg px/s).
         """
         for c in self.couplings:
@@ -87,52 +89,52 @@ class Network(Generic[AnyJoint]):
             c.value = c.weight * (one.nx * other.nx + one.ny * other.ny) + c.spin
         for c in self.filled:
             c.value = 0.0
-        for row in self.rows:
-            if row.couplings:
-                joint = row.joint
-                pivot, rhs = joint.pivot, joint.rhs
-                for c in row.couplings:
+        for step in self.eliminations:
+            if step.couplings:
+                row = step.row
+                pivot, rhs = row.pivot, row.rhs
+                for c in step.couplings:
                     share = c.share = c.value / pivot
                     other = c.other
                     other.pivot -= share * c.value
                     other.rhs -= share * rhs
-                for c, d, filled in row.fills:
+                for c, d, filled in step.fills:
                     filled.value -= c.share * d.value
-        for row in self.backwards:
-            joint = row.joint
-            rhs = joint.rhs / joint.pivot
-            for c in row.couplings:
+        for step in self.backwards:
+            row = step.row
+            rhs = row.rhs / row.pivot
+            for c in step.couplings:
                 rhs -= c.share * c.other.rhs
-            joint.rhs = rhs
+            row.rhs = rhs
 
 
-def couple(joints: Sequence[Joint]) -> dict[Joint, dict[Joint, Coupling]]:
-    """Return the couplings of joints that share balls, by pair of joints."""
-    beside: dict[Joint, dict[Joint, Coupling]] = {joint: {} for joint in joints}
-    at: dict[Body, list[tuple[Joint, float, float]]] = {}
-    for joint in joints:
-        a, b = joint.end_a, joint.end_b
-        for body, sign, arm in ((a, -1.0, joint.arm_a), (b, 1.0, joint.arm_b)):
+def couple(rows: Sequence[Row]) -> dict[Row, dict[Row, Coupling]]:
+    """Return the couplings of rows that share balls, by pair of rows."""
+    beside: dict[Row, dict[Row, Coupling]] = {row: {} for row in rows}
+    at: dict[Body, list[tuple[Row, float, float]]] = {}
+    for row in rows:
+        a, b = row.end_a, row.end_b
+        for body, sign, arm in ((a, -1.0, row.arm_a), (b, 1.0, row.arm_b)):
             if body.is_static:
                 continue
             for other, its_sign, its_arm in at.setdefault(body, []):
-                c = beside[joint].get(other)
+                c = beside[row].get(other)
                 if c is None:
-                    c = beside[joint][other] = beside[other][joint] = Coupling(other, joint)
+                    c = beside[row][other] = beside[other][row] = Coupling(other, row)
                 c.weight += sign * its_sign * body.inv_mass
                 c.spin += arm * its_arm * body.inv_inertia
-            at[body].append((joint, sign, arm))
+            at[body].append((row, sign, arm))
     return beside
 
 
-def bodies_of(joints: Sequence[Joint]) -> list[Body]:
-    """Return the bodies at the ends of joints, each once."""
-    return list(dict.fromkeys([body for one in joints for body in (one.end_a, one.end_b)]))
+def bodies_of(rows: Sequence[Row]) -> list[Body]:
+    """Return the bodies at the ends of rows, each once."""
+    return list(dict.fromkeys([body for one in rows for body in (one.end_a, one.end_b)]))
 
 
-def connect(joints: list[AnyJoint]) -> list[Network[AnyJoint]]:
-    """Return a network for each set of joints that balls connect."""
-    return [Network(group) for group in connected(joints, couple(joints))]
+def connect(rows: list[AnyRow]) -> list[Network[AnyRow]]:
+    """Return a network for each set of rows that balls connect."""
+    return [Network(group) for group in connected(rows, couple(rows))]
 
 
 def connected(things: list[Thing], beside: Mapping[Any, Iterable[Any]]) -> list[list[Thing]]:

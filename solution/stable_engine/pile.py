@@ -4,8 +4,9 @@ from math import hypot
 
 from .contact import Contact, is_at_face
 from .joint import Joint
-from .limits import FREE, Limited, solve_within
+from .limits import FREE, LimitedRow, solve_within
 from .network import Network, bodies_of
+from .row import Row
 from .springs import Spring
 
 HEAVY = 2.5  # times the lightest ball at a contact
@@ -34,7 +35,7 @@ class Stage:
         self.ball_rate, self.static_rate = rates or (0.0, 0.0)  # 1/s, before the move
 
 
-class Load(Limited):
+class Load(LimitedRow):
     """A contact in a pile."""
 
     __slots__ = ("give", "pressed", "ratio")
@@ -81,7 +82,7 @@ class Pile:
         self.loads = loads
         self.springs = [joint for joint in joints if isinstance(joint, Spring)]
         self.rods = [joint for joint in joints if not isinstance(joint, Spring)]
-        self.rows: list[Joint] = [*loads, *joints]
+        self.rows: list[Row] = [*loads, *joints]
         self.bodies = bodies_of(self.rows)
         masses = [body.m for body in self.bodies if body.m]
         ratio = max(max(masses) / min(masses), *[load.ratio for load in self.loads])
@@ -93,7 +94,7 @@ class Pile:
         turning = [load for load in loads if not (joints and is_at_face(load.c))]
         self.turning = bodies_of(turning)  # at contacts that are other ones once these moved far
         self.is_wild = False  # whether they move far in this substep
-        self.network: Network[Joint] | None = None  # of all rows, once it was needed
+        self.network: Network[Row] | None = None  # of all rows, once it was needed
 
     def look(self, h: float) -> None:
         """Note the lengths that rods will have after the move, before contacts change them."""

@@ -5,6 +5,7 @@ from math import expm1, hypot
 from .body import Body, State, state_of
 from .joint import Joint, Joints
 from .network import Network, bodies_of, connect, connected, couple
+from .row import Row
 from .validate import not_negative
 
 NUMEROV = 1 / 12  # of how the stretch curves in a substep: see Springs
@@ -102,16 +103,13 @@ class Spring(Joint):
         return force * nx, force * ny
 
 
-class Sway(Joint):
+class Sway(Row):
     """The motion of the ends of a tight spring across it, as a row of a network."""
 
     __slots__ = ()
-    effect = "Springs"
 
     def __init__(self, spring: Spring, drag: float) -> None:
-        self.end_a, self.end_b, self.m = spring.end_a, spring.end_b, spring.m
-        self.nx, self.ny = -spring.ny, spring.nx
-        self.arm_a = self.arm_b = 0.0
+        super().__init__(spring.end_a, spring.end_b, -spring.ny, spring.nx)
         self.pivot, self.rhs = 1 / self.m + 1 / drag, -self.speed()
 
 
@@ -221,7 +219,7 @@ class Springs(Joints[Spring]):
         sways = [Sway(spring, drag) for spring, drag in drags if drag]
         for across in connect(sways) if sways else []:
             across.solve()
-            for sway in across.joints:
+            for sway in across.rows:
                 sway.apply_impulse(sway.rhs)
 
     def lag(self, seconds: float) -> None:
@@ -233,15 +231,15 @@ class Springs(Joints[Spring]):
         self.find_networks()
         h = 2 * abs(seconds)
         for network in self.networks:
-            if not any([spring.is_stiff(h) for spring in network.joints]):
-                self.lag_softly(network.joints, seconds)
+            if not any([spring.is_stiff(h) for spring in network.rows]):
+                self.lag_softly(network.rows, seconds)
             elif any([body.is_pressed or body.is_static for body in self.tied_to(network)]):
-                for body in bodies_of(network.joints):
+                for body in bodies_of(network.rows):
                     body.is_pressed = True
 
     def tied_to(self, network: Network[Spring]) -> list[Body]:
         """Return all bodies that joints connect with a network, and its own."""
-        bodies = bodies_of(network.joints)
+        bodies = bodies_of(network.rows)
         if all([body.joint_count == len(self.springs_of[body]) for body in bodies]):
             return bodies
         effects = self.world.effects.values()

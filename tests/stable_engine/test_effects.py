@@ -110,8 +110,8 @@ def bullets(count, others):
 @pytest.mark.parametrize(
     ("scene", "effects", "files"),
     [
-        (rods, ["Rods"], {"rods.py", "joint.py"}),
-        (springs, ["Springs"], {"springs.py", "joint.py"}),
+        (rods, ["Rods"], {"rods.py", "joint.py", "row.py"}),
+        (springs, ["Springs"], {"springs.py", "joint.py", "row.py"}),
         (bullets, ["Contacts", "Bullets"], {"bullets.py"}),
         (lying, ["Contacts", "Friction"], {"friction.py"}),
         (lying, ["Contacts", "Bounce"], {"bounce.py", "impacts.py"}),
