@@ -370,8 +370,8 @@ class Frame:
     def take_back_stretching(self, h: float) -> None:
         """Remove all speed along the rods, in their present directions (RATTLE)."""
         for rod in self.rods:
-            nx, ny, rod.given = rod.nx, rod.ny, rod.j + rod.pushed
-            rod.pushed = 0.0
+            nx, ny = rod.nx, rod.ny
+            rod.given += rod.j
             rod.measure()
             if nx * rod.nx + ny * rod.ny < SAME_DIRECTION:
                 rod.j = 0.0

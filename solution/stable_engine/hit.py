@@ -51,7 +51,7 @@ def resolve_at_once(rows: Sequence[Hit], rods: list[Row], least: float) -> None:
     if len(rows) == 1 and not rods:
         row = rows[0]
         row.ask(row.wanted)
-        row.take(max(row.low, min(row.rhs * row.m, row.high)), True)
+        row.take(max(row.low, min(row.rhs * row.m, row.high)))
     elif rows:
         solve_together(rows, rods, least)
 
@@ -67,4 +67,4 @@ def solve_together(rows: Sequence[Hit], rods: list[Row], least: float) -> None:
 
     network: Network[Row] = Network([*rows, *rods])
     for _ in range(2):  # the second takes back what firmness has left
-        solve_within(network, rows, aim, least, True)
+        solve_within(network, rows, aim, least)

@@ -28,7 +28,7 @@ class Joint(Row):
         static = a.is_static and b.is_static
         require(not static, name, f"static like a, at {b.pos}", "a body with mass")
         super().__init__(a, b, 0.0, 1.0)
-        self.given = 0.0  # kg px/s, the impulse of the latest substep
+        self.given = 0.0  # kg px/s, the impulse of the latest substep so far
         self.measure()
         self.rest = self.distance  # px, its length
 
@@ -84,6 +84,10 @@ class Joint(Row):
             self.nx, self.ny = self.dx / self.distance, self.dy / self.distance
         else:
             self.nx, self.ny = 0.0, 1.0
+
+    def take(self, j: float) -> None:
+        self.apply_impulse(j)
+        self.given += j
 
 
 AnyJoint = TypeVar("AnyJoint", bound=Joint)

@@ -39,7 +39,7 @@ class LimitedRow(Row):
         sign = 1.0 if self.end_a is self.c.a else -1.0
         self.nx, self.ny = sign * self.c.nx, sign * self.c.ny
 
-    def take(self, j: float, has_moved: bool) -> None:
+    def take(self, j: float) -> None:
         self.apply_impulse(j)
         self.total += j
 
@@ -73,7 +73,6 @@ def solve_between(
     limited: Sequence[LimitedRow],
     aim: Callable[[], None],
     taken: dict[Row, float],
-    has_moved: bool,
     most: float,
 ) -> bool:
     """Take rows at a limit there, and solve for all others. Add their impulses to those taken.
@@ -84,7 +83,7 @@ def solve_between(
         if row.at:
             j = row.excess()
             taken[row] += j
-            row.take(j, has_moved)
+            row.take(j)
     aim()
     for row in limited:
         if row.at:
@@ -97,7 +96,7 @@ def solve_between(
         return False
     for one in network.rows:
         taken[one] += one.rhs
-        one.take(one.rhs, has_moved)
+        one.take(one.rhs)
     return True
 
 
@@ -106,7 +105,6 @@ def solve_within(
     limited: Sequence[LimitedRow],
     aim: Callable[[], None],
     least: float,
-    has_moved: bool,
     accepts: Callable[[], bool] | None = None,
 ) -> None:
     """Find the impulses of all rows together: those of `limited` stay within their limits.
@@ -125,7 +123,7 @@ def solve_within(
         row.begin(least)
     fewest, patience = len(limited) + 1, TURNS
     for _ in range(MOST_TURNS):
-        if not solve_between(network, limited, aim, taken, has_moved, most):
+        if not solve_between(network, limited, aim, taken, most):
             break
         aim()
         wrong = [row for row in limited if row.is_wrong(least)]
@@ -139,6 +137,6 @@ def solve_within(
         for row in wrong if patience > 0 else wrong[:1]:
             row.turn()
     for one, j in taken.items():
-        one.take(-j, has_moved)
+        one.take(-j)
     for body, vx, vy, w in before:
         body.vx, body.vy, body.w = vx, vy, w

@@ -61,8 +61,8 @@ class Load(LimitedRow):
             push = max(rate * gap, -stage.most)
             self.rhs = -speed - push - give * c.jn / c.mn
 
-    def take(self, j: float, has_moved: bool) -> None:
-        super().take(j, has_moved)
+    def take(self, j: float) -> None:
+        super().take(j)
         self.c.jn = self.total
 
 
@@ -148,9 +148,9 @@ class Pile:
             self.network = Network(self.rows)
         for load in self.loads:
             load.total = load.c.jn
-        has_moved = self.stage.has_moved
-        accepts = None if has_moved or not self.rods else lambda: self.lack() <= lack
-        solve_within(self.network, self.loads, self.aim, self.calm, has_moved, accepts)
+        is_sure = self.stage.has_moved or not self.rods
+        accepts = None if is_sure else lambda: self.lack() <= lack
+        solve_within(self.network, self.loads, self.aim, self.calm, accepts)
 
     def aim(self) -> None:
         """Set each row's pivot and rhs."""

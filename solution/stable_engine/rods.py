@@ -79,6 +79,7 @@ class Rods(Joints[Rod]):
     def warm_start(self, h: float) -> None:
         for rod in self.awake:
             rod.measure()
+            rod.given = 0.0
             rod.apply_impulse(rod.j)
 
     def solve(self, h: float) -> None:

@@ -39,6 +39,6 @@ class Row:
         b.vx += px * b.inv_mass
         b.vy += py * b.inv_mass
 
-    def take(self, j: float, has_moved: bool) -> None:
-        """Apply an impulse j (kg px/s), and count it: before the move, or after it."""
+    def take(self, j: float) -> None:
+        """Apply an impulse j (kg px/s), and count it where its sum is needed."""
         self.apply_impulse(j)

@@ -75,10 +75,6 @@ class Spring(Joint):
         self.pivot = 1 / self.m + give
         self.rhs = (self.pull - self.given) * give - self.speed()
 
-    def take(self, j: float, has_moved: bool) -> None:
-        super().take(j, has_moved)
-        self.given += j
-
     def sway(self, h: float) -> float:
         """Return the drag (kg) across it with which a light end swings no faster than h allows.
 
@@ -214,7 +210,7 @@ class Springs(Joints[Spring]):
         for network in self.networks:
             network.solve()
         for spring in self.awake:
-            spring.take(spring.rhs, has_moved=False)
+            spring.take(spring.rhs)
         drags = [(spring, spring.sway(h)) for spring in self.awake if spring.tied]
         sways = [Sway(spring, drag) for spring, drag in drags if drag]
         for across in connect(sways) if sways else []:
