@@ -2,8 +2,8 @@
 
 from math import hypot
 
-from .contact import Contact
-from .contacts import RESTING_SPEED, Contacts
+from .contact import RESTING_SPEED, Contact
+from .contacts import Contacts
 from .effect import Effect
 from .impacts import Impacts, select_fast
 

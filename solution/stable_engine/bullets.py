@@ -1,6 +1,7 @@
 """Bullets: fast balls do not get into static bodies."""
 
-from .contacts import RESTING_SPEED, Contacts
+from .contact import RESTING_SPEED
+from .contacts import Contacts
 from .effect import Users
 
 

@@ -9,6 +9,7 @@ from .shapes import Segment
 from .soft import SAME_DIRECTION
 
 PUSHER = 4.0  # the ratio of the masses of a kinematic body and a ball
+RESTING_SPEED = 30.0  # 1/s, in units of the world; a slower impact does not bounce
 GOLDEN_ANGLE = 2.399963  # rad
 OPPOSITE = -0.5  # cosine; if a normal turns further, a centre has crossed a segment
 

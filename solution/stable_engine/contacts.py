@@ -19,7 +19,6 @@ LEAST_DAMPING = 10.0  # ratio, so high that overlap is pushed out without a boun
 SUBSTEP_DAMPING = 2.5  # ratio, per substep of a step: see Contacts.prepare
 STIFFENING = 0.07  # of a substep, per step
 # lengths are in units of the world, see World.unit
-RESTING_SPEED = 30.0  # 1/s, a slower impact does not bounce
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
 
 

@@ -6,8 +6,7 @@ from math import hypot, sqrt
 from typing import TYPE_CHECKING
 
 from .body import Body
-from .network import Network
-from .pile import HEAVY
+from .network import HEAVY, Network
 from .rod import Rod
 from .row import FIRM
 from .soft import SAME_DIRECTION

@@ -11,6 +11,8 @@ from .row import Row
 AnyRow = TypeVar("AnyRow", bound=Row)
 Thing = TypeVar("Thing")
 
+HEAVY = 2.5  # ratio of masses; where more presses on less, passes would leave much
+
 
 class Coupling:
     """The effect of the impulse of one row on the speed of another.

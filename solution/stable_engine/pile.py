@@ -9,8 +9,7 @@ from .network import Network, bodies_of
 from .row import Row
 from .springs import Spring
 
-HEAVY = 2.5  # times the lightest ball at a contact
-CALM = 0.5  # 1/s, in units of the world, by the square of that ratio: passes may leave this speed
+CALM = 0.5  # 1/s, in units of the world, by a squared ratio of masses; passes may leave this speed
 STEEPEST = 1000.0  # a larger ratio counts as this, or rounding would decide what presses
 FAR = 0.5  # radii; where a ball moves by more in a substep, its contacts are other ones by then
 PUSHED = 0.1  # share by which a contact gives way, per ratio: many firm ones have no solution

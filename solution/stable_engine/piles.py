@@ -3,10 +3,11 @@
 from math import hypot, inf
 
 from .body import Body
-from .contact import Contact
+from .contact import RESTING_SPEED, Contact
 from .detection import Detection
 from .joint import Joint
-from .pile import HARDEST, HEAVY, SOFTEST, Load, Pile
+from .network import HEAVY
+from .pile import HARDEST, SOFTEST, Load, Pile
 from .springs import Spring
 from .unload import in_touch
 
@@ -16,7 +17,6 @@ LEANING = 0.1  # a sine; a tower leans less
 SUNK = 0.01  # in units of the world; a contact that gives way by less sinks too little to be seen
 BEARING = 0.05  # weights of its effective mass; a contact with less bears nothing
 TIED = 0.005  # of both radii; rods take over what a push of balls that overlap by more leaves
-RESTING = 30.0  # 1/s, in units of the world; a ball that bounces faster is left to impacts
 MOST_ROWS = 128  # contacts and rods of a pile; a larger one is left to passes
 WEDGED = 0.9  # cosine; a ball between faces that turn less is pressed as by a heavier one
 PARALLEL = 1 - 1e-9  # cosine, of faces that are one
@@ -140,7 +140,7 @@ def find_firsts(
     """Return the places of contacts that make a pile: much presses there, and does not bounce."""
     firsts: list[int] = []
     for place, (c, ratio) in enumerate(zip(contacts, ratios, strict=True)):
-        fast = RESTING * unit if c.e else inf
+        fast = RESTING_SPEED * unit if c.e else inf
         closing = c.closing_speed()
         if closing < fast and (c in tied or (ratio > HEAVY and closing > -fast)):
             firsts.append(place)
