@@ -9,7 +9,7 @@ from .crowd import gather_crowd, part_crowd
 from .detection import REDETECT_DISTANCE, Detection, OnHit, OnPart
 from .effect import Direction
 from .order import Group, give_places, put_in_order
-from .pile import Pile, Stage
+from .pile import Pile, Target
 from .piles import BEARING, find_piles
 from .soft import Pace, softness
 from .unload import take_off
@@ -38,7 +38,7 @@ class Contacts(Detection):
 
     __slots__ = (
         *("beginnings", "has_friction", "is_mirrored", "max_push_speed", "pace", "piles", "round"),
-        *("cores", "stage"),
+        *("cores", "target"),
     )
     rank = 3
 
@@ -48,7 +48,7 @@ class Contacts(Detection):
         self.beginnings = 0.0  # in how many steps any contact has begun
         self.is_mirrored = False  # whether contacts may have the same place in the order
         self.piles: list[Pile] = []  # with heavy bodies
-        self.stage = Stage(0.0, 0.0, 0.0)  # of the substep, if there are piles
+        self.target = Target(0.0, 0.0, 0.0)  # of the substep, if there are piles
         self.has_friction = False  # whether Friction settles piles after its own pass
         self.pace = Pace(STIFFENING)
 
@@ -146,13 +146,13 @@ class Contacts(Detection):
                 tie.solve(self.push, group, h)
         if self.piles:
             rates = self.balls.bias_rate, self.statics.bias_rate
-            self.stage = Stage(h, self.max_push_speed, self.touching_gap / 2, rates)
+            self.target = Target(h, self.max_push_speed, self.touching_gap / 2, rates)
             self.settle()
 
     def settle(self) -> None:
         """Solve piles for what passes have left, of contacts or of friction."""
         for pile in self.piles:
-            pile.settle(self.stage)
+            pile.settle(self.target)
 
     def push(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Push overlapping bodies apart, and stop those that would overlap after the move."""
@@ -192,10 +192,10 @@ class Contacts(Detection):
             for tie in group.ties:
                 tie.solve(self.stop, group, h)
         if self.piles:
-            self.stage = Stage(h, self.max_push_speed, self.touching_gap / 2)
+            self.target = Target(h, self.max_push_speed, self.touching_gap / 2)
             for pile in self.piles:
                 if pile.rods or not self.has_friction:  # else friction settles it
-                    pile.settle(self.stage)
+                    pile.settle(self.target)
 
     def stop(self, group: Group, contacts: list[Contact], h: float) -> None:
         """Stop bodies that still come together, and take back the speed of a push."""

@@ -19,8 +19,8 @@ HARDEST = 1e-6  # the least of both, and all in a tower, where firm ones do have
 RELAXED = 1e-3  # of that share, what is left after the move
 
 
-class Stage:
-    """What contacts aim at: before the move to part at the rates of their bias, then to stop."""
+class Target:
+    """The target of contacts: before the move to part at the rates of their bias, then to stop."""
 
     __slots__ = ("ball_rate", "h", "has_moved", "least", "most", "static_rate")
 
@@ -45,19 +45,19 @@ class Load(LimitedRow):
         self.give = 0.0  # the share that it gives way
         self.pressed = -1.0  # kg px/s, beside rods its impulse before the move
 
-    def aim(self, stage: Stage) -> None:
+    def aim(self, target: Target) -> None:
         """Set rhs to the speed (px/s) that the bodies lack, and the pivot."""
         c, a, b = self.c, self.end_a, self.end_b
         speed = (b.vx - a.vx) * self.nx + (b.vy - a.vy) * self.ny
         gap = (b.x - a.x) * self.nx + (b.y - a.y) * self.ny - c.reach
-        rate = stage.ball_rate if b.inv_mass else stage.static_rate
-        give = self.give * RELAXED if stage.has_moved else self.give
+        rate = target.ball_rate if b.inv_mass else target.static_rate
+        give = self.give * RELAXED if target.has_moved else self.give
         self.pivot = (1 + give) / c.mn
         presses = c.jn > 0 if self.pressed < 0 else self.pressed > 0
-        if gap > stage.least and not (stage.has_moved and presses):
-            self.rhs = -speed - gap / stage.h
+        if gap > target.least and not (target.has_moved and presses):
+            self.rhs = -speed - gap / target.h
         else:
-            push = max(rate * gap, -stage.most)
+            push = max(rate * gap, -target.most)
             self.rhs = -speed - push - give * c.jn / c.mn
 
     def take(self, j: float) -> None:
@@ -74,7 +74,7 @@ class Pile:
 
     __slots__ = (
         *("bodies", "calm", "is_wild", "lengths", "loads", "network", "rods", "rows", "springs"),
-        *("stage", "turning"),
+        *("target", "turning"),
     )
 
     def __init__(self, loads: list[Load], joints: list[Joint], unit: float, softest: float) -> None:
@@ -119,17 +119,17 @@ class Pile:
         for load in self.loads if self.rods else []:
             lower(load.c, min(load.c.last, load.pressed))
 
-    def settle(self, stage: Stage) -> None:
+    def settle(self, target: Target) -> None:
         """Solve for all impulses, if a pass has left more than a calm speed."""
         if self.is_wild:
             return
-        self.stage = stage
+        self.target = target
         for load in self.loads:
             load.follow()
         lack = self.lack()
         if lack > self.calm:
             self.press(lack)
-        for load in self.loads if self.rods and not stage.has_moved else []:
+        for load in self.loads if self.rods and not target.has_moved else []:
             load.pressed = load.c.jn
 
     def lack(self) -> float:
@@ -147,15 +147,15 @@ class Pile:
             self.network = Network(self.rows)
         for load in self.loads:
             load.total = load.c.jn
-        is_sure = self.stage.has_moved or not self.rods
+        is_sure = self.target.has_moved or not self.rods
         accepts = None if is_sure else lambda: self.lack() <= lack
         solve_within(self.network, self.loads, self.aim, self.calm, accepts)
 
     def aim(self) -> None:
         """Set each row's pivot and rhs."""
-        h, has_moved = self.stage.h, self.stage.has_moved
+        h, has_moved = self.target.h, self.target.has_moved
         for load in self.loads:
-            load.aim(self.stage)
+            load.aim(self.target)
         for rod, length in zip(self.rods, self.lengths, strict=True):
             rod.ask(0.0 if has_moved else rod.speed() + (length - length_after(rod, h)) / h)
         for spring in self.springs:
