@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 from .body import Body
 from .network import HEAVY, Network
-from .rod import Rod
 from .row import FIRM
 from .soft import SAME_DIRECTION
 
 if TYPE_CHECKING:
+    from .rods import Rod
     from .world import World
 
 PASSES = 6  # of Newton's method: a length is no linear function of the speeds
