@@ -48,9 +48,10 @@ class Frame:
         self.is_uneven = self.heaviest > HEAVY * self.lightest
         is_braced = len(self.rods) > 2 * len(ends) - 3  # by more rods than keep its shape
         self.load = self.mass if is_braced else self.heaviest  # kg, that presses where it touches
-        self.most = -1.0  # kg px²/s², the maximum of its energy, or -1 for none
-        self.lost = 0.0  # kg px²/s², lost while it turned fast; it may gain it again
-        self.work = 0.0  # kg px²/s², the work of its firm rods in this substep
+        # twice the energies, in kg px²/s²
+        self.limit = -1.0  # of what it may have after this substep, or -1 for none
+        self.lost = 0.0  # what it lost while it turned fast; it may gain it again
+        self.work = 0.0  # what its rods added before the move
         self.parts = 1  # into which the substep before was cut, if masses differ much
         self.is_off = False  # whether a rod was torn or hit before this substep
         self.gave_way = False  # whether its rods may take energy in this substep
@@ -143,19 +144,17 @@ class Frame:
         """
         before = [(ball, (ball.x, ball.y), (ball.vx, ball.vy)) for ball in self.balls]
         impulses = [rod.j for rod in self.rods]
-        for rod in self.rods:
-            rod.apply_impulse(-rod.j)
-            rod.j = 0.0
+        self.return_to([0.0] * len(self.rods))
         self.fall(-h / 2)
         self.hold()
-        energy = self.energy() - self.fallen()
+        energy = self.twice_energy() + self.twice_potential()
         most = MOST_PARTS
         if self.is_uneven and not self.flies_past(h):
             most = max(most, MOST_WORK // len(self.rods))
         count, done = PARTS, 0  # equal parts done so far
         while done < count <= most:
             if self.move_on(h / count, bias, SLOW if 2 * count <= most else 1.0):
-                self.scale_speeds(energy + self.fallen())
+                self.scale_speeds(energy - self.twice_potential())
                 done += 1
             else:
                 count, done = 2 * count, 2 * done
@@ -209,15 +208,13 @@ class Frame:
         momentum_x = sum([ball.m * ball.vx for ball in self.balls])
         return momentum_x / self.mass, sum([ball.m * ball.vy for ball in self.balls]) / self.mass
 
-    def fallen(self) -> float:
-        """Return twice the energy (kg px²/s²) from gravity, up to a constant."""
+    def twice_potential(self) -> float:
+        """Return twice the potential energy (kg px²/s²), 0 if all fall together."""
         gx, gy = self.world.g
-        if not self.hangs:
-            return 0.0
-        return sum([2 * b.m * (gx * b.x + gy * b.y) for b in self.balls])
+        return -sum([2 * b.m * (gx * b.x + gy * b.y) for b in self.balls]) if self.hangs else 0.0
 
     def scale_speeds(self, wanted: float) -> None:
-        """Scale the speeds about the centre of mass until twice their energy is `wanted`.
+        """Scale the speeds about the centre of mass until twice_energy is `wanted` (kg px²/s²).
 
         A frame that flies freely keeps its spin, and so its angular momentum: the rest is scaled.
         """
@@ -241,13 +238,13 @@ class Frame:
         inertia = sum([b.m * squares(b.x - x, b.y - y) for b in self.balls])
         return x, y, turn / inertia if inertia else 0.0
 
-    def energy(self) -> float:
-        """Return twice the balls' energy (kg px²/s²), relative to the centre of mass."""
+    def twice_energy(self) -> float:
+        """Return twice the kinetic energy (kg px²/s²), relative to the centre of mass."""
         vx, vy = self.velocity()
         return sum([b.m * squares(b.vx - vx, b.vy - vy) for b in self.balls])
 
-    def energy_before(self, h: float) -> float:
-        """Return the energy that the balls had before the rods acted in this substep.
+    def twice_energy_before(self, h: float) -> float:
+        """Return twice the energy (kg px²/s²) before the rods acted in this substep.
 
         Also note whether any rod has the wrong length, or would have without impulses: a rod that
         was torn or hit takes energy.
@@ -258,31 +255,31 @@ class Frame:
         for rod in self.rods:
             off = abs(rod.distance - rod.rest) + abs(rod.speed()) * h
             self.is_off = self.is_off or off > LOOSE * rod.rest
-        energy = self.energy()
+        energy = self.twice_energy()
         for rod in self.rods:
             rod.apply_impulse(rod.j)
         return energy
 
-    def keep_energy(self) -> None:
-        """Make soft rods do no work in a substep.
+    def keep_energy(self, unchanged: float) -> None:
+        """Scale speeds so that rods do no work: twice the energy is then `unchanged` (kg px²/s²).
 
-        Some may take energy, see energy_before. The balls never gain any.
+        Some rods may take energy, see twice_energy_before. The balls never gain any.
         """
-        energy = self.energy()
-        most = self.most + self.lost
-        wanted = min(energy if self.gave_way else max(-self.work, 0.0), most)
+        most = self.limit + self.lost
+        wanted = min(self.twice_energy() if self.gave_way else max(unchanged, 0.0), most)
         self.lost = most - wanted
         self.scale_speeds(wanted)
-        self.most = -1.0
+        self.limit = -1.0
 
     def is_whole(self) -> bool:
         """Return whether all rods have nearly the right length."""
         return all([abs(rod.distance - rod.rest) < TORN * rod.rest for rod in self.rods])
 
     def give_way(self, h: float, bias: float, soft: float) -> None:
-        """Choose velocities for a frame that is torn, or turns far in a substep while touching.
+        """Choose velocities for a frame that cannot go in parts.
 
-        It is soft if it turns too far for Newton's method; its rods do no work.
+        It is torn, would need too many parts, or hangs on bodies of different velocities. It is
+        soft if it turns too far for Newton's method. Its rods do no work.
         """
         is_soft = False
         for left in range(PASSES - 1, -1, -1):
@@ -290,8 +287,8 @@ class Frame:
             if off <= EXACT:
                 break
             is_soft = turned < LOST or (left == 0 and off > LOOSE)
-            if self.most < 0 and (is_soft or turned < GUARDED):
-                self.most = self.energy_before(h)
+            if self.limit < 0 and (is_soft or turned < GUARDED):
+                self.limit = self.twice_energy_before(h)
             if is_soft:
                 give = 2 * (soft - 1) / self.heaviest
                 for rod in self.rods:
@@ -302,9 +299,9 @@ class Frame:
                 rod.j += rod.rhs
             if is_soft or off < NEAR:
                 break
-        if self.most >= 0:
+        if self.limit >= 0:
             self.gave_way = is_soft or self.is_off
-            self.work = self.energy() - self.most
+            self.work = self.twice_energy() - self.limit
 
     def look_ahead(self, h: float, bias: float) -> tuple[float, float]:
         """Set the changes of speed that keep each rod's length in the move to come.
@@ -378,13 +375,13 @@ class Frame:
             self.end_parts(h)
         for rod in self.rods:
             rod.ask(0.0)
-        if self.most < 0:
+        if self.limit < 0:
             self.apply()
             self.lost = 0.0
         else:
-            self.work -= self.energy()
+            unchanged = self.twice_energy() - self.work
             self.apply()
-            self.keep_energy()
+            self.keep_energy(unchanged)
         for rod in self.rods:
             rod.given += rod.rhs
 
