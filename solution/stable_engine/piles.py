@@ -105,16 +105,19 @@ def collect_piles(
         return []
     count = len(contacts)
     ends = [(c.a, c.b) for c in contacts] + [(joint.end_a, joint.end_b) for joint in joints]
-    beside = places_at(ends)
+    beside: dict[Body, list[int]] = {}  # the places of each ball
+    for place, both in enumerate(ends):
+        for body in both:
+            if body.inv_mass:
+                beside.setdefault(body, []).append(place)
     piles: list[Pile] = []
     seen: set[int] = set()
     for first in firsts:
-        if first not in seen:
-            places = sorted(places_from(ends[first], ends, beside))
-            seen.update(places)
+        places = places_from(first, ends, beside, seen)
+        if len(places) > 1:
             rows = [Load(contacts[at], ratios[at]) for at in places if at < count]
             held = [joints[at - count] for at in places if at >= count]
-            if 1 < len(places) <= MOST_ROWS and not is_clamped(rows):
+            if not is_clamped(rows):
                 piles.append(Pile(rows, held, unit, SOFTEST))
     return piles
 
@@ -197,25 +200,17 @@ def ratio_of(c: Contact, loads: dict[Body, float]) -> float:
     return max(c.ratio, most / min(c.a.m, c.b.m or c.a.m)) if most else c.ratio
 
 
-def places_at(ends: list[tuple[Body, Body]]) -> dict[Body, list[int]]:
-    """Return the places of each ball's contacts and rods, in the list of their ends."""
-    beside: dict[Body, list[int]] = {}
-    for place, (a, b) in enumerate(ends):
-        if a.inv_mass:
-            beside.setdefault(a, []).append(place)
-        if b.inv_mass:
-            beside.setdefault(b, []).append(place)
-    return beside
-
-
 def places_from(
-    both: tuple[Body, Body], ends: list[tuple[Body, Body]], beside: dict[Body, list[int]]
-) -> set[int]:
-    """Return the places of all that balls connect to these two bodies, or more than MOST_ROWS."""
+    first: int, ends: list[tuple[Body, Body]], beside: dict[Body, list[int]], seen: set[int]
+) -> list[int]:
+    """Return the places of all that balls connect to the first one, and note them as seen.
+
+    Return none if they are more than MOST_ROWS, or if one was seen before.
+    """
     found: set[int] = set()
-    ahead = set(both)
-    while ahead and len(found) <= MOST_ROWS:
-        new = {place for body in ahead for place in beside.get(body, [])} - found
+    new = {first}
+    while new and len(found) <= MOST_ROWS and new.isdisjoint(seen):
         found |= new
-        ahead = {body for place in new for body in ends[place]}
-    return found
+        new = {at for place in new for body in ends[place] for at in beside.get(body, [])} - found
+    seen.update(found)
+    return [] if new or len(found) > MOST_ROWS else sorted(found)
