@@ -5,6 +5,7 @@ from math import copysign, cos, sin, sqrt
 from pygame import Vector2
 
 from .body import Body
+from .row import Row
 from .shapes import Segment
 from .soft import SAME_DIRECTION
 
@@ -97,12 +98,7 @@ class Contact:
 
     def push_apart(self, j: float) -> None:
         """Push A and B apart with an impulse j (kg px/s) along the normal."""
-        a, b = self.a, self.b
-        px, py = self.nx * j, self.ny * j
-        a.vx -= px * a.inv_mass
-        a.vy -= py * a.inv_mass
-        b.vx += px * b.inv_mass
-        b.vy += py * b.inv_mass
+        Row(self.a, self.b, self.nx, self.ny).apply_impulse(j)
 
 
 def collide(a: Body, b: Body) -> tuple[float, float, float]:
