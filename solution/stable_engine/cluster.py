@@ -56,8 +56,10 @@ class Cluster:
 
     def twice_potential(self) -> float:
         """Return twice the potential energy (kg px²/s²), 0 if all fall together."""
+        if not self.hangs:
+            return 0.0
         gx, gy = self.world.g
-        return -sum([2 * b.m * (gx * b.x + gy * b.y) for b in self.balls]) if self.hangs else 0.0
+        return -sum([2 * b.m * (gx * b.x + gy * b.y) for b in self.balls])
 
     def scale_speeds(self, wanted: float) -> None:
         """Scale the speeds about the centre of mass until twice_energy is `wanted` (kg px²/s²).
