@@ -113,21 +113,23 @@ class Joints(Effect, Generic[AnyJoint]):
         self.joints.remove(joint)
         self.awake_changed()
 
+    def joints_at(self, body: Body) -> list[AnyJoint]:
+        """Return the joints that have this body at an end."""
+        return [joint for joint in self.joints if body in (joint.end_a, joint.end_b)]
+
     def forget(self, body: Body) -> None:
-        for joint in [joint for joint in self.joints if body in (joint.end_a, joint.end_b)]:
+        for joint in self.joints_at(body):
             self.world.remove(joint)
 
     def body_changed(self, body: Body) -> None:
-        for joint in self.joints:
-            if body in (joint.end_a, joint.end_b):
-                joint.weigh()
+        for joint in self.joints_at(body):
+            joint.weigh()
         self.is_stale = True
 
     def static_moved(self, body: Body) -> None:
-        for joint in self.joints:
-            if body in (joint.end_a, joint.end_b):
-                joint.end_a.wake()
-                joint.end_b.wake()
+        for joint in self.joints_at(body):
+            joint.end_a.wake()
+            joint.end_b.wake()
 
     def is_used(self) -> bool:
         return bool(self.joints)

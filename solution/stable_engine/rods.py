@@ -68,9 +68,8 @@ class Rods(Joints[Rod]):
 
     def body_changed(self, body: Body) -> None:
         super().body_changed(body)
-        for rod in self.joints:
-            if body in (rod.a, rod.b):
-                self.world.call("let_touch", rod.a, rod.b, rod.may_touch())
+        for rod in self.joints_at(body):
+            self.world.call("let_touch", rod.a, rod.b, rod.may_touch())
 
     def prepare(self, h: float) -> None:
         self.spring = softness(FREQUENCY / self.pace.follow(h), DAMPING_RATIO, h)
