@@ -44,7 +44,6 @@ class Frame(Cluster):
         self.limit = -1.0  # of what it may have after this substep, or -1 for none
         self.lost = 0.0  # what it lost while it turned fast; it may gain it again
         self.work = 0.0  # what its rods added before the move
-        self.is_off = False  # whether a rod was torn or hit before this substep
         self.gave_way = False  # whether its rods may take energy in this substep
 
     def keep_lengths(self, h: float, bias: float, soft: float) -> None:
@@ -133,14 +132,14 @@ class Frame(Cluster):
         It is torn, would need too many parts, or hangs on bodies of different velocities. It is
         soft if it turns too far for Newton's method. Its rods do no work.
         """
-        is_soft = False
+        is_soft = is_off = False
         for left in range(PASSES - 1, -1, -1):
             off, turned = self.look_ahead(h, bias)
             if off <= EXACT:
                 break
             is_soft = turned < LOST or (left == 0 and off > LOOSE)
             if self.limit < 0 and (is_soft or turned < GUARDED):
-                self.limit = self.twice_energy_before(h)
+                self.limit, is_off = self.look_back(h)
             if is_soft:
                 give = 2 * (soft - 1) / self.heaviest
                 for rod in self.rods:
@@ -152,25 +151,22 @@ class Frame(Cluster):
             if is_soft or off < NEAR:
                 break
         if self.limit >= 0:
-            self.gave_way = is_soft or self.is_off
+            self.gave_way = is_soft or is_off
             self.work = self.twice_energy() - self.limit
 
-    def twice_energy_before(self, h: float) -> float:
+    def look_back(self, h: float) -> tuple[float, bool]:
         """Return twice the energy (kg px²/s²) before the rods acted in this substep.
 
-        Also note whether any rod has the wrong length, or would have without impulses: a rod that
+        Also return whether any rod has the wrong length, or would have without impulses: a rod that
         was torn or hit takes energy.
         """
-        self.is_off = False
         for rod in self.rods:
             rod.apply_impulse(-rod.j)
-        for rod in self.rods:
-            off = abs(rod.distance - rod.rest) + abs(rod.speed()) * h
-            self.is_off = self.is_off or off > LOOSE * rod.rest
+        errors = [(abs(r.distance - r.rest) + abs(r.speed()) * h, r.rest) for r in self.rods]
         energy = self.twice_energy()
         for rod in self.rods:
             rod.apply_impulse(rod.j)
-        return energy
+        return energy, any([off > LOOSE * length for off, length in errors])
 
     def hold(self) -> None:
         """Remove all speed along the rods, at this instant."""
@@ -214,7 +210,7 @@ class Frame(Cluster):
     def keep_energy(self, unchanged: float) -> None:
         """Scale speeds so that rods do no work: twice the energy is then `unchanged` (kg px²/s²).
 
-        Some rods may take energy, see twice_energy_before. The balls never gain any.
+        Some rods may take energy, see look_back. The balls never gain any.
         """
         most = self.limit + self.lost
         wanted = min(self.twice_energy() if self.gave_way else max(unchanged, 0.0), most)

@@ -79,19 +79,17 @@ def solve_between(
 
     Return False, and take none, if any would be more than `most` (kg px/s).
     """
-    for row in limited:
-        if row.at:
-            j = row.excess()
-            taken[row] += j
-            row.take(j)
+    fixed = [row for row in limited if row.at]
+    for row in fixed:
+        j = row.excess()
+        taken[row] += j
+        row.take(j)
     aim()
-    for row in limited:
-        if row.at:
-            row.pivot, row.rhs = FREE, 0.0
+    for row in fixed:
+        row.pivot, row.rhs = FREE, 0.0
     network.solve()
-    for row in limited:
-        if row.at:
-            row.rhs = 0.0
+    for row in fixed:
+        row.rhs = 0.0
     if not all([abs(one.rhs) <= most for one in network.rows]):
         return False
     for one in network.rows:
