@@ -20,6 +20,7 @@ SUBSTEP_DAMPING = 2.5  # ratio, per substep of a step: see Contacts.prepare
 STIFFENING = 0.07  # of a substep, per step
 # lengths are in units of the world, see World.unit
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
+LEFT_BEHIND = 0.1  # of the speed of a body that recedes; slower balls stay behind
 
 
 class Contacts(Detection):
@@ -247,6 +248,20 @@ class Contacts(Detection):
         """
         impulses = {body: force * self.h for body, force in lost.items()}
         take_off(self.all_contacts(), impulses, direction)
+
+    def static_moved(self, body: Body) -> None:
+        """Unload balls from which a static body recedes: the impulses kept would pull them along.
+
+        Gravity lets balls follow a lift.
+        """
+        super().static_moved(body)
+        (gx, gy), dt = self.world.g, self.h * self.world.substep_count
+        for c in self.of_body(body) if body.vx or body.vy else []:
+            away = body.vx * c.nx + body.vy * c.ny
+            follows = max(gx * c.nx + gy * c.ny, 0.0) * dt
+            if c.jn and c.closing_speed() + follows < -away * LEFT_BEHIND < 0:
+                impulse, c.jn, c.jt = c.jn, 0.0, 0.0
+                take_off(self.all_contacts(), {c.a: impulse}, (-c.nx, -c.ny))
 
     def awake_changed(self) -> None:
         super().awake_changed()

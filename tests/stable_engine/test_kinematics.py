@@ -69,6 +69,28 @@ def test_a_peg_that_moves_takes_its_rod_along():
     assert math.dist(peg.pos, bob.pos) == pytest.approx(80, rel=1e-6)
 
 
+@pytest.mark.parametrize(("speed", "gain"), [(60, 60), (400, 400), (1000, 1000), (400, 15)])
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_a_press_that_goes_up_pulls_no_ball_along(count, speed, gain):
+    """It squeezes balls on the floor for a second, and then gains speed by so much a step.
+
+    Nothing pulls the balls: they rise no higher than to where they just touch each other.
+    """
+    world = World(effects=make(["Contacts", "Friction", "Bounce", "Kinematics"]))
+    world.add(Body(Box((300, 50)), (0, 50)))
+    tops = [-R * (2 * i + 1) for i in range(count)]
+    balls = [world.add(Body(Circle(R), (0, y), mass=1)) for y in tops]
+    press = world.add(Body(Box((60, 10)), (0, -2 * R * count - 10), kinematic=True))
+    press.vel = (0, 60)
+    run(world, 1 / 30)  # 2 px
+    press.vel = (0, 0)
+    run(world, 1)
+    for step in range(60):
+        press.vel = (0, -min(gain * (step + 1), speed))
+        world.step(DT)
+        assert all(ball.y > y - 0.01 * R for ball, y in zip(balls, tops, strict=True))
+
+
 # ---------------------------------------------------------------- sleep
 
 
