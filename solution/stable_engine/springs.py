@@ -20,6 +20,10 @@ class Spring(Joint):
     """Pull or push a and b to `length` px apart, by default the initial distance.
 
     stiffness is force per px of stretch (kg/s²), damping is force per px/s (kg/s).
+
+    In a substep of h s, it is stiff if (omega h)² + rate h > 0.25: without damping, if omega h is
+    above 0.5. At both ends, omega² (1/s²) adds up the stiffness of all springs by the mass of the
+    end, and rate (1/s) their damping. A spring that is not stiff keeps its energy but for damping.
     """
 
     __slots__ = ("c", "crowd", "drag", "k", "pull", "rate", "tied", "vx", "vy")
@@ -112,8 +116,9 @@ class Sway(Row):
 class Springs(Joints[Spring]):
     """Springs as soft constraints, solved together: stable at any stiffness and damping.
 
-    A soft spring pulls by its present stretch, and keeps its energy. A stiff one would swing wider
-    and wider, so it pulls by its stretch after the move, which damps motion too fast for a substep.
+    A soft spring pulls by its present stretch, and keeps its energy. A stiff one, see Spring, would
+    swing wider and wider. So the stiffer it is, the more it pulls by its stretch after the move,
+    which damps motion too fast for a substep.
     Impulses add up over substeps, so that a chain hangs by Hooke's law.
 
     By its stretch alone, a spring swings too fast by (omega h)² / 24. So a twelfth of the
@@ -267,8 +272,12 @@ class Springs(Joints[Spring]):
 
 
 def share_before(turn2: float) -> float:
-    """Return the share of a pull that is by the stretch before the move; turn2 is in rad²."""
-    return 1 / (1 + turn2 * turn2 * turn2)
+    """Return the share of a pull that is by the stretch before the move; turn2 is in rad².
+
+    That is all of the pull of a soft spring: the rest takes energy.
+    """
+    over = max(turn2 - STIFF, 0.0)
+    return 1 / (1 + over * over * over)
 
 
 def part_after(lost: float) -> float:

@@ -212,6 +212,21 @@ def test_a_critically_damped_spring_passes_its_rest_by_no_hair(stiffness):
     assert min(path_of_a_pull(stiffness, 2 * math.sqrt(stiffness))) > -50 * 1e-4
 
 
+@pytest.mark.parametrize("turn", [0.2, 0.41, 0.49])
+@pytest.mark.parametrize("substeps", [1, 4])
+@pytest.mark.parametrize("effects", [(), TOUCH])
+def test_a_spring_that_is_not_stiff_keeps_its_swing(effects, substeps, turn):
+    """Two free balls swing by 10 px; `turn` (rad) is how far in a substep."""
+    omega = turn * substeps / DT
+    balls_apart = [Ball((0, 0), vel=(-5 * omega, 0)), Ball((100, 0), vel=(5 * omega, 0))]
+    spring = Spring(0, 1, omega * omega / 2, 0.0, 100.0)
+    scene = Scene(balls_apart, ("Springs", *effects), springs=[spring], gravity=(0, 0))
+    engine = Stable(scene, substeps)
+    a, b = balls(engine.world)
+    swings = watch(engine, 5, lambda: math.hypot(b.x - a.x - 100, (b.vx - a.vx) / omega))
+    assert all(swing == pytest.approx(10, rel=0.01) for swing in swings)
+
+
 # ---------------------------------------------------------------- velocities at the positions
 
 
