@@ -3,13 +3,13 @@
 from math import hypot, pi
 
 from .body import Body
-from .contact import Contact, turn_normals
+from .contact import RESTING_SPEED, Contact, turn_normals
 from .cores import Cores
 from .crowd import gather_crowd, part_crowd
 from .detection import REDETECT_DISTANCE, Detection, OnHit, OnPart
 from .effect import Direction
 from .order import Group, give_places, put_in_order
-from .pile import Pile, Target
+from .pile import Pile, Target, lower
 from .piles import BEARING, find_piles
 from .soft import Pace, softness
 from .unload import take_off
@@ -20,6 +20,8 @@ SUBSTEP_DAMPING = 2.5  # ratio, per substep of a step: see Contacts.prepare
 STIFFENING = 0.07  # of a substep, per step
 # lengths are in units of the world, see World.unit
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
+BORNE = 40.0  # weights of a ball; static bodies need no larger impulses beside what it carries
+HELD = 0.1  # of the normal impulse; with less, friction does not hold what is squeezed
 LEFT_BEHIND = 0.1  # of the speed of a body that recedes; slower balls stay behind
 
 
@@ -39,12 +41,13 @@ class Contacts(Detection):
 
     __slots__ = (
         *("beginnings", "has_friction", "is_mirrored", "max_push_speed", "pace", "piles", "round"),
-        *("cores", "target"),
+        *("cores", "squeezed", "target"),
     )
     rank = 3
 
     def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:
         super().__init__(on_hit, on_part)
+        self.squeezed: dict[Contact, float] = {}  # and the largest impulses they keep (kg px/s)
         self.round: list[Contact] = []  # those of two round bodies
         self.beginnings = 0.0  # in how many steps any contact has begun
         self.is_mirrored = False  # whether contacts may have the same place in the order
@@ -70,6 +73,7 @@ class Contacts(Detection):
         pace = self.pace.follow(h)
         if not (self.groups or self.piles or self.crowd):
             return
+        self.squeezed = self.find_squeezed(h)
         hertz = FREQUENCY / pace
         damping = max(LEAST_DAMPING, SUBSTEP_DAMPING * self.world.substep_count)
         for group in self.groups:
@@ -94,6 +98,23 @@ class Contacts(Detection):
             if c.mu:
                 c.set_arms(distance - a.r - b.r)
         self.piles = find_piles(self, self.piles, h)
+
+    def find_squeezed(self, h: float) -> dict[Contact, float]:
+        """Return contacts of balls with static bodies, and how much impulse they may keep.
+
+        Balls that static bodies squeeze and friction holds store more than anything bears. Once it
+        gives way, that would throw them. So a substep begins with some weights, and what others
+        press.
+        """
+        kept = max(RESTING_SPEED * self.world.unit, BORNE * hypot(*self.world.g) * h)  # px/s
+        large = [c for c in self.statics.contacts if c.jn > kept * c.mn]
+        large = [c for c in large if abs(c.jt) > HELD * c.jn and not c.a.joint_count]
+        most = {c.a: kept * c.mn for c in large}
+        for c in self.balls.contacts if large else []:
+            for body in (c.a, c.b):
+                if body in most:
+                    most[body] += c.jn
+        return {c: most[c.a] for c in large if c.jn > most[c.a]}
 
     def find_order(self) -> None:
         """Find the contacts solved in turn, with their order, and those solved at once.
@@ -123,6 +144,8 @@ class Contacts(Detection):
         """Apply both impulses of each contact: one pass costs less than one for each."""
         for pile in self.piles:
             pile.forget_impacts()
+        for c, most in self.squeezed.items():
+            lower(c, most)
         for group in self.groups:
             moves_b = group.moves_b
             for c in group.contacts:

@@ -3,7 +3,7 @@
 import math
 import random
 from collections import Counter
-from itertools import pairwise
+from itertools import pairwise, product
 
 import pytest
 from worlds_for_tests import make
@@ -223,6 +223,18 @@ def test_a_ball_squeezed_by_a_press_stays_where_it_is(mass):
     assert ball.vel.length() < 0.1
 
 
+def test_a_squeezed_ball_lies_as_deep_in_the_floor_as_in_the_press():
+    world = world_with_floor(("Contacts", "Friction", "Kinematics"))
+    ball = add_ball(world, 0, -RADIUS, 1.0)
+    press = world.add(Body(Box((40, 8)), (0, -2 * RADIUS - 8), kinematic=True))
+    press.vel = (0, 60)
+    for step, _ in enumerate(steps(world, 2)):
+        if step == 3:
+            press.vel = (0, 0)
+    squeezed = press.y + 8 + 2 * RADIUS
+    assert ball.y == pytest.approx(-RADIUS + squeezed / 2, abs=0.05)
+
+
 @pytest.mark.parametrize("seed", [17, 88, 130])
 def test_a_press_throws_no_ball_away(seed):
     """What it squeezes leaves at about its speed by the tangent of an angle: 1e4 px/s is much."""
@@ -240,6 +252,30 @@ def test_a_press_throws_no_ball_away(seed):
     for _ in range(int(90 / speed / dt)):
         world.step(dt)
         assert max(ball.vel.length() for ball in pressed) < 1e4
+
+
+@pytest.mark.parametrize("friction", [0.3, 0.5, 0.6])
+@pytest.mark.parametrize("pairs", [1, 2, 3])
+def test_balls_that_a_circle_is_wedged_between_are_not_shot_away(pairs, friction):
+    """A program sets its position, 100 px/s down to the floor.
+
+    No ball leaves faster than the circle comes, times the slope at which it first meets two balls.
+    """
+    half, peg = 11.0, 18.0
+    fast = 100 * math.sqrt((peg + RADIUS) ** 2 - half**2) / half
+    for fps, substeps in product((60, 120, 240), (1, 4, 8)):
+        world = World((0, G), substeps, make(("Contacts", "Friction")))
+        world.add(Body(Box((900, 20)), (0, 20), friction=friction))
+        circle = world.add(Body(Circle(peg), (0, -100), friction=friction))
+        places = [side * (half + 21 * i) for i in range(pairs) for side in (-1, 1)]
+        balls = [add_ball(world, x, -RADIUS, 1.0) for x in places]
+        for ball in balls:
+            ball.friction = friction
+        for _ in range(3 * fps // 2):
+            if circle.y < -peg - 1:
+                circle.pos += (0, 100 / fps)
+            world.step(1 / fps)
+            assert max(ball.vel.length() for ball in balls) < fast
 
 
 def make_bin(half, names):
