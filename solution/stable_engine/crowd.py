@@ -62,5 +62,7 @@ def part_crowd(groups: list[Group], crowd: Crowd, most: float) -> float:
                 b.x, b.y = b.x + dx * b.inv_mass, b.y + dy * b.inv_mass
                 a.vx, a.vy = a.vx - dvx * a.inv_mass, a.vy - dvy * a.inv_mass
                 b.vx, b.vy = b.vx + dvx * b.inv_mass, b.vy + dvy * b.inv_mass
-                a.still = b.still = 0.0
+                for body in (a, b):
+                    if body.has_moved:  # what is jammed may sleep
+                        body.still = 0.0
     return deepest

@@ -1,6 +1,7 @@
 """Test when islands fall asleep, and the events that wake them."""
 
 import math
+from itertools import pairwise
 
 import pytest
 from worlds_for_tests import balls, build
@@ -59,6 +60,29 @@ def test_a_pile_falls_asleep(scene, effects):
     for body in scene.bodies:
         body.restitution = 0.3
     asleep(build(scene, *effects, "Sleep"))
+
+
+@pytest.mark.parametrize("count", [1, 2, 4])
+def test_a_jam_that_cannot_part_falls_asleep(count):
+    """Each ball lacks a quarter of its width. Once a wall is gone, they part and get no speed."""
+    world = World((0, 980), effects=[Contacts(), Friction(), Sleep()])
+    world.add(Body(Box((500, 20)), (0, 20)))
+    walls = [world.add(Body(Box((20, 50)), (x, -50))) for x in (-20, 15 * count + 20)]
+    row = [world.add(Body(Circle(10), (7.5 + 15 * i, -10), mass=1)) for i in range(count)]
+    asleep(world, most=2)
+    world.remove(walls[1])
+    fast = watch(world, 2, lambda: max(ball.vel.length() for ball in row))
+    assert max(fast) < 0.5
+    assert row[0].x > 10 - 0.01
+    assert all(b.x - a.x > 20 - 0.01 for a, b in pairwise(row))
+
+
+def test_balls_that_still_part_stay_awake():
+    world = World((0, 980), effects=[Contacts(), Friction(), Sleep()])
+    world.add(Body(Box((500, 20)), (0, 20)))
+    row = [world.add(Body(Circle(10), (1e-3 * i, -10), mass=1)) for i in range(8)]
+    asleep(world)
+    assert all(b.x - a.x > 20 - 0.01 for a, b in pairwise(sorted(row, key=lambda b: b.x)))
 
 
 def test_a_tower_wakes_as_calm_as_it_fell_asleep():
