@@ -1,7 +1,7 @@
 """Find contacts: which bodies touch, and since when (the near pairs are in broad_phase.py)."""
 
 from collections.abc import Callable
-from math import inf, sqrt
+from math import hypot, inf, sqrt
 
 from .body import Body, State
 from .bounds import Pair
@@ -273,8 +273,12 @@ class Detection(Effect):
                 self.news.append((c.a, c.b, None))
 
     def have_passed(self, a: Body, b: Body, gap: float) -> bool:
-        """Return whether two free balls have touched on their way here and passed each other."""
-        if a.joint_count or b.joint_count or not b.r:
+        """Return whether two balls have touched on their way here and passed each other.
+
+        That is known of balls that flew straight, or almost so with joints.
+        """
+        has_joint = a.joint_count or b.joint_count
+        if not b.r or (has_joint and (self.is_led_far(a) or self.is_led_far(b))):
             return False
         if self.late and (a in self.late or b in self.late):
             return self.look_back_late(a, b)[0] > 0
@@ -284,6 +288,20 @@ class Detection(Effect):
         if way <= gap or way <= FAR * (a.r + b.r):
             return False
         return moment_of_touch(a, b, seconds)[0] > 0
+
+    def is_led_far(self, body: Body) -> bool:
+        """Return whether rods or stiff springs may lead a ball by more than its radius in a step.
+
+        The common velocity of a frame of rods does not count.
+        """
+        x = y = 0.0
+        if not body.joint_count:
+            return False
+        if self.rods and self.rods.holds(body):
+            x, y = self.rods.frame_of[body].velocity()
+        elif self.springs and not self.springs.has_stiff(body, self.h):
+            return False
+        return hypot(body.vx - x, body.vy - y) * self.last_dt > body.r
 
     def way_left(self, body: Body) -> float:
         """Return how far (px) a ball would have flown on, had no wall stopped it."""

@@ -29,7 +29,6 @@ class Flight:
         self.world = contacts.world
         self.h = h  # s, of a substep
         self.slow = slow  # px/s, slower impacts are ignored
-        self.dt = contacts.last_dt  # s, of the step in which balls touched
         self.held: set[Body] = set()  # balls at static bodies that cannot go back
         # balls that a wall stopped: where they would be, and how much later (s)
         self.cut_short: dict[Body, tuple[State, float]] = {}
@@ -59,17 +58,6 @@ class Flight:
         self.changes: list[tuple[Body, list[float]]] = []  # of the states of partners
         self.time = 0.0  # s, where all these are, after the end of the step
         self.is_simple = not (self.springs_of or self.world.forces)  # whether only gravity pulls
-
-    def swings(self, body: Body) -> bool:
-        """Return whether a ball may not have flown freely: on a stiff spring, or fast on a rod."""
-        if not body.joint_count:
-            return False
-        return body in self.stiff or (body in self.frame_of and self.turns_far(body))
-
-    def turns_far(self, body: Body) -> bool:
-        """Return whether a ball's rods take it by more than its radius in a step."""
-        x, y = self.frame_of[body].velocity()
-        return hypot(body.vx - x, body.vy - y) * self.dt > body.r
 
     def can_all_go_back(self, bodies: list[Body]) -> bool:
         """Return whether balls can be moved back to a touch, with all that hangs on their rods."""

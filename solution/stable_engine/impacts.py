@@ -247,7 +247,8 @@ class Impacts:
             hit = self.resolve_alone(group[0], ago)
         else:
             hit = balls_of(group)
-            if not self.flight.can_all_go_back(hit):
+            if ago > 0 and not self.flight.can_all_go_back(hit):
+                self.return_passed(group, ago)
                 ago = 0.0
             if ago == 0:
                 self.put_back(hit)
@@ -261,6 +262,20 @@ class Impacts:
                 self.resolve(group, frames)
             self.look_around(hit, ago)
         self.meet_others(hit)
+
+    def return_passed(self, group: list[Contact], ago: float) -> None:
+        """Return balls to a touch, some seconds ago, if they have passed others that stay here."""
+        passed = []
+        for c in group:
+            nx, ny, _ = collide(c.a, c.b)
+            if c.b.inv_mass and (c.a.vx - c.b.vx) * nx + (c.a.vy - c.b.vy) * ny < 0:
+                passed.append(c)
+        for body in balls_of(passed):
+            if self.flight.can_all_go_back([body]):
+                self.flight.fly([body], -ago)
+                self.stops.pop(body, None)
+                for c in self.beside[body]:
+                    self.faces.look(c)
 
     def see_from_here(self, group: list[Contact]) -> None:
         """Take over present normals of balls on joints that stay here, but not if they differ much.

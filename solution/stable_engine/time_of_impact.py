@@ -37,7 +37,7 @@ class TimeOfImpact:
         frame = self.frame_of.get(c.a) if self.frame_of else None
         if frame and not frame.hangs and is_at_face(c) and self.flight.is_loose(frame, c.a):
             return self.time_on_arc(c, frame, since)
-        if self.flight.swings(c.a) or self.flight.swings(c.b):
+        if self.contacts.is_led_far(c.a) or self.contacts.is_led_far(c.b):
             return 0.0
         late = self.contacts.late
         if is_at_face(c):
