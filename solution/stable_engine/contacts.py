@@ -29,9 +29,10 @@ class Contacts(Detection):
     """Contacts found once per step and solved in every substep as soft constraints.
 
     on_hit(a, b, speed) is called at the end of a step for each pair that began to touch in it, with
-    the speed (px/s) at which the two met. on_part(a, b) is called for each pair that no longer
-    touches. `a` is a ball with mass, `b` any body. Both functions may add and remove
-    bodies, and can be set later on. Bodies that are removed do not part.
+    the speed (px/s) at which the two met: the earliest hit first. on_part(a, b) is called for each
+    pair that no longer touches, before other pairs that meet in the step. `a` is a ball with mass,
+    `b` any body. Both functions may add and remove bodies, and can be set later on. Bodies that are
+    removed do not part.
 
     Each stage solves contacts of static bodies last, so that these hold best. Where passes would
     leave much, all that balls connect is then solved together, see Pile: where a body is more than

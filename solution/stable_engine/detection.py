@@ -31,7 +31,7 @@ class Detection(Effect):
     """The part of Contacts that finds them, once per step, and tells the program of new ones."""
 
     __slots__ = (
-        *("on_hit", "on_part", "news", "touching", "begun", "renewed", "changed"),
+        *("on_hit", "on_part", "hits", "parted", "touching", "begun", "renewed", "changed"),
         *("lets_none_pass", "last_dt", "flying", "hit_ago", "stopped", "late", "ends"),
         *("broad_phase", "crowd", "beside_static", "landings", "rods", "balls", "statics"),
         *("groups", "unpaired", "ignored", "h", "touching_gap", "slow", "springs"),
@@ -44,8 +44,9 @@ class Detection(Effect):
         if on_part is not None and not callable(on_part):
             refuse("Contacts.on_part", on_part, "a function of two bodies, or None")
         self.on_hit, self.on_part = on_hit, on_part
-        # pairs that met in this step, with their speed (px/s), or parted, with None
-        self.news: list[tuple[Body, Body, float | None]] = []
+        # of pairs that met in this step: how long ago (s), and their speed (px/s)
+        self.hits: dict[Contact, tuple[float, float | None]] = {}
+        self.parted: dict[Contact, tuple[float, float | None]] = {}  # of pairs that parted
         self.touching: list[Contact] = []
         self.begun: list[Contact] = []  # contacts that are new in this step
         self.changed = False  # whether any contact was found anew, began or ended
@@ -88,8 +89,6 @@ class Detection(Effect):
             self.changed = True
             for pair in found:  # where nothing has moved as well
                 (pair.b if pair.a.idle else pair.a).has_moved = True
-            for one in phase.near:
-                one.body.touches = 0
             if self.landings.speeds:
                 self.landings.end()
             self.find_contacts(dt)
@@ -197,21 +196,27 @@ class Detection(Effect):
             if b.inv_mass and (gap < -a.r or gap < -b.r):
                 self.crowd.setdefault(c, False)
         self.touching, self.renewed = touching, [*self.renewed, *renewed]
-        balls = [c for c in touching if c.b.inv_mass]
-        for c in balls:
-            c.a.touches += 1
-            c.b.touches += 1
-        self.balls.contacts = balls
-        self.statics.contacts = [c for c in touching if not c.b.inv_mass]
         was_idle = not self.groups
-        self.groups = [group for group in (self.balls, self.statics) if group.contacts]
+        self.group_contacts()
+        if self.unpaired:
+            self.end_unpaired()
         if self.landings.pairs or self.landings.speeds:
             self.landings.foresee(dt)
         if (not self.groups) != was_idle:
             self.world.update_hooks()
         self.broad_phase.add_looks(len(self.broad_phase.pairs) - len(touching), dt)
-        if self.unpaired:
-            self.end_unpaired()
+
+    def group_contacts(self) -> None:
+        """Put contacts into their groups, and count those of balls with other balls."""
+        for one in self.broad_phase.near:
+            one.body.touches = 0
+        balls = [c for c in self.touching if c.b.inv_mass]
+        for c in balls:
+            c.a.touches += 1
+            c.b.touches += 1
+        self.balls.contacts = balls
+        self.statics.contacts = [c for c in self.touching if not c.b.inv_mass]
+        self.groups = [group for group in (self.balls, self.statics) if group.contacts]
 
     def make_contact(self, a: Body, b: Body, nx: float, ny: float) -> Contact:
         """Return a new contact with this normal, filled in by the other effects."""
@@ -224,20 +229,29 @@ class Detection(Effect):
             a.is_pressed = b.is_pressed = True
         return c
 
-    def note_hit(self, c: Contact) -> None:
-        """Note that two bodies began to touch, if the program asks for that."""
+    def note_hit(self, c: Contact, at: float = 0.0) -> None:
+        """Note that two bodies began to touch, `at` seconds ago or as they have flown."""
         if self.on_hit:
-            self.news.append((c.a, c.b, self.meeting_speed(c)))
+            self.hits.pop(c, None)  # hits of one moment are in the order of impacts
+            ago, speed = self.meeting_of(c)
+            self.hits[c] = at or ago, speed
 
-    def meeting_speed(self, c: Contact) -> float:
-        """Return the speed (px/s) at which A and B came together when they began to touch."""
+    def note_part(self, c: Contact) -> None:
+        """Note that two bodies parted, before other pairs met."""
+        if self.on_part and c not in self.landings.speeds:
+            self.parted[c] = inf, None
+            if c in self.hits:
+                self.hits[c] = inf, self.hits[c][1]
+
+    def meeting_of(self, c: Contact) -> tuple[float, float]:
+        """Return how long ago (s) A and B began to touch, and how fast (px/s) they did."""
         a, b = c.a, c.b
         ago, nx, ny = moment_of_touch(a, b, self.flight_of(a, b))
-        if ago == 0:
-            return max(c.closing_speed(), 0.0)
+        if ago == 0:  # before this step, if a program has put them there
+            return (0.0 if self.last_dt else inf), max(c.closing_speed(), 0.0)
         (gx, gy), falls = self.world.g, b.is_static and not a.joint_count
         since = self.h / 2 - ago if falls else 0.0  # s, as velocities lag half a substep behind
-        return (a.vx - b.vx + gx * since) * nx + (a.vy - b.vy + gy * since) * ny
+        return ago, (a.vx - b.vx + gx * since) * nx + (a.vy - b.vy + gy * since) * ny
 
     def meet(self, pair: Pair, nx: float, ny: float, gap: float) -> Contact:
         """Add the contact of two bodies that meet, beside those found, and wake them."""
@@ -257,8 +271,20 @@ class Detection(Effect):
     def end_contact(self, pair: Pair) -> None:
         """End the contact of two bodies that have parted."""
         c, pair.contact = pair.contact, None
-        if self.on_part and c not in self.landings.speeds:
-            self.news.append((pair.a, pair.b, None))
+        if c:
+            self.note_part(c)
+
+    def drop_untouched(self, contacts: set[Contact]) -> None:
+        """Drop new contacts of bodies that impacts have kept from touching."""
+        for c in contacts:
+            self.hits.pop(c, None)
+            for pair in self.broad_phase.rooms[c.a].pairs:
+                if pair.contact is c:
+                    pair.contact = None
+        self.touching = [c for c in self.touching if c not in contacts]
+        self.begun = [c for c in self.begun if c not in contacts]
+        self.group_contacts()
+        self.world.update_hooks()
 
     def end_unpaired(self) -> None:
         """End the contacts of bodies that are no longer near each other, except sleeping ones.
@@ -269,8 +295,8 @@ class Detection(Effect):
         for number, c in unpaired.items():
             if c.a.asleep and c.b.idle:
                 self.unpaired[number] = c
-            elif c not in self.landings.speeds and self.on_part:
-                self.news.append((c.a, c.b, None))
+            else:
+                self.note_part(c)
 
     def have_passed(self, a: Body, b: Body, gap: float) -> bool:
         """Return whether two balls have touched on their way here and passed each other.
@@ -346,13 +372,14 @@ class Detection(Effect):
     def tell(self, h: float) -> None:
         """Call on_hit and on_part, in order, for bodies that are still in the world."""
         self.last_dt, self.ends = 0.0, {}  # impacts are over; a program may change anything now
-        news, self.news = self.news, []
-        for a, b, speed in news:
-            if a.world is b.world is self.world:
+        news = [*self.hits.items(), *self.parted.items()]
+        self.hits, self.parted = {}, {}
+        for c, (_, speed) in sorted(news, key=lambda item: item[1][0], reverse=True):
+            if c.a.world is c.b.world is self.world:
                 if speed is not None and self.on_hit:
-                    self.on_hit(a, b, speed)
+                    self.on_hit(c.a, c.b, speed)
                 elif speed is None and self.on_part:
-                    self.on_part(a, b)
+                    self.on_part(c.a, c.b)
 
     def let_touch(self, a: Body, b: Body, may: bool) -> None:
         if may:

@@ -189,7 +189,19 @@ class Impacts:
         for faces in deep.values():
             self.faces.lift(faces)
         self.flight.pass_on()
+        untouched = {c for c in self.begun if self.is_untouched(c)}
+        if untouched:
+            self.contacts.drop_untouched(untouched)
         self.keep_inside()
+
+    def is_untouched(self, c: Contact) -> bool:
+        """Return whether an impact has kept a pair from touching in this step."""
+        contacts, a, b = self.contacts, c.a, c.b
+        was_hit = a in contacts.hit_ago or b in contacts.hit_ago
+        if not was_hit or c in self.queue.counts or c in contacts.landings.speeds:
+            return False
+        gap = collide(a, b)[2]
+        return gap > self.touching_gap and not contacts.have_passed(a, b, gap)
 
     def keep_inside(self) -> None:
         """Stop balls before walls, if an impact took them through: on them, or by a joint."""
@@ -243,6 +255,9 @@ class Impacts:
     def resolve_first(self) -> None:
         """Resolve the first impacts, and find those that they cause."""
         group, ago = self.queue.take_first()
+        for c in group:
+            if c in self.begun and c in self.contacts.hits and self.queue.counts[c] == 1:
+                self.contacts.note_hit(c, ago)
         if len(group) == 1 and self.is_alone(group[0]):
             hit = self.resolve_alone(group[0], ago)
         else:

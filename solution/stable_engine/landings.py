@@ -58,4 +58,5 @@ class Landings:
         for c in [c for c in self.speeds if c.jn > 0 or c.last > 0]:
             speed = self.speeds.pop(c)
             if self.contacts.on_hit:
-                self.contacts.news.append((c.a, c.b, speed))
+                ago = self.contacts.last_dt - c.found / speed if speed else 0.0
+                self.contacts.hits[c] = max(ago, 0.0), speed

@@ -9,7 +9,18 @@ import random
 
 import pytest
 
-from stable_engine import Body, Bounce, Circle, Contacts, Rod, Rods, Spring, Springs, World
+from stable_engine import (
+    Body,
+    Bounce,
+    Circle,
+    Contacts,
+    Rod,
+    Rods,
+    Segment,
+    Spring,
+    Springs,
+    World,
+)
 
 R = 10  # px
 pytestmark = pytest.mark.filterwarnings("ignore:This scene calls for Bullets")
@@ -141,3 +152,84 @@ def test_a_fast_dumbbell_hits_a_ball_on_its_way(speed):
         while ends[0].x + speed / 60 < 200 + speed / 60 and ball.vel == (0, 0):
             world.step(1 / 60)
         assert tuple(ball.vel) == pytest.approx((speed * 4 / 3, 0), abs=1e-6 * speed)
+
+
+# ---------------------------------------------------------------- what on_hit and on_part tell
+
+
+def scatter(seed):
+    """Return the position, velocity and mass of 3 to 8 balls that do not touch."""
+    rng = random.Random(seed)
+    count, size, balls = rng.randint(3, 8), rng.choice([60, 100, 150]), []
+    while len(balls) < count:
+        x, y = rng.uniform(-size, size), rng.uniform(-size, size)
+        if all(math.dist((x, y), other) > 2.2 * R for other, *_ in balls):
+            speed = math.exp(rng.uniform(math.log(1000), math.log(20000)))
+            speed, turn = (speed if rng.random() < 0.4 else 0.0), rng.uniform(0, 2 * math.pi)
+            vel = speed * math.cos(turn), speed * math.sin(turn)
+            balls.append(((x, y), vel, rng.choice([0.5, 1, 1, 2])))
+    return balls
+
+
+def find_hits(balls, end):
+    """Return the elastic hits in `end` seconds: the numbers of both balls, and their speed."""
+    places, vels = [complex(*pos) for pos, *_ in balls], [complex(*vel) for _, vel, _ in balls]
+    masses, hits = [mass for *_, mass in balls], []
+    while True:
+        soon = []
+        for i, j in itertools.combinations(range(len(balls)), 2):
+            way, vel = places[j] - places[i], vels[j] - vels[i]
+            ahead, fast2 = (way * vel.conjugate()).real, abs(vel) ** 2
+            root2 = ahead**2 - fast2 * (abs(way) ** 2 - 4 * R * R)
+            if ahead < 0 <= root2:
+                soon.append((max((-ahead - math.sqrt(root2)) / fast2, 0.0), i, j))
+        if not soon or min(soon)[0] > end:
+            return hits
+        after, i, j = min(soon)
+        end -= after
+        places = [place + vel * after for place, vel in zip(places, vels, strict=True)]
+        normal = (places[j] - places[i]) / abs(places[j] - places[i])
+        speed = ((vels[i] - vels[j]) * normal.conjugate()).real
+        impulse = 2 * speed / (1 / masses[i] + 1 / masses[j])
+        vels[i] -= impulse / masses[i] * normal
+        vels[j] += impulse / masses[j] * normal
+        hits.append((i, j, speed))
+
+
+@pytest.mark.parametrize("hz", [60, 120])
+def test_hits_are_told_as_they_happen_and_no_others(hz):
+    """The first hit of each pair in a step is that of an event-driven simulation, in its order."""
+    for seed in range(200):
+        told, scene = [], scatter(seed)
+        world = make_world(lambda a, b, speed, told=told: told.append((a, b, speed)))
+        balls = [add_ball(world, *pos, mass, vel) for pos, vel, mass in scene]
+        world.step(1 / hz)
+        wanted = {}
+        for i, j, speed in find_hits(scene, 1 / hz):
+            wanted.setdefault((i, j), speed)
+        pairs = [sorted((balls.index(a), balls.index(b))) for a, b, _ in told]
+        assert pairs == [list(pair) for pair in wanted]
+        assert [speed for *_, speed in told] == pytest.approx(list(wanted.values()), rel=1e-6)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+def test_each_pair_meets_and_parts_in_turn(restitution):
+    for seed in range(20):
+        rng, last = random.Random(seed), {}
+
+        def note(a, b, speed=None, last=last):
+            assert (speed is None) == last.get((a, b), False)
+            last[a, b] = speed is not None
+
+        world = make_world(note, note)
+        walls = [((-220, -220), (-220, 220)), ((220, -220), (220, 220))]
+        for start, end in walls + [((y, x), (b, a)) for (x, y), (a, b) in walls]:
+            world.add(Body(Segment(start, end, 20), **{**IDEAL, "restitution": restitution}))
+        balls = [add_ball(world, 60 * k - 150, rng.uniform(-180, 180)) for k in range(6)]
+        for ball in balls:
+            ball.vel = rng.uniform(-6000, 6000), rng.uniform(-6000, 6000)
+            ball.restitution = restitution
+        world.add(Rod(balls[0], balls[3]))
+        for _ in range(120):
+            world.step(1 / 60)
+        assert last
