@@ -132,7 +132,7 @@ class Cores:
             lose_energy(body, springs.energy_in(stiff) - stored)
         else:
             put_back(body, way, fraction, self.pull, h)
-        if not body.is_bullet:
+        if not body.is_bullet or (contacts.rods and contacts.rods.holds(body)):
             contacts.ends[body] = state_of(body), contacts.ends.get(body, (end, end))[1]
         before = contacts.stopped.get(body, contacts.last_dt)
         contacts.stopped[body] = fraction * before

@@ -73,12 +73,9 @@ class Flight:
     def is_loose(self, frame: Frame, body: Body) -> bool:
         """Return whether a frame can be moved back: it hangs on one rod, or flies freely."""
         if frame.hangs:
-            return body in self.pivots and not body.is_bullet
+            return body in self.pivots
         odd = self.held, self.springs_of, self.bearing, self.world.forces
-        for ball in frame.balls:
-            if ball.is_bullet or any([ball in some for some in odd]):
-                return False
-        return True
+        return not any([ball in some for ball in frame.balls for some in odd])
 
     def take_along(self, hit: list[Body]) -> None:
         """Let the balls on springs of those hit fly with them, as if nothing had hit these."""

@@ -270,7 +270,8 @@ class Impacts:
                 self.see_from_here(group)
             frames = self.frames_of(group)
             for frame in frames:
-                hit += [ball for ball in frame.balls if ball in self.beside and ball not in hit]
+                others = [ball for ball in frame.balls if ball in self.beside or ball.is_bullet]
+                hit += [ball for ball in others if ball not in hit]
             if ago > 0:
                 self.resolve_at_touch(group, hit, ago, frames)
             else:

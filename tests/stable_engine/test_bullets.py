@@ -5,6 +5,7 @@ their lengths, except for the square of what they turn by in a substep: 16 rad/s
 in 1/240 s.
 """
 
+import itertools
 import math
 import random
 
@@ -124,6 +125,44 @@ def test_a_fast_dumbbell_keeps_its_length_on_a_floor(fast, phase, dt):
         world.step(dt)
         assert math.dist(rod.a.pos, rod.b.pos) == pytest.approx(77, rel=LENGTH)
         assert whole_energy(world) <= before * (1 + ROUNDING)
+
+
+# numbers of balls, their distance from the centre (px), and how many are bullets
+FRAMES = {"dumbbell": (2, 30, 2), "half a dumbbell": (2, 30, 1), "triangle": (3, 35, 3)}
+
+
+def add_frame(world, pos, turn, vel, name):
+    """Add balls on rods in a ring about this position. Return the rods."""
+    count, far, bullets = FRAMES[name]
+    ends = []
+    for k in range(count):
+        angle = turn + 2 * math.pi * k / count
+        at = pos[0] + far * math.cos(angle), pos[1] + far * math.sin(angle)
+        ends.append(add_ball(world, at, vel, bullet=k < bullets))
+    pairs = itertools.combinations(ends, 2)
+    return ends, [world.add(Rod(a, b)) for a, b in pairs]
+
+
+@pytest.mark.parametrize("hz", [60, 120])
+@pytest.mark.parametrize("name", FRAMES)
+def test_bullets_on_rods_keep_lengths_and_energy(name, hz):
+    """In a room, where one step takes them by less than a rod. No bullet gets into a wall."""
+    rng = random.Random(hz)
+    for _ in range(30):
+        world, size = World((0, 0), 4, [Contacts(), Bounce(), Rods(), Bullets()]), 600
+        add_room(world, size)
+        speed = math.exp(rng.uniform(math.log(300), math.log(2000)))
+        way, turn = rng.uniform(0, 2 * math.pi), rng.uniform(0, 2 * math.pi)
+        vel = speed * math.cos(way), speed * math.sin(way)
+        ends, rods = add_frame(world, (size / 2, size / 2), turn, vel, name)
+        before = whole_energy(world)
+        for _ in range(hz):
+            world.step(1 / hz)
+            for rod in rods:
+                assert math.dist(rod.a.pos, rod.b.pos) == pytest.approx(rod.length, abs=0.5)
+            assert whole_energy(world) == pytest.approx(before, rel=1e-6)
+            for ball in [ball for ball in ends if ball.bullet]:
+                assert all(9.5 < place < size - 9.5 for place in ball.pos)
 
 
 def test_dumbbells_in_a_crowd_keep_their_lengths():
