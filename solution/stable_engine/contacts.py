@@ -250,7 +250,7 @@ class Contacts(Detection):
     def finish(self, h: float) -> None:
         super().finish(h)
         if self.crowd:
-            deepest = part_crowd(self.groups, self.crowd, self.max_push_speed * self.last_dt)
+            deepest = part_crowd(self, self.max_push_speed * self.last_dt)
             if deepest < REDETECT_DISTANCE * self.world.unit:
                 self.crowd = {}
         self.cores.keep_out(h)

@@ -4,9 +4,11 @@ They are moved apart and get no speed by that. Contacts would push them apart as
 jam would store the push of many substeps, and be shot away by it.
 """
 
+from .body import Body
 from .contact import Contact, collide, leave_as_entered
 from .detection import Detection
-from .order import Group, in_same_place
+from .frame import Frame
+from .order import in_same_place
 
 PARTED = 0.3  # share of an overlap that a step takes from bodies in a crowd
 
@@ -41,28 +43,45 @@ def is_deep(c: Contact, most: float, give: float) -> bool:
     return c.gap + give * c.jn / c.mn < -most
 
 
-def part_crowd(groups: list[Group], crowd: Crowd, most: float) -> float:
-    """Move bodies of a crowd apart, each pair by at most `most` px. Return the deepest overlap.
+def part_crowd(contacts: Detection, most: float) -> float:
+    """Move bodies of the crowd apart, each pair by at most `most` px. Return the deepest overlap.
 
     They are moved and get no speed: impulses between many bodies at one position would leave
     some speed, which is energy from nothing. So balls turn about each other more slowly.
     """
     deepest = 0.0
-    for group in groups:
-        for same in in_same_place([c for c in group.sorted if c in crowd]):
+    frame_of = contacts.rods.frame_of if contacts.rods else {}
+    for group in contacts.groups:
+        for same in in_same_place([c for c in group.sorted if c in contacts.crowd]):
             for c, (nx, ny, gap) in [(c, leave_as_entered(c, *collide(c.a, c.b))) for c in same]:
                 a, b = c.a, c.b
                 deepest = max(deepest, -gap)
                 way = min(max(-PARTED * gap, 0.0), most)
+                move_apart(c, nx * way, ny * way, frame_of)
                 slip = (b.vy - a.vy) * nx - (b.vx - a.vx) * ny
                 slower = 0.0 if c.e or not b.inv_mass else -slip * way / (gap + a.r + b.r + way)
-                dx, dy = nx * way * c.mn, ny * way * c.mn
                 dvx, dvy = -ny * slower * c.mn, nx * slower * c.mn
-                a.x, a.y = a.x - dx * a.inv_mass, a.y - dy * a.inv_mass
-                b.x, b.y = b.x + dx * b.inv_mass, b.y + dy * b.inv_mass
                 a.vx, a.vy = a.vx - dvx * a.inv_mass, a.vy - dvy * a.inv_mass
                 b.vx, b.vy = b.vx + dvx * b.inv_mass, b.vy + dvy * b.inv_mass
                 for body in (a, b):
                     if body.has_moved:  # what is jammed may sleep
                         body.still = 0.0
     return deepest
+
+
+def move_apart(c: Contact, x: float, y: float, frame_of: dict[Body, Frame]) -> None:
+    """Move A and B apart by (x, y) px in all, each with the balls on its rods.
+
+    Rods that hang hold them, unless both hang.
+    """
+    moved = [([body], body.inv_mass) for body in (c.a, c.b)]
+    frames = [frame_of.get(body) for body in (c.a, c.b)]
+    if frames[0] is not frames[1] and not all([frame and frame.hangs for frame in frames]):
+        for i, frame in enumerate(frames):
+            if frame:
+                moved[i] = frame.balls, 0.0 if frame.hangs else 1 / frame.mass
+    (balls, light), (others, other_light) = moved
+    for bodies, share in ((balls, -light), (others, other_light)):
+        for body in bodies:
+            body.x += x * share / (light + other_light)
+            body.y += y * share / (light + other_light)

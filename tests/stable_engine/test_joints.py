@@ -273,3 +273,15 @@ def test_what_hangs_still_reads_as_still():
     scene.rods.append((3, 2))
     engine = Stable(scene)
     assert max(watch(engine, 2, lambda: max(b.vel.length() for b in balls(engine.world)))) < 1e-6
+
+
+@pytest.mark.parametrize("near", [1.0, 8.0, 19.0])
+@pytest.mark.parametrize("effects", [("Contacts",), TOUCH])
+@pytest.mark.parametrize("mass", [1.0, 0.0])
+def test_dumbbells_put_into_each_other_part_as_a_whole(near, effects, mass):
+    """Their rods keep their lengths. With `mass` 0, one of them hangs on a static body."""
+    bodies = [Ball((0, 0)), Ball((0, 60), mass=mass), Ball((near, 0)), Ball((near + 70, -5))]
+    engine = Stable(Scene(bodies, (*effects, "Rods"), [(0, 1), (2, 3)], gravity=(0, 0)))
+    assert max(watch(engine, 2, lambda: worst_stretch(engine))) < 1e-6 * 60
+    one, _, other, _ = (engine.read(i) for i in range(4))
+    assert math.dist((one.x, one.y), (other.x, other.y)) > 20 - 0.01
