@@ -64,6 +64,26 @@ class Cores:
         if is_far and not body.is_static:
             self.sweep(body, (body.last_x, body.last_y), CORE * body.r, 0.0, h)
 
+    def stop_hit(self, body: Body, beside: list[Contact]) -> bool:
+        """Stop a ball where impacts took its core through a static body. Return whether they did.
+
+        Its contacts are `beside`. In the next step it comes from where it is now.
+        """
+        x, y, core = body.last_x, body.last_y, core_of(body)
+        dx, dy = body.x - x, body.y - y
+        is_deep = any([c.gap < -core and c.b.is_static for c in beside])
+        if not is_deep and dx * dx + dy * dy <= core * core:
+            return False
+        share = free_share(body, self.world.statics, core, (x, y), dx, dy)
+        if share < 1:
+            body.x, body.y = x + dx * share, y + dy * share
+            for c in beside:
+                c.nx, c.ny, c.gap = collide(c.a, c.b)
+                c.found = c.gap
+            self.contacts.note_impact(body, 0.0)
+        body.last_x, body.last_y = body.x, body.y
+        return share < 1
+
     def find_way_out(self, c: Contact, gap: float, ways: dict[Body, list[State]]) -> None:
         """Note what puts back and stops a ball whose core entered a static body, or went deeper.
 
@@ -170,6 +190,11 @@ class Cores:
             by_x, by_y = springs.pull(body, self.contacts.h)
             x, y = x + by_x, y + by_y
         return x, y
+
+
+def core_of(body: Body) -> float:
+    """Return the radius (px) of a ball that no static body enters in impacts: all of a bullet."""
+    return body.r if body.is_bullet else CORE * body.r
 
 
 def move_out(body: Body, nx: float, ny: float, back: float, closing: float) -> None:

@@ -6,7 +6,7 @@ from operator import itemgetter
 from .body import Body, State, state_of
 from .contact import Contact
 from .contacts import Contacts
-from .cores import CORE, split
+from .cores import core_of, split
 from .frame import Frame
 from .rods import Rods
 from .springs import Spring, share_before
@@ -88,6 +88,16 @@ class Flight:
                 body.x, body.y, body.vx, body.vy = self.before[body]
         self.moved = {*hit, *self.partners}
 
+    def frames_of(self, contacts: list[Contact]) -> list[Frame]:
+        """Return each frame of rods that a ball of these contacts is in."""
+        found: dict[Frame, None] = {}
+        for c in contacts if self.frame_of else []:
+            for body in (c.a, c.b):
+                frame = self.frame_of.get(body)
+                if frame:
+                    found[frame] = None
+        return list(found)
+
     def leave_behind(self) -> None:
         """Put the balls that flew with others back, and note what has changed on their flight."""
         for body, state in self.partners.items():
@@ -150,7 +160,7 @@ class Flight:
         ax, ay = pull
         x = (body.vx + ax * (self.h + seconds) / 2) * seconds
         y = (body.vy + ay * (self.h + seconds) / 2) * seconds
-        radius = body.r if body.is_bullet else CORE * body.r
+        radius = core_of(body)
         if self.cut_short:
             self.cut_short.pop(body, None)
         if seconds > 0 and (body.is_bullet or x * x + y * y > radius * radius):

@@ -1,27 +1,22 @@
 """Impacts: their order, those at one moment, and the positions afterwards."""
 
 from collections import defaultdict
-from math import hypot, inf, sqrt
+from math import hypot, inf
 
 from .body import Body, State, state_of
 from .bounds import Pair
 from .contact import Contact, collide, leave_as_entered
 from .contacts import Contacts
-from .cores import CORE
 from .detection import FAR, pair_number
 from .faces import Faces
 from .flight import DEEPEST, Flight
 from .frame import Frame
-from .hit import Hit, Rub, resolve_at_once
+from .hit import resolve
 from .impact_queue import ImpactQueue
 from .order import balls_of
-from .row import Row
-from .soft import SAME_DIRECTION
-from .sweep import free_share
-from .time_of_impact import ARC_PASSES, TimeOfImpact, speed_at_touch
+from .time_of_impact import ARC_PASSES, TimeOfImpact
 
 MOVED = 0.01  # radii; a ball that was hit and moved by less meets nothing new
-LEAST = 1e-9  # share of the speed of the hardest impact of a moment; less may be left
 
 
 class Impacts:
@@ -180,7 +175,7 @@ class Impacts:
             self.resolve_first()
         self.put_back(list(self.stops))
         for c in self.times.turned:
-            self.turn_on(c, 0.0)
+            self.times.turn_on(c, 0.0)
         deep: dict[Body, list[Contact]] = {}
         for c in self.faces.normals:
             self.faces.look(c)
@@ -205,31 +200,16 @@ class Impacts:
 
     def keep_inside(self) -> None:
         """Stop balls before walls, if an impact took them through: on them, or by a joint."""
-        statics = self.contacts.world.statics
-        moved = [*self.contacts.hit_ago, *[body for body, _ in self.flight.changes]]
+        contacts = self.contacts
+        moved = [*contacts.hit_ago, *[body for body, _ in self.flight.changes]]
         if self.frame_of:
             frames = dict.fromkeys([self.frame_of[body] for body in moved if body in self.frame_of])
             frames.update(dict.fromkeys(self.turned_back))
             moved = list(dict.fromkeys([*moved, *[b for frame in frames for b in frame.balls]]))
-        stopped: list[Body] = []
         for body in moved:
-            if body not in self.contacts.hit_ago:
-                self.contacts.note_impact(body, 0.0)  # so the next step may stop it before a wall
-            x, y, core = body.last_x, body.last_y, body.r if body.is_bullet else CORE * body.r
-            dx, dy = body.x - x, body.y - y
-            beside = self.beside.get(body, [])
-            if dx * dx + dy * dy > core * core or any(
-                [c.gap < -core and c.b.is_static for c in beside]
-            ):
-                share = free_share(body, statics, core, (x, y), dx, dy)
-                if share < 1:
-                    body.x, body.y = x + dx * share, y + dy * share
-                    for c in beside:
-                        c.nx, c.ny, c.gap = collide(c.a, c.b)
-                        c.found = c.gap
-                    stopped.append(body)
-                    self.contacts.note_impact(body, 0.0)
-                body.last_x, body.last_y = body.x, body.y
+            if body not in contacts.hit_ago:
+                contacts.note_impact(body, 0.0)  # so the next step may stop it before a wall
+        stopped = [b for b in moved if contacts.cores.stop_hit(b, self.beside.get(b, []))]
         if stopped:
             self.follow(stopped)
 
@@ -249,7 +229,7 @@ class Impacts:
                 self.note_impact(body, ago)
         else:
             self.put_back(hit)
-            self.resolve([c], [])
+            resolve([c], [], self.flight)
         return hit
 
     def resolve_first(self) -> None:
@@ -267,15 +247,15 @@ class Impacts:
                 ago = 0.0
             if ago == 0:
                 self.put_back(hit)
-                self.see_from_here(group)
-            frames = self.frames_of(group)
+                self.times.see_from_here(group)
+            frames = self.flight.frames_of(group)
             for frame in frames:
                 others = [ball for ball in frame.balls if ball in self.beside or ball.is_bullet]
                 hit += [ball for ball in others if ball not in hit]
             if ago > 0:
                 self.resolve_at_touch(group, hit, ago, frames)
             else:
-                self.resolve(group, frames)
+                resolve(group, frames, self.flight)
             self.look_around(hit, ago)
         self.meet_others(hit)
 
@@ -292,21 +272,6 @@ class Impacts:
                 self.stops.pop(body, None)
                 for c in self.beside[body]:
                     self.faces.look(c)
-
-    def see_from_here(self, group: list[Contact]) -> None:
-        """Take over present normals of balls on joints that stay here, but not if they differ much.
-
-        With others, angular momentum is not kept, but balls do not pass each other.
-        """
-        for c in group:
-            if c.b.inv_mass and (c.a.joint_count or c.b.joint_count):
-                self.turn_on(c, SAME_DIRECTION)
-
-    def turn_on(self, c: Contact, cosine: float) -> None:
-        """Take over the present normal of a contact, unless it has turned further than this."""
-        nx, ny, gap = collide(c.a, c.b)
-        if nx * c.nx + ny * c.ny > cosine:
-            c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
 
     def resolve_at_touch(
         self, group: list[Contact], hit: list[Body], ago: float, frames: list[Frame]
@@ -329,7 +294,7 @@ class Impacts:
             self.stops.pop(body, None)
         for c in group:
             self.faces.look(c)
-        self.resolve(group, frames)
+        resolve(group, frames, self.flight)
         for wall, (x, y) in walls.items():
             wall.x, wall.y = x, y
         self.flight.fly(hit, ago)
@@ -411,52 +376,6 @@ class Impacts:
             c = self.contacts.meet(pair, nx, ny, gap)
             self.contacts.note_hit(c)
             met.append(c)
-
-    def frames_of(self, group: list[Contact]) -> list[Frame]:
-        """Return each frame of rods that a ball of these contacts is in."""
-        found: dict[Frame, None] = {}
-        for c in group if self.frame_of else []:
-            for body in (c.a, c.b):
-                frame = self.frame_of.get(body)
-                if frame:
-                    found[frame] = None
-        return list(found)
-
-    def law(self, c: Contact) -> tuple[float, float]:
-        """Return the speed (px/s) at which a pair separates.
-
-        At any step size a ball leaves a wall exactly: e is applied to its speed at the surface. If
-        it was not moved back there, conservation of energy gives that speed, and the present one.
-
-        Also return the share of the impulse without the speed gained below the surface.
-        """
-        closing, e = c.closing_speed(), c.e
-        g, lag = self.flight.pull(c)
-        lag += self.flight.stiff_lag(c)
-        if g == lag == 0:
-            return e * closing, 1.0
-        crossing = max(speed_at_touch(c, closing, g, lag), 0.0)
-        gap = c.gap if abs(c.gap) > self.touching_gap else 0.0
-        most = (closing + lag) * (closing + lag)
-        parting = sqrt(max(min(e * e * crossing * crossing - 2 * g * gap, most), 0.0)) + lag
-        whole = parting + closing
-        return parting, min((1 + e) * crossing / whole, 1.0) if whole > 0 else 1.0
-
-    def resolve(self, group: list[Contact], frames: list[Frame]) -> None:
-        """Make contacts separate at the speeds of the law, or faster.
-
-        Normal impulses come first, then friction limited by them, so no energy is created.
-        """
-        for frame in frames:
-            frame.hold()
-        hits = [Hit(c, self.law(c)) for c in group]
-        rods = [Row(rod.end_a, rod.end_b, rod.nx, rod.ny) for frame in frames for rod in frame.rods]
-        least = LEAST * max([hit.wanted - hit.speed() for hit in hits])
-        resolve_at_once(hits, rods, least)
-        resolve_at_once([Rub(hit) for hit in hits if hit.mu * hit.total], rods, least)
-        for body in balls_of(group) if self.flight.rests else []:
-            if body in self.flight.rests and body not in self.frame_of:
-                self.flight.release(body)
 
 
 def select_fast(contacts: list[Contact], slow: float) -> list[Contact]:

@@ -3,10 +3,11 @@
 from math import sqrt
 
 from .body import state_of
-from .contact import Contact, is_at_face
+from .contact import Contact, collide, is_at_face
 from .contacts import Contacts
 from .faces import Faces
 from .frame import Frame
+from .soft import SAME_DIRECTION
 from .sweep import moment_of_touch
 
 ARC = 1.1  # ratio by which the touch may lie further back for flights on an arc
@@ -58,6 +59,21 @@ class TimeOfImpact:
             c.gap = -c.closing_speed() * ago
             self.turned.append(c)
         return ago
+
+    def see_from_here(self, group: list[Contact]) -> None:
+        """Take over present normals of balls on joints that stay here, but not if they differ much.
+
+        With others, angular momentum is not kept, but balls do not pass each other.
+        """
+        for c in group:
+            if c.b.inv_mass and (c.a.joint_count or c.b.joint_count):
+                self.turn_on(c, SAME_DIRECTION)
+
+    def turn_on(self, c: Contact, cosine: float) -> None:
+        """Take over the present normal of a contact, unless it has turned further than this."""
+        nx, ny, gap = collide(c.a, c.b)
+        if nx * c.nx + ny * c.ny > cosine:
+            c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
 
     def time_below(self, c: Contact, since: float) -> float:
         """Return how long ago (s) a ball fell through a flat face; 0 if not `since` then.
