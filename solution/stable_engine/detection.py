@@ -9,6 +9,7 @@ from .broad_phase import BroadPhase
 from .contact import Contact, collide, leave_as_entered
 from .effect import Effect
 from .landings import Landings
+from .news import News
 from .order import Group
 from .rods import Rods
 from .soft import SAME_DIRECTION
@@ -31,7 +32,7 @@ class Detection(Effect):
     """The part of Contacts that finds them, once per step, and tells the program of new ones."""
 
     __slots__ = (
-        *("on_hit", "on_part", "hits", "parted", "touching", "begun", "renewed", "changed"),
+        *("on_hit", "on_part", "news", "touching", "begun", "renewed", "changed"),
         *("lets_none_pass", "last_dt", "flying", "hit_ago", "stopped", "late", "ends"),
         *("broad_phase", "crowd", "beside_static", "landings", "rods", "balls", "statics"),
         *("groups", "unpaired", "ignored", "h", "touching_gap", "slow", "springs"),
@@ -44,9 +45,7 @@ class Detection(Effect):
         if on_part is not None and not callable(on_part):
             refuse("Contacts.on_part", on_part, "a function of two bodies, or None")
         self.on_hit, self.on_part = on_hit, on_part
-        # of pairs that met in this step: how long ago (s), and their speed (px/s)
-        self.hits: dict[Contact, tuple[float, float | None]] = {}
-        self.parted: dict[Contact, tuple[float, float | None]] = {}  # of pairs that parted
+        self.news = News(self)
         self.touching: list[Contact] = []
         self.begun: list[Contact] = []  # contacts that are new in this step
         self.changed = False  # whether any contact was found anew, began or ended
@@ -183,7 +182,7 @@ class Detection(Effect):
                 continue
             if c is None:
                 c = pair.contact = self.make_contact(a, b, nx, ny)
-                self.note_hit(c)
+                self.news.note_hit(c)
                 if gap < -touching_gap and self.last_dt == 0:  # a program has put them there
                     self.crowd[c] = True
             if not b.r:
@@ -229,30 +228,6 @@ class Detection(Effect):
             a.is_pressed = b.is_pressed = True
         return c
 
-    def note_hit(self, c: Contact, at: float = 0.0) -> None:
-        """Note that two bodies began to touch, `at` seconds ago or as they have flown."""
-        if self.on_hit:
-            self.hits.pop(c, None)  # hits of one moment are in the order of impacts
-            ago, speed = self.meeting_of(c)
-            self.hits[c] = at or ago, speed
-
-    def note_part(self, c: Contact) -> None:
-        """Note that two bodies parted, before other pairs met."""
-        if self.on_part and c not in self.landings.speeds:
-            self.parted[c] = inf, None
-            if c in self.hits:
-                self.hits[c] = inf, self.hits[c][1]
-
-    def meeting_of(self, c: Contact) -> tuple[float, float]:
-        """Return how long ago (s) A and B began to touch, and how fast (px/s) they did."""
-        a, b = c.a, c.b
-        ago, nx, ny = moment_of_touch(a, b, self.flight_of(a, b))
-        if ago == 0:  # before this step, if a program has put them there
-            return (0.0 if self.last_dt else inf), max(c.closing_speed(), 0.0)
-        (gx, gy), falls = self.world.g, b.is_static and not a.joint_count
-        since = self.h / 2 - ago if falls else 0.0  # s, as velocities lag half a substep behind
-        return ago, (a.vx - b.vx + gx * since) * nx + (a.vy - b.vy + gy * since) * ny
-
     def meet(self, pair: Pair, nx: float, ny: float, gap: float) -> Contact:
         """Add the contact of two bodies that meet, beside those found, and wake them."""
         pair.a.wake()
@@ -272,12 +247,12 @@ class Detection(Effect):
         """End the contact of two bodies that have parted."""
         c, pair.contact = pair.contact, None
         if c:
-            self.note_part(c)
+            self.news.note_part(c)
 
     def drop_untouched(self, contacts: set[Contact]) -> None:
         """Drop new contacts of bodies that impacts have kept from touching."""
         for c in contacts:
-            self.hits.pop(c, None)
+            self.news.hits.pop(c, None)
             for pair in self.broad_phase.rooms[c.a].pairs:
                 if pair.contact is c:
                     pair.contact = None
@@ -296,7 +271,7 @@ class Detection(Effect):
             if c.a.asleep and c.b.idle:
                 self.unpaired[number] = c
             else:
-                self.note_part(c)
+                self.news.note_part(c)
 
     def have_passed(self, a: Body, b: Body, gap: float) -> bool:
         """Return whether two balls have touched on their way here and passed each other.
@@ -370,16 +345,9 @@ class Detection(Effect):
             self.stopped, self.ends, self.late = {}, {}, {}
 
     def tell(self, h: float) -> None:
-        """Call on_hit and on_part, in order, for bodies that are still in the world."""
         self.last_dt, self.ends = 0.0, {}  # impacts are over; a program may change anything now
-        news = [*self.hits.items(), *self.parted.items()]
-        self.hits, self.parted = {}, {}
-        for c, (_, speed) in sorted(news, key=lambda item: item[1][0], reverse=True):
-            if c.a.world is c.b.world is self.world:
-                if speed is not None and self.on_hit:
-                    self.on_hit(c.a, c.b, speed)
-                elif speed is None and self.on_part:
-                    self.on_part(c.a, c.b)
+        if self.news.hits or self.news.parted:
+            self.news.tell()
 
     def let_touch(self, a: Body, b: Body, may: bool) -> None:
         if may:

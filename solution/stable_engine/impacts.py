@@ -236,8 +236,8 @@ class Impacts:
         """Resolve the first impacts, and find those that they cause."""
         group, ago = self.queue.take_first()
         for c in group:
-            if c in self.begun and c in self.contacts.hits and self.queue.counts[c] == 1:
-                self.contacts.note_hit(c, ago)
+            if c in self.begun and c in self.contacts.news.hits and self.queue.counts[c] == 1:
+                self.contacts.news.note_hit(c, ago)
         if len(group) == 1 and self.is_alone(group[0]):
             hit = self.resolve_alone(group[0], ago)
         else:
@@ -374,7 +374,7 @@ class Impacts:
             return
         if gap < 0 or self.contacts.have_passed(a, b, gap):
             c = self.contacts.meet(pair, nx, ny, gap)
-            self.contacts.note_hit(c)
+            self.contacts.news.note_hit(c)
             met.append(c)
 
 

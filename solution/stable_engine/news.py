@@ -1,0 +1,59 @@
+"""News of a step for the program: which pairs met, and which parted."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING
+
+from .contact import Contact
+from .sweep import moment_of_touch
+
+if TYPE_CHECKING:
+    from .detection import Detection
+
+
+class News:
+    """Whom on_hit and on_part of Contacts will be called for, and when in the step it happened."""
+
+    __slots__ = ("contacts", "hits", "parted")
+
+    def __init__(self, contacts: Detection) -> None:
+        self.contacts = contacts
+        # of pairs that met: how long ago (s), and their speed (px/s); None of those that parted
+        self.hits: dict[Contact, tuple[float, float | None]] = {}
+        self.parted: dict[Contact, tuple[float, float | None]] = {}
+
+    def note_hit(self, c: Contact, at: float = 0.0) -> None:
+        """Note that two bodies began to touch, `at` seconds ago or as they have flown."""
+        if self.contacts.on_hit:
+            self.hits.pop(c, None)  # hits of one moment are in the order of impacts
+            ago, speed = self.meeting_of(c)
+            self.hits[c] = at or ago, speed
+
+    def note_part(self, c: Contact) -> None:
+        """Note that two bodies parted, before other pairs met."""
+        if self.contacts.on_part and c not in self.contacts.landings.speeds:
+            self.parted[c] = inf, None
+            if c in self.hits:
+                self.hits[c] = inf, self.hits[c][1]
+
+    def meeting_of(self, c: Contact) -> tuple[float, float]:
+        """Return how long ago (s) A and B began to touch, and how fast (px/s) they did."""
+        contacts, a, b = self.contacts, c.a, c.b
+        ago, nx, ny = moment_of_touch(a, b, contacts.flight_of(a, b))
+        if ago == 0:  # before this step, if a program has put them there
+            return (0.0 if contacts.last_dt else inf), max(c.closing_speed(), 0.0)
+        (gx, gy), falls = contacts.world.g, b.is_static and not a.joint_count
+        since = contacts.h / 2 - ago if falls else 0.0  # s: velocities lag half a substep behind
+        return ago, (a.vx - b.vx + gx * since) * nx + (a.vy - b.vy + gy * since) * ny
+
+    def tell(self) -> None:
+        """Call on_hit and on_part, in order, for bodies that are still in the world."""
+        contacts, news = self.contacts, [*self.hits.items(), *self.parted.items()]
+        self.hits, self.parted = {}, {}
+        for c, (_, speed) in sorted(news, key=lambda item: item[1][0], reverse=True):
+            if c.a.world is c.b.world is contacts.world:
+                if speed is not None and contacts.on_hit:
+                    contacts.on_hit(c.a, c.b, speed)
+                elif speed is None and contacts.on_part:
+                    contacts.on_part(c.a, c.b)
