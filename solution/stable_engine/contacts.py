@@ -262,7 +262,7 @@ class Contacts(Detection):
         """
         least = self.touching_gap / h + BEARING * hypot(*self.world.g) * h  # px/s
         for c in self.touching:
-            if c.jn > least * c.mn and c.closing_speed() > -self.slow:
+            if c.jn > least * c.mn and c.closing_speed() > -self.speculative_speed:
                 c.a.is_pressed = c.b.is_pressed = True
 
     def unload(self, lost: dict[Body, float], direction: Direction) -> None:

@@ -25,7 +25,7 @@ def gather_crowd(contacts: Detection, most: float, give: float) -> Crowd:
     members = {body for c in crowd for body in (c.a, c.b) if body.m}
     put = {body for c in crowd if crowd[c] for body in (c.a, c.b) if body.m}
     for c in contacts.begun:
-        if c.closing_speed() <= contacts.slow and not members.isdisjoint((c.a, c.b)):
+        if c.closing_speed() <= contacts.speculative_speed and not members.isdisjoint((c.a, c.b)):
             crowd.setdefault(c, False)
     for c in contacts.renewed if put else []:
         if is_deep(c, most, give) and not put.isdisjoint((c.a, c.b)):

@@ -35,7 +35,7 @@ class Detection(Effect):
         *("on_hit", "on_part", "news", "touching", "begun", "renewed", "changed"),
         *("lets_none_pass", "last_dt", "flying", "hit_ago", "stopped", "late", "ends"),
         *("broad_phase", "crowd", "beside_static", "landings", "rods", "balls", "statics"),
-        *("groups", "unpaired", "ignored", "h", "touching_gap", "slow", "springs"),
+        *("groups", "unpaired", "ignored", "h", "touching_gap", "speculative_speed", "springs"),
         "begin_contact_hooks",
     )
 
@@ -69,7 +69,7 @@ class Detection(Effect):
 
     def attach(self) -> None:
         self.touching_gap = TOUCHING * self.world.unit  # px
-        self.slow = SPECULATIVE_SPEED * self.world.unit  # px/s
+        self.speculative_speed = SPECULATIVE_SPEED * self.world.unit  # px/s
         self.begin_contact_hooks = self.world.hooks["begin_contact"]
         self.landings = Landings(self)
         self.rods, self.springs = self.world.find(Rods), self.world.find(Springs)
@@ -117,7 +117,7 @@ class Detection(Effect):
         bearing = self.touching if g != (0.0, 0.0) else []
         held = {c.a for c in bearing} | {c.b for c in bearing}
         back = self.last_dt if self.lets_none_pass else 0.0
-        found = phase.renew(g, held, dt, back, self.slow * dt)
+        found = phase.renew(g, held, dt, back, self.speculative_speed * dt)
         self.take_in(found)
         touched = {c.a for c in self.unpaired.values()}
         for pair in found if touched else []:
@@ -149,7 +149,7 @@ class Detection(Effect):
         """
         touching: list[Contact] = []
         renewed: list[Contact] = []
-        slow, touching_gap = self.slow, self.touching_gap
+        slow, touching_gap = self.speculative_speed, self.touching_gap
         margin, slow2 = slow * dt, slow * slow
         back, late = self.last_dt if self.lets_none_pass else 0.0, self.late
         for pair in self.broad_phase.pairs:
@@ -224,7 +224,9 @@ class Detection(Effect):
         for begin_contact in self.begin_contact_hooks:
             begin_contact(c)
         self.begun.append(c)
-        if (a.is_fresh or (b.inv_mass and b.is_fresh)) and c.closing_speed() > -self.slow:
+        if (
+            a.is_fresh or (b.inv_mass and b.is_fresh)
+        ) and c.closing_speed() > -self.speculative_speed:
             a.is_pressed = b.is_pressed = True
         return c
 

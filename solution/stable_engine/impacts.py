@@ -41,10 +41,12 @@ class Impacts:
         self.contacts = contacts
         self.touching_gap = contacts.touching_gap
         self.dt = h * contacts.world.substep_count  # s
-        self.reach = contacts.slow * self.dt  # px, a gap that slow ones close at once
+        self.reach = contacts.speculative_speed * self.dt  # px, a gap that slow ones close at once
         self.slow = slow  # px/s, slower impacts are ignored
         self.queue = ImpactQueue(self.touching_gap)
-        self.stops: dict[Body, State] = {}  # where walls stopped balls that `passes` let fly on
+        self.stops: dict[
+            Body, State
+        ] = {}  # where walls stopped balls that `try_to_pass` let fly on
         self.beside: dict[Body, list[Contact]] = defaultdict(list)  # the contacts of each ball
         self.flight = Flight(contacts, h, slow)
         self.frame_of = self.flight.frame_of
@@ -77,7 +79,7 @@ class Impacts:
                 flown, late = body.flown, contacts.last_dt - contacts.stopped[body]
                 was_late = contacts.late.pop(body, 0.0)
                 body.flown = flown + late
-                if self.passes(body, end):
+                if self.try_to_pass(body, end):
                     continue
                 body.flown = flown
                 frame = self.frame_of.get(body)
@@ -115,7 +117,7 @@ class Impacts:
             for c in self.beside.get(ball, []):
                 self.faces.look(c)
 
-    def passes(self, body: Body, end: State) -> bool:
+    def try_to_pass(self, body: Body, end: State) -> bool:
         """Put a ball that a wall stopped where it would be, if it will bounce off from there."""
         stop = state_of(body)
         is_near = hypot(end[0] - stop[0], end[1] - stop[1]) <= DEEPEST * body.r
@@ -358,7 +360,7 @@ class Impacts:
             if cut and any([c.a is body and c.b.is_static for c in met]):
                 flown = body.flown
                 self.contacts.note_impact(body, flown + cut[1])
-                if not self.passes(body, cut[0]):
+                if not self.try_to_pass(body, cut[0]):
                     self.contacts.note_impact(body, flown)
         for c in met:
             self.look(c, is_new=True)
