@@ -251,15 +251,22 @@ class Detection(Effect):
         if c:
             self.news.note_part(c)
 
-    def drop_untouched(self, contacts: set[Contact]) -> None:
-        """Drop new contacts of bodies that impacts have kept from touching."""
-        for c in contacts:
-            self.news.hits.pop(c, None)
-            for pair in self.broad_phase.rooms[c.a].pairs:
-                if pair.contact is c:
-                    pair.contact = None
-        self.touching = [c for c in self.touching if c not in contacts]
-        self.begun = [c for c in self.begun if c not in contacts]
+    def drop_untouched(self, new: set[Contact]) -> None:
+        """Drop new contacts of bodies that were hit by others and so did not touch."""
+        missed: set[Contact] = set()
+        for c in new:
+            was_hit, gap = c.a in self.hit_ago or c.b in self.hit_ago, collide(c.a, c.b)[2]
+            touch = gap <= self.touching_gap or self.have_passed(c.a, c.b, gap)
+            if was_hit and not touch and c not in self.landings.speeds:
+                missed.add(c)
+        if not missed:
+            return
+        for pair in self.broad_phase.pairs:
+            if pair.contact in missed:
+                pair.contact = None
+        self.news.hits = {c: hit for c, hit in self.news.hits.items() if c not in missed}
+        self.touching = [c for c in self.touching if c not in missed]
+        self.begun = [c for c in self.begun if c not in missed]
         self.group_contacts()
         self.world.update_hooks()
 
@@ -297,13 +304,15 @@ class Detection(Effect):
 
         The common velocity of a frame of rods does not count.
         """
-        x = y = 0.0
         if not body.joint_count:
             return False
+        x = y = 0.0
         if self.rods and self.rods.holds(body):
             x, y = self.rods.frame_of[body].velocity()
-        elif self.springs and not self.springs.has_stiff(body, self.h):
-            return False
+        elif self.springs:
+            springs = self.springs.springs_of.get(body, [])
+            if not any([spring.is_stiff(self.h) for spring in springs]):
+                return False
         return hypot(body.vx - x, body.vy - y) * self.last_dt > body.r
 
     def way_left(self, body: Body) -> float:

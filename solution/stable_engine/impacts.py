@@ -186,19 +186,8 @@ class Impacts:
         for faces in deep.values():
             self.faces.lift(faces)
         self.flight.pass_on()
-        untouched = {c for c in self.begun if self.is_untouched(c)}
-        if untouched:
-            self.contacts.drop_untouched(untouched)
+        self.contacts.drop_untouched(self.begun - self.queue.counts.keys())
         self.keep_inside()
-
-    def is_untouched(self, c: Contact) -> bool:
-        """Return whether an impact has kept a pair from touching in this step."""
-        contacts, a, b = self.contacts, c.a, c.b
-        was_hit = a in contacts.hit_ago or b in contacts.hit_ago
-        if not was_hit or c in self.queue.counts or c in contacts.landings.speeds:
-            return False
-        gap = collide(a, b)[2]
-        return gap > self.touching_gap and not contacts.have_passed(a, b, gap)
 
     def keep_inside(self) -> None:
         """Stop balls before walls, if an impact took them through: on them, or by a joint."""

@@ -167,10 +167,6 @@ class Springs(Joints[Spring]):
         self.find_networks()
         return [spring for spring in self.awake if spring.is_stiff(h)]
 
-    def has_stiff(self, body: Body, h: float) -> bool:
-        """Return whether any spring of a body is stiff in substeps of h seconds."""
-        return any([spring.is_stiff(h) for spring in self.springs_of.get(body, [])])
-
     def pull(self, body: Body, h: float) -> tuple[float, float]:
         """Return the acceleration (px/s²) of a body by its springs that are not stiff."""
         x = y = 0.0
