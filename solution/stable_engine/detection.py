@@ -287,17 +287,17 @@ class Detection(Effect):
 
         That is known of balls that flew straight, or almost so with joints.
         """
-        has_joint = a.joint_count or b.joint_count
-        if not b.r or (has_joint and (self.is_led_far(a) or self.is_led_far(b))):
+        if not b.r:
             return False
-        if self.late and (a in self.late or b in self.late):
-            return self.look_back_late(a, b)[0] > 0
+        is_late = self.late and (a in self.late or b in self.late)
         vx, vy = a.vx - b.vx, a.vy - b.vy
         seconds = self.flight_of(a, b)
         way = sqrt(vx * vx + vy * vy) * seconds
-        if way <= gap or way <= FAR * (a.r + b.r):
+        if not is_late and (way <= gap or way <= FAR * (a.r + b.r)):
             return False
-        return moment_of_touch(a, b, seconds)[0] > 0
+        if (a.joint_count or b.joint_count) and (self.is_led_far(a) or self.is_led_far(b)):
+            return False
+        return (self.look_back_late(a, b) if is_late else moment_of_touch(a, b, seconds))[0] > 0
 
     def is_led_far(self, body: Body) -> bool:
         """Return whether rods or stiff springs may lead a ball by more than its radius in a step.
