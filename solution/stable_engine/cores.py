@@ -69,12 +69,12 @@ class Cores:
 
         Its contacts are `beside`. In the next step it comes from where it is now.
         """
-        x, y, core = body.last_x, body.last_y, core_of(body)
+        x, y, core = body.last_x, body.last_y, CORE * body.r
         dx, dy = body.x - x, body.y - y
         is_deep = any([c.gap < -core and c.b.is_static for c in beside])
         if not is_deep and dx * dx + dy * dy <= core * core:
             return False
-        share = free_share(body, self.world.statics, core, (x, y), dx, dy)
+        share = free_share(body, self.world.statics, core_of(body), (x, y), dx, dy)
         if share < 1:
             body.x, body.y = x + dx * share, y + dy * share
             for c in beside:
