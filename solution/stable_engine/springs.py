@@ -276,8 +276,7 @@ def share_before(turn2: float) -> float:
 
     That is all of the pull of a soft spring: the rest takes energy.
     """
-    over = max(turn2 - STIFF, 0.0)
-    return 1 / (1 + over * over * over)
+    return 1 / (1 + turn2 * turn2 * turn2) if turn2 > STIFF else 1.0
 
 
 def part_after(lost: float) -> float:
