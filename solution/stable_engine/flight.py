@@ -263,16 +263,20 @@ class Flight:
         return g, g * self.h / 2
 
     def stiff_lag(self, c: Contact) -> float:
-        """Return by how much (px/s) a closing speed lags by the pull of stiff springs from A to B.
+        """Return by how much (px/s) a closing speed lags by the stretch of springs that are stiff.
 
-        Those to other bodies do not count: they may draw a ball into more than one impact.
+        All springs of a ball count, or one that is held between two walls would gain energy.
         """
         lag = 0.0
-        for spring in self.springs_of.get(c.a, []) if c.a in self.stiff else []:
-            if spring.other_end(c.a) is c.b and spring.is_stiff(self.h):
-                fx, fy = spring.pull_between(state_of(c.a), state_of(c.b))
-                share = share_before(self.h * self.h * spring.crowd)
-                lag += (fx * c.nx + fy * c.ny) / c.mn * share * self.h / 2
+        for body, nx, ny in ((c.a, c.nx, c.ny), (c.b, -c.nx, -c.ny)):
+            for spring in self.springs_of.get(body, []) if body in self.stiff else []:
+                other = spring.other_end(body)
+                dx, dy = other.x - body.x, other.y - body.y
+                distance = hypot(dx, dy)
+                if distance > 0:
+                    share = share_before(self.h * self.h * spring.crowd)
+                    pull = share * spring.k * (distance - spring.rest) * body.inv_mass  # px/s²
+                    lag += pull * (dx * nx + dy * ny) / distance * self.h / 2
         return lag
 
     def rest(self, c: Contact) -> None:
