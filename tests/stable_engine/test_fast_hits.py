@@ -149,7 +149,7 @@ def test_a_fast_dumbbell_hits_a_ball_on_its_way(speed):
         ends = [add_ball(world, -60 - speed / 600 * phase - x, 0, 1, (speed, 0)) for x in (0, 60)]
         world.add(Rod(*ends))
         ball = add_ball(world, 0, 0)
-        while ends[0].x + speed / 60 < 200 + speed / 60 and ball.vel == (0, 0):
+        while ends[0].x < 200 and ball.vel == (0, 0):
             world.step(1 / 60)
         assert tuple(ball.vel) == pytest.approx((speed * 4 / 3, 0), abs=1e-6 * speed)
 
