@@ -3,8 +3,10 @@
 from .body import Body
 from .frame import Frame
 from .joint import Joint, Joints
+from .molecule import Molecule, find_molecules
 from .network import connect
 from .soft import Pace, softness
+from .springs import Springs
 from .validate import require
 
 FREQUENCY = 0.25  # of a rod, per substep
@@ -46,10 +48,10 @@ class Rods(Joints[Rod]):
     torn, turn too fast for that, or hang on bodies that move apart, they give way: the parts alone
     would give them energy. Existing errors of length are corrected softly. If a rod's ends would
     pass each other, the speed along the present axis counts, as that after the move would drive
-    them on.
+    them on. Frames that stiff springs tie are solved with these first, see Molecule.
     """
 
-    __slots__ = ("frame_of", "frames", "pace", "spring")
+    __slots__ = ("frame_of", "frames", "known", "molecules", "pace", "spring", "springs")
     rank = 2
 
     def __init__(self) -> None:
@@ -57,6 +59,11 @@ class Rods(Joints[Rod]):
         self.pace = Pace(STIFFENING)
         self.frames: list[Frame] = []
         self.frame_of: dict[Body, Frame] = {}
+        self.molecules: list[Molecule] = []
+        self.known: tuple[object, object, float] = None, None, 0.0  # for what these were found
+
+    def attach(self) -> None:
+        self.springs = self.world.find(Springs)  # those of the scene, if it declares any
 
     def add(self, rod: Rod) -> None:
         super().add(rod)
@@ -74,6 +81,8 @@ class Rods(Joints[Rod]):
     def prepare(self, h: float) -> None:
         self.spring = softness(FREQUENCY / self.pace.follow(h), DAMPING_RATIO, h)
         self.find_frames()
+        if self.springs:
+            self.find_molecules(self.springs, h)
 
     def find_frames(self) -> None:
         """Find the frames again, if rods were added or removed."""
@@ -81,6 +90,13 @@ class Rods(Joints[Rod]):
             self.is_stale = False
             self.frames = [Frame(network, self.world) for network in connect(self.awake)]
             self.frame_of = {ball: frame for frame in self.frames for ball in frame.balls}
+
+    def find_molecules(self, springs: Springs, h: float) -> None:
+        """Find frames that stiff springs tie, if rods, springs or the substep have changed."""
+        frames, networks, last = self.known
+        if not (frames is self.frames and networks is springs.networks and last == h):
+            self.known = self.frames, springs.networks, h
+            self.molecules = find_molecules(self.frames, self.frame_of, springs, h)
 
     def lag(self, seconds: float) -> None:
         """Let rods act on what others add; a frame is pressed if any of its balls is."""
@@ -105,8 +121,11 @@ class Rods(Joints[Rod]):
 
     def solve(self, h: float) -> None:
         bias_rate, mass_scale = self.spring
+        bias = bias_rate / mass_scale
+        for molecule in self.molecules:
+            molecule.solve(h, bias)
         for frame in self.frames:
-            frame.keep_lengths(h, bias_rate / mass_scale, 1 / mass_scale)
+            frame.keep_lengths(h, bias, 1 / mass_scale)
 
     def relax(self, h: float) -> None:
         for frame in self.frames:
