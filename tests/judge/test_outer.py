@@ -155,8 +155,8 @@ sys.exit(7)
 """
 
 
-def run_whole(kind: str) -> "subprocess.Popen[str]":
-    command = [sys.executable, "-c", WHOLE, kind]
+def run_whole(kind: str, program: str = WHOLE) -> "subprocess.Popen[str]":
+    command = [sys.executable, "-c", program, kind]
     return subprocess.Popen(command, cwd=KIT, stdout=subprocess.PIPE, text=True)
 
 
@@ -199,6 +199,6 @@ def fork_and_be_ended():
 os.fork = fork_and_be_ended
 """
     imports, rest = WHOLE.split("try:", 1)
-    command = [sys.executable, "-c", f"{imports}{early}try:{rest}", "waits"]
-    ended = subprocess.run(command, cwd=KIT, stdout=subprocess.DEVNULL, check=False)
-    assert ended.returncode == 128 + 15
+    process = run_whole("waits", f"{imports}{early}try:{rest}")
+    process.communicate()
+    assert process.returncode == 128 + 15

@@ -10,25 +10,17 @@ import math
 import random
 
 import pytest
-from worlds_for_tests import balls, whole_energy
+from worlds_for_tests import IDEAL, add_ideal_ball, balls, whole_energy
 
 from experiments.scenes import DT
 from stable_engine import Body, Bounce, Box, Bullets, Circle, Contacts, Rod, Rods, World
 
-IDEAL = {"restitution": 1.0, "friction": 0.0}
 ROUNDING = 1e-9  # relative
 LENGTH = (16 / 240) ** 2  # relative
 
 
 def make_world():
     return World((0, 0), effects=[Contacts(), Bounce(), Bullets()])
-
-
-def add_ball(world, pos, vel, r=10.0, mass=1.0, bullet=False):
-    """Add a smooth elastic ball."""
-    body = world.add(Body(Circle(r), pos, mass, bullet=bullet, **IDEAL))
-    body.vel = vel
-    return body
 
 
 def add_room(world, size):
@@ -46,8 +38,8 @@ def test_a_bullet_that_meets_a_wall_and_a_ball_in_one_step_keeps_its_energy():
     """The other bullet turns it back towards the wall, which it does not reach again."""
     world = make_world()
     world.add(Body(Box((100, 500)), (-100, 0), **IDEAL))
-    add_ball(world, (29.8, 26.9), (-25, 499), 9, bullet=True)
-    add_ball(world, (10.4, 36.4), (-500, -3), 9, bullet=True)
+    add_ideal_ball(world, (29.8, 26.9), (-25, 499), 9, bullet=True)
+    add_ideal_ball(world, (10.4, 36.4), (-500, -3), 9, bullet=True)
     before = whole_energy(world)
     for _ in range(6):
         world.step(1 / 60)
@@ -60,7 +52,7 @@ def test_a_gas_of_bullets_keeps_its_energy_and_its_room(speed):
     add_room(world, size)
     for i in range(60):
         pos, vel = (40 + 60 * (i % 8), 40 + 60 * (i // 8)), (math.cos(i), math.sin(i))
-        add_ball(world, pos, [speed * v for v in vel], 9, 1 + i % 3, bullet=True)
+        add_ideal_ball(world, pos, [speed * v for v in vel], 9, 1 + i % 3, bullet=True)
     before = whole_energy(world)
     for _ in range(120):
         world.step(DT)
@@ -74,8 +66,8 @@ def test_a_gas_of_bullets_keeps_its_energy_and_its_room(speed):
 def test_a_fast_ball_sets_only_the_last_of_a_row_in_motion(count, speed, phase):
     """Equal balls swap velocities, however many of their impacts fall in one step."""
     world = make_world()
-    cue = add_ball(world, (-1000 - speed * DT * phase / 8, 0), (speed, 0))
-    row = [add_ball(world, (30 * i, 0), (0, 0)) for i in range(count)]
+    cue = add_ideal_ball(world, (-1000 - speed * DT * phase / 8, 0), (speed, 0))
+    row = [add_ideal_ball(world, (30 * i, 0), (0, 0)) for i in range(count)]
     for _ in range(math.ceil(1200 / speed / DT) + 2):
         world.step(DT)
     speeds = [body.vx for body in [cue, *row]]
@@ -90,8 +82,8 @@ def test_a_ball_does_not_pass_another_on_its_way_to_a_wall(bullet, speed, phase)
     world = make_world()
     world.add(Body(Box((100, 500)), (160, 0), **IDEAL))
     start = -300 - speed * DT * phase / 8
-    cue = add_ball(world, (start, 0), (speed, 0), 5, bullet=bullet)
-    other = add_ball(world, (0, 0), (0, 0), 5, bullet=bullet)
+    cue = add_ideal_ball(world, (start, 0), (speed, 0), 5, bullet=bullet)
+    other = add_ideal_ball(world, (0, 0), (0, 0), 5, bullet=bullet)
     before = whole_energy(world)
     for _ in range(math.ceil(1200 / speed / DT)):
         world.step(DT)
@@ -138,7 +130,7 @@ def add_frame(world, pos, turn, vel, name):
     for k in range(count):
         angle = turn + 2 * math.pi * k / count
         at = pos[0] + far * math.cos(angle), pos[1] + far * math.sin(angle)
-        ends.append(add_ball(world, at, vel, bullet=k < bullets))
+        ends.append(add_ideal_ball(world, at, vel, bullet=k < bullets))
     pairs = itertools.combinations(ends, 2)
     return ends, [world.add(Rod(a, b)) for a, b in pairs]
 
@@ -186,8 +178,8 @@ def test_a_ball_misses_one_that_a_wall_has_turned_back_before(bullet, after):
     """The other crosses the way to the wall so late (s) that the ball has left it."""
     world = make_world()
     world.add(Body(Box((100, 500)), (100, 0), **IDEAL))
-    turned = add_ball(world, (-50, 0), (9000, 0), bullet=bullet)
-    other = add_ball(world, (-30, -12_000 * after), (0, 12_000), bullet=bullet)
+    turned = add_ideal_ball(world, (-50, 0), (9000, 0), bullet=bullet)
+    other = add_ideal_ball(world, (-30, -12_000 * after), (0, 12_000), bullet=bullet)
     for _ in range(2):
         world.step(1 / 60)
     assert (*turned.vel, *other.vel) == pytest.approx((-9000, 0, 0, 12_000), abs=1e-6)

@@ -8,6 +8,7 @@ import math
 import random
 
 import pytest
+from worlds_for_tests import IDEAL, add_ideal_ball
 
 from stable_engine import (
     Body,
@@ -25,17 +26,9 @@ from stable_engine import (
 R = 10  # px
 pytestmark = pytest.mark.filterwarnings("ignore:This scene calls for Bullets")
 
-IDEAL = {"restitution": 1, "friction": 0}
-
 
 def make_world(on_hit=None, on_part=None):
     return World((0, 0), 4, [Contacts(on_hit, on_part), Bounce(), Rods(), Springs()])
-
-
-def add_ball(world, x, y, mass=1.0, vel=(0, 0)):
-    ball = world.add(Body(Circle(R), (x, y), mass, **IDEAL))
-    ball.vel = vel
-    return ball
 
 
 # ---------------------------------------------------------------- balls on joints
@@ -55,7 +48,12 @@ def hang_on_two_rods(world, bob):
 
 
 def hang_on_chain(world, bob):
-    links = [peg(world, 0, -120), add_ball(world, 0, -80), add_ball(world, 0, -40), bob]
+    links = [
+        peg(world, 0, -120),
+        add_ideal_ball(world, (0, -80)),
+        add_ideal_ball(world, (0, -40)),
+        bob,
+    ]
     for a, b in itertools.pairwise(links):
         world.add(Rod(a, b))
 
@@ -69,7 +67,7 @@ def hang_on_spring(stiffness):
 
 def tie_to_ball(mass):
     def tie(world, bob):
-        world.add(Rod(add_ball(world, 0, -1000, mass), bob))
+        world.add(Rod(add_ideal_ball(world, (0, -1000), mass=mass), bob))
 
     return tie
 
@@ -100,7 +98,7 @@ def shoot(world, rng, hz):
     speed = math.exp(rng.uniform(math.log(1000), math.log(20000)))
     side, mass = rng.choice([-1, 1]), rng.choice([0.3, 1, 3])
     start, off = 30 + rng.random() * speed / hz, rng.uniform(-15, 15)
-    ball = add_ball(world, -side * start, off, mass, (side * speed, 0))
+    ball = add_ideal_ball(world, (-side * start, off), (side * speed, 0), mass=mass)
     ahead = math.sqrt(4 * R * R - off * off)
     steps = math.ceil((start - ahead) / speed * hz)
     return ball, (side * speed, 0), (side * ahead / (2 * R), -off / (2 * R)), steps
@@ -113,7 +111,7 @@ def test_no_fast_ball_flies_through_one_on_joints(name, hz):
     rng = random.Random(hz)
     for _ in range(100):
         world = make_world()
-        HANGINGS[name](world, add_ball(world, 0, 0))
+        HANGINGS[name](world, add_ideal_ball(world, (0, 0)))
         ball, (speed, _), (nx, ny), steps = shoot(world, rng, hz)
         for _ in range(steps):
             world.step(1 / hz)
@@ -130,7 +128,7 @@ def test_a_ball_that_passed_a_held_one_is_not_left_behind_it(hz):
     rng = random.Random(hz)
     for _ in range(100):
         world = make_world()
-        hang_on_two_rods(world, add_ball(world, 0, 0))
+        hang_on_two_rods(world, add_ideal_ball(world, (0, 0)))
         ball, (speed, _), _, steps = shoot(world, rng, hz)
         for _ in range(steps):
             world.step(1 / hz)
@@ -146,9 +144,11 @@ def test_a_fast_dumbbell_hits_a_ball_on_its_way(speed):
     """It flies straight, so its own speed does not hide the hit: the ball gets 4/3 of it."""
     for phase in range(10):
         world = make_world()
-        ends = [add_ball(world, -60 - speed / 600 * phase - x, 0, 1, (speed, 0)) for x in (0, 60)]
+        ends = [
+            add_ideal_ball(world, (-60 - speed / 600 * phase - x, 0), (speed, 0)) for x in (0, 60)
+        ]
         world.add(Rod(*ends))
-        ball = add_ball(world, 0, 0)
+        ball = add_ideal_ball(world, (0, 0))
         while ends[0].x < 200 and ball.vel == (0, 0):
             world.step(1 / 60)
         assert tuple(ball.vel) == pytest.approx((speed * 4 / 3, 0), abs=1e-6 * speed)
@@ -202,7 +202,7 @@ def test_hits_are_told_as_they_happen_and_no_others(hz):
     for seed in range(200):
         told, scene = [], scatter(seed)
         world = make_world(lambda a, b, speed, told=told: told.append((a, b, speed)))
-        balls = [add_ball(world, *pos, mass, vel) for pos, vel, mass in scene]
+        balls = [add_ideal_ball(world, pos, vel, mass=mass) for pos, vel, mass in scene]
         world.step(1 / hz)
         wanted = {}
         for i, j, speed in find_hits(scene, 1 / hz):
@@ -225,7 +225,7 @@ def test_each_pair_meets_and_parts_in_turn(restitution):
         walls = [((-220, -220), (-220, 220)), ((220, -220), (220, 220))]
         for start, end in walls + [((y, x), (b, a)) for (x, y), (a, b) in walls]:
             world.add(Body(Segment(start, end, 20), **{**IDEAL, "restitution": restitution}))
-        balls = [add_ball(world, 60 * k - 150, rng.uniform(-180, 180)) for k in range(6)]
+        balls = [add_ideal_ball(world, (60 * k - 150, rng.uniform(-180, 180))) for k in range(6)]
         for ball in balls:
             ball.vel = rng.uniform(-6000, 6000), rng.uniform(-6000, 6000)
             ball.restitution = restitution

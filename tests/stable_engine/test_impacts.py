@@ -10,7 +10,7 @@ from types import SimpleNamespace
 
 import pytest
 from samples import sample
-from worlds_for_tests import balls, build, whole_energy
+from worlds_for_tests import IDEAL, balls, build, whole_energy
 
 from experiments.engines import Stable
 from experiments.measures import run, states, watch
@@ -34,7 +34,6 @@ from stable_engine import (
     World,
 )
 
-IDEAL = {"restitution": 1.0, "friction": 0.0}
 SMOOTH = ("Contacts", "Bounce")
 TRIAL = SimpleNamespace(build=Stable)  # as rows of the leaderboard expect it
 

@@ -6,6 +6,9 @@ from dataclasses import replace
 import stable_engine
 from experiments.engines import Stable
 from experiments.scenes import EFFECTS, NEED_CONTACTS, Ball, Scene, Spring, floor
+from stable_engine import Body, Circle
+
+IDEAL = {"restitution": 1.0, "friction": 0.0}
 
 
 def build(scene, *effects, substeps=4):
@@ -38,6 +41,13 @@ def state(world):
         for body in world.bodies
         for number in (body.x, body.y, body.vx, body.vy, body.angle, body.w)
     ]
+
+
+def add_ideal_ball(world, pos, vel=(0, 0), r=10.0, mass=1.0, bullet=False):
+    """Add a smooth elastic ball."""
+    ball = world.add(Body(Circle(r), pos, mass, bullet=bullet, **IDEAL))
+    ball.vel = vel
+    return ball
 
 
 def playground(names):
