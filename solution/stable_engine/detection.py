@@ -13,7 +13,7 @@ from .news import News
 from .order import Group
 from .rods import Rods
 from .soft import SAME_DIRECTION
-from .springs import Springs
+from .springs import Springs, any_stiff
 from .sweep import moment_of_touch
 from .validate import refuse
 
@@ -224,9 +224,8 @@ class Detection(Effect):
         for begin_contact in self.begin_contact_hooks:
             begin_contact(c)
         self.begun.append(c)
-        if (
-            a.is_fresh or (b.inv_mass and b.is_fresh)
-        ) and c.closing_speed() > -self.speculative_speed:
+        is_fresh = a.is_fresh or (b.inv_mass > 0 and b.is_fresh)
+        if is_fresh and c.closing_speed() > -self.speculative_speed:
             a.is_pressed = b.is_pressed = True
         return c
 
@@ -309,10 +308,8 @@ class Detection(Effect):
         x = y = 0.0
         if self.rods and self.rods.holds(body):
             x, y = self.rods.frame_of[body].velocity()
-        elif self.springs:
-            springs = self.springs.springs_of.get(body, [])
-            if not any([spring.is_stiff(self.h) for spring in springs]):
-                return False
+        elif self.springs and not any_stiff(self.springs.springs_of.get(body, []), self.h):
+            return False
         return hypot(body.vx - x, body.vy - y) * self.last_dt > body.r
 
     def way_left(self, body: Body) -> float:

@@ -77,9 +77,8 @@ class Frame(Cluster):
                 return True
             if turned < TURNED or left == 0 or (last and off > slow * last):
                 break
-            self.apply()
-            for rod in self.rods:
-                rod.j += rod.rhs
+            self.network.solve()
+            self.take()
             if off < NEAR:
                 return True
             last = off
@@ -109,6 +108,12 @@ class Frame(Cluster):
         self.network.solve()
         for rod in self.rods:
             rod.apply_impulse(rod.rhs)
+
+    def take(self) -> None:
+        """Apply the impulses in rhs, and add them to those before the move."""
+        for rod in self.rods:
+            rod.apply_impulse(rod.rhs)
+            rod.j += rod.rhs
 
     def return_to(self, impulses: list[float]) -> None:
         """Take back what the rods' impulses have changed since they were these."""
@@ -145,9 +150,8 @@ class Frame(Cluster):
                 for rod in self.rods:
                     rod.pivot = 1 / rod.m + give
                     rod.rhs -= give * rod.j
-            self.apply()
-            for rod in self.rods:
-                rod.j += rod.rhs
+            self.network.solve()
+            self.take()
             if is_soft or off < NEAR:
                 break
         if self.limit >= 0:

@@ -4,7 +4,7 @@ from .body import Body
 from .frame import TURNED, Frame
 from .joint import Joint
 from .network import Network, bodies_of, connect
-from .springs import Spring, Springs
+from .springs import Spring, Springs, any_stiff
 
 PASSES = 2  # of solving rods and springs together, as lengths are not quite linear in the speeds
 
@@ -38,9 +38,7 @@ class Molecule:
             for spring in self.springs:
                 spring.take(spring.rhs)
             for frame in self.frames:
-                for rod in frame.rods:
-                    rod.apply_impulse(rod.rhs)
-                    rod.j += rod.rhs
+                frame.take()
 
 
 def find_molecules(
@@ -49,7 +47,7 @@ def find_molecules(
     """Return the molecules in substeps of h seconds."""
     stiff: list[Joint] = []
     for network in springs.networks:
-        if any([spring.is_stiff(h) for spring in network.rows]):
+        if any_stiff(network.rows, h):
             stiff += network.rows
     if not stiff:
         return []

@@ -139,6 +139,12 @@ def connect(rows: list[AnyRow]) -> list[Network[AnyRow]]:
     return [Network(group) for group in connected(rows, couple(rows))]
 
 
+def tied_to(rows: list[AnyRow], ball: Body) -> list[AnyRow]:
+    """Return the rows that balls connect with this one, directly or through others."""
+    groups = connected(rows, couple(rows))
+    return next((group for group in groups if ball in bodies_of(group)), [])
+
+
 def connected(things: list[Thing], beside: Mapping[Any, Iterable[Any]]) -> list[list[Thing]]:
     """Return groups of things that are connected directly or through others, in the same order."""
     first_of: dict[Any, Thing] = {}

@@ -4,7 +4,7 @@ from math import expm1, hypot
 
 from .body import Body, State, state_of
 from .joint import Joint, Joints
-from .network import Network, bodies_of, connect, connected, couple
+from .network import Network, bodies_of, connect, tied_to
 from .row import Row
 from .validate import not_negative
 
@@ -178,9 +178,7 @@ class Springs(Joints[Spring]):
 
     def stiff_around(self, body: Body, h: float) -> list[Spring]:
         """Return the stiff springs that tie a ball to others, these to more, and so on."""
-        stiff = self.find_stiff(h)
-        groups = connected(stiff, couple(stiff))
-        return next((group for group in groups if body in bodies_of(group)), [])
+        return tied_to(self.find_stiff(h), body)
 
     def others_on(self, springs: list[Spring], body: Body) -> list[Body]:
         """Return the balls on these springs, without one."""
@@ -232,21 +230,21 @@ class Springs(Joints[Spring]):
         self.find_networks()
         h = 2 * abs(seconds)
         for network in self.networks:
-            if not any([spring.is_stiff(h) for spring in network.rows]):
+            if not any_stiff(network.rows, h):
                 self.lag_softly(network.rows, seconds)
-            elif any([body.is_pressed or body.is_static for body in self.tied_to(network)]):
+            elif any([body.is_pressed or body.is_static for body in self.bodies_around(network)]):
                 for body in bodies_of(network.rows):
                     body.is_pressed = True
 
-    def tied_to(self, network: Network[Spring]) -> list[Body]:
+    def bodies_around(self, network: Network[Spring]) -> list[Body]:
         """Return all bodies that joints connect with a network, and its own."""
         bodies = bodies_of(network.rows)
         if all([body.joint_count == len(self.springs_of[body]) for body in bodies]):
             return bodies
         effects = self.world.effects.values()
         joints = [one for effect in effects if isinstance(effect, Joints) for one in effect.awake]
-        groups = [bodies_of(group) for group in connected(joints, couple(joints))]
-        return next(group for group in groups if set(bodies) <= set(group))
+        ball = next(body for body in bodies if not body.is_static)
+        return bodies_of(tied_to(joints, ball))
 
     def lag_softly(self, springs: list[Spring], seconds: float) -> None:
         """Let velocities lag by the pull of springs in so many seconds."""
@@ -269,6 +267,11 @@ class Springs(Joints[Spring]):
         for spring in self.awake:
             for body in (spring.end_a, spring.end_b) if spring.c else ():
                 rates[body] = rates.get(body, 0.0) + spring.c * body.inv_mass
+
+
+def any_stiff(springs: list[Spring], h: float) -> bool:
+    """Return whether any of these springs is stiff in substeps of h seconds."""
+    return any([spring.is_stiff(h) for spring in springs])
 
 
 def share_before(turn2: float) -> float:
