@@ -54,7 +54,7 @@ class Contacts(Detection):
         self.is_mirrored = False  # whether contacts may have the same place in the order
         self.piles: list[Pile] = []  # with heavy bodies
         self.target = Target(0.0, 0.0, 0.0)  # of the substep, if there are piles
-        self.has_friction = False  # whether Friction settles piles after its own pass
+        self.has_friction = False  # then it settles piles after its own pass, and holds squeezes
         self.pace = Pace(STIFFENING)
 
     def attach(self) -> None:
@@ -74,7 +74,8 @@ class Contacts(Detection):
         pace = self.pace.follow(h)
         if not (self.groups or self.piles or self.crowd):
             return
-        self.squeezed = self.find_squeezed(h)
+        if self.has_friction:
+            self.squeezed = self.find_squeezed(h)
         hertz = FREQUENCY / pace
         damping = max(LEAST_DAMPING, SUBSTEP_DAMPING * self.world.substep_count)
         for group in self.groups:
@@ -280,12 +281,13 @@ class Contacts(Detection):
         """
         super().static_moved(body)
         (gx, gy), dt = self.world.g, self.h * self.world.substep_count
-        for c in self.of_body(body) if body.vx or body.vy else []:
+        contacts = self.all_contacts() if body.vx or body.vy else []
+        for c in [c for c in contacts if c.b is body]:
             away = body.vx * c.nx + body.vy * c.ny
             follows = max(gx * c.nx + gy * c.ny, 0.0) * dt
             if c.jn and c.closing_speed() + follows < -away * LEFT_BEHIND < 0:
                 impulse, c.jn, c.jt = c.jn, 0.0, 0.0
-                take_off(self.all_contacts(), {c.a: impulse}, (-c.nx, -c.ny))
+                take_off(contacts, {c.a: impulse}, (-c.nx, -c.ny))
 
     def awake_changed(self) -> None:
         super().awake_changed()

@@ -44,9 +44,8 @@ class Impacts:
         self.reach = contacts.speculative_speed * self.dt  # px, a gap that slow ones close at once
         self.slow = slow  # px/s, slower impacts are ignored
         self.queue = ImpactQueue(self.touching_gap)
-        self.stops: dict[
-            Body, State
-        ] = {}  # where walls stopped balls that `try_to_pass` let fly on
+        # where walls stopped balls that `try_to_pass` let fly on
+        self.stops: dict[Body, State] = {}
         self.beside: dict[Body, list[Contact]] = defaultdict(list)  # the contacts of each ball
         self.flight = Flight(contacts, h, slow)
         self.frame_of = self.flight.frame_of

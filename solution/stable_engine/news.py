@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import inf
+from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from .contact import Contact
@@ -19,9 +20,8 @@ class News:
 
     def __init__(self, contacts: Detection) -> None:
         self.contacts = contacts
-        # of pairs that met: how long ago (s), and their speed (px/s); None of those that parted
-        self.hits: dict[Contact, tuple[float, float | None]] = {}
-        self.parted: dict[Contact, tuple[float, float | None]] = {}
+        self.hits: dict[Contact, tuple[float, float]] = {}  # how long ago (s), and how fast (px/s)
+        self.parted: dict[Contact, None] = {}
 
     def note_hit(self, c: Contact, at: float = 0.0) -> None:
         """Note that two bodies began to touch, `at` seconds ago or as they have flown."""
@@ -33,7 +33,7 @@ class News:
     def note_part(self, c: Contact) -> None:
         """Note that two bodies parted, before other pairs met."""
         if self.contacts.on_part and c not in self.contacts.landings.speeds:
-            self.parted[c] = inf, None
+            self.parted[c] = None
             if c in self.hits:
                 self.hits[c] = inf, self.hits[c][1]
 
@@ -49,9 +49,13 @@ class News:
 
     def tell(self) -> None:
         """Call on_hit and on_part, in order, for bodies that are still in the world."""
-        contacts, news = self.contacts, [*self.hits.items(), *self.parted.items()]
+        contacts = self.contacts
+        news: list[tuple[float, Contact, float | None]] = [
+            *[(ago, c, speed) for c, (ago, speed) in self.hits.items()],
+            *[(inf, c, None) for c in self.parted],
+        ]
         self.hits, self.parted = {}, {}
-        for c, (_, speed) in sorted(news, key=lambda item: item[1][0], reverse=True):
+        for _, c, speed in sorted(news, key=itemgetter(0), reverse=True):
             if c.a.world is c.b.world is contacts.world:
                 if speed is not None and contacts.on_hit:
                     contacts.on_hit(c.a, c.b, speed)
