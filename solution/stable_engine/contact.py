@@ -137,7 +137,11 @@ def turn_normals(contacts: list[Contact]) -> None:
                 c.jn = c.jt = 0.0
             c.nx, c.ny = nx, ny
             if c.mu:
-                c.set_arms(distance - a.r - b.r)
+                half = (distance - a.r - b.r) / 2 if b.inv_mass else 0.0
+                arm_a, arm_b = a.r + half, b.r + half
+                c.arm_a, c.arm_b = arm_a, arm_b
+                spin = arm_a * arm_a * a.inv_inertia + arm_b * arm_b * b.inv_inertia
+                c.mt = 1 / (a.inv_mass + b.inv_mass + spin)
 
 
 def circle_box(a: Body, b: Body) -> tuple[float, float, float]:

@@ -8,7 +8,7 @@ from .cores import Cores
 from .crowd import gather_crowd, part_crowd
 from .detection import REDETECT_DISTANCE, Detection, OnHit, OnPart
 from .effect import Direction
-from .order import Group, give_places, put_in_order
+from .order import Group, Stage, give_places, put_in_order
 from .pile import Pile, Target, lower
 from .piles import BEARING, find_piles
 from .soft import Pace, softness
@@ -42,7 +42,7 @@ class Contacts(Detection):
 
     __slots__ = (
         *("beginnings", "has_friction", "is_mirrored", "max_push_speed", "pace", "piles", "round"),
-        *("cores", "squeezed", "target"),
+        *("cores", "push", "squeezed", "stop", "target"),
     )
     rank = 3
 
@@ -54,12 +54,18 @@ class Contacts(Detection):
         self.is_mirrored = False  # whether contacts may have the same place in the order
         self.piles: list[Pile] = []  # with heavy bodies
         self.target = Target(0.0, 0.0, 0.0)  # of the substep, if there are piles
-        self.has_friction = False  # then it settles piles after its own pass, and holds squeezes
+        self.has_friction = False  # which may hold squeezes
+        # the passes before the move and after it, unless there are piles: see Friction
+        self.push: Stage = push
+        self.stop: Stage = stop
         self.pace = Pace(STIFFENING)
 
     def attach(self) -> None:
         super().attach()
         self.max_push_speed = MAX_PUSH_SPEED * self.world.unit  # px/s
+        for group in (self.balls, self.statics):
+            group.max_push_speed = self.max_push_speed
+            group.least = self.touching_gap / 2
         self.cores = Cores(self)
 
     def prepare(self, h: float) -> None:
@@ -153,7 +159,10 @@ class Contacts(Detection):
             for c in group.contacts:
                 a, b = c.a, c.b
                 jn, jt = c.jn, c.jt
-                jx, jy = c.nx * jn - c.ny * jt, c.ny * jn + c.nx * jt
+                if not jn:
+                    continue  # nor does friction
+                nx, ny = c.nx, c.ny
+                jx, jy = nx * jn - ny * jt, ny * jn + nx * jt
                 a.vx -= jx * a.inv_mass
                 a.vy -= jy * a.inv_mass
                 if moves_b:
@@ -166,87 +175,33 @@ class Contacts(Detection):
     def solve(self, h: float) -> None:
         for pile in self.piles:
             pile.look(h)
-        for group in self.groups:
-            self.push(group, group.in_turn, h)
-            for tie in group.ties:
-                tie.solve(self.push, group, h)
+        self.go_over(push if self.piles else self.push, h)
         if self.piles:
             rates = self.balls.bias_rate, self.statics.bias_rate
             self.target = Target(h, self.max_push_speed, self.touching_gap / 2, rates)
             self.settle()
 
-    def settle(self) -> None:
-        """Solve piles for what passes have left, of contacts or of friction."""
-        for pile in self.piles:
-            pile.settle(self.target)
-
-    def push(self, group: Group, contacts: list[Contact], h: float) -> None:
-        """Push overlapping bodies apart, and stop those that would overlap after the move."""
-        most = -self.max_push_speed
-        least = self.touching_gap / 2  # px and px/s; at 0, rounding would decide
-        moves_b, bias_rate, mass_scale = group.moves_b, group.bias_rate, group.mass_scale
-        for c in contacts:
-            a, b = c.a, c.b
-            nx, ny, mn = c.nx, c.ny, c.mn
-            gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
-            speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
-            before = c.jn
-            if gap > least:
-                jn = before - mn * (speed + gap / h)
-            else:
-                push = bias_rate * gap
-                if push < most:
-                    push = most
-                jn = mass_scale * (before - mn * speed) - mn * push
-            if jn < mn * least:
-                jn = 0.0
-            c.jn = jn
-            jn -= before
-            change = jn * a.inv_mass
-            a.vx -= nx * change
-            a.vy -= ny * change
-            if moves_b:
-                change = jn * b.inv_mass
-                b.vx += nx * change
-                b.vy += ny * change
-
     def relax(self, h: float) -> None:
         if self.changed:
             turn_normals(self.round)
-        for group in self.groups:
-            self.stop(group, group.in_turn, h)
-            for tie in group.ties:
-                tie.solve(self.stop, group, h)
+        self.go_over(stop if self.piles else self.stop, h)
         if self.piles:
             self.target = Target(h, self.max_push_speed, self.touching_gap / 2)
             for pile in self.piles:
                 if pile.rods or not self.has_friction:  # else friction settles it
                     pile.settle(self.target)
 
-    def stop(self, group: Group, contacts: list[Contact], h: float) -> None:
-        """Stop bodies that still come together, and take back the speed of a push."""
-        moves_b = group.moves_b
-        for c in contacts:
-            a, b = c.a, c.b
-            nx, ny = c.nx, c.ny
-            speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
-            before = c.jn
-            if not before:
-                gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
-                if gap > 0:
-                    speed += gap / h
-            jn = before - c.mn * speed
-            if jn < 0:
-                jn = 0.0
-            c.jn = jn
-            jn -= before
-            change = jn * a.inv_mass
-            a.vx -= nx * change
-            a.vy -= ny * change
-            if moves_b:
-                change = jn * b.inv_mass
-                b.vx += nx * change
-                b.vy += ny * change
+    def go_over(self, stage: Stage, h: float) -> None:
+        """Pass over contacts, one after the other: those of static bodies last."""
+        for group in self.groups:
+            stage(group, group.in_turn, h)
+            for tie in group.ties:
+                tie.solve(stage, group, h)
+
+    def settle(self) -> None:
+        """Solve piles for what passes have left, of contacts or of friction."""
+        for pile in self.piles:
+            pile.settle(self.target)
 
     def finish(self, h: float) -> None:
         super().finish(h)
@@ -292,3 +247,59 @@ class Contacts(Detection):
     def awake_changed(self) -> None:
         super().awake_changed()
         self.pace.awake_changed(any([c.a.asleep for c in self.all_contacts()]))
+
+
+def push(group: Group, contacts: list[Contact], h: float) -> None:
+    """Push overlapping bodies apart, and stop those that would overlap after the move."""
+    most, least = -group.max_push_speed, group.least
+    moves_b, bias_rate, mass_scale = group.moves_b, group.bias_rate, group.mass_scale
+    for c in contacts:
+        a, b = c.a, c.b
+        nx, ny, mn = c.nx, c.ny, c.mn
+        gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
+        speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
+        before = c.jn
+        if gap > least:
+            jn = before - mn * (speed + gap / h)
+        else:
+            push = bias_rate * gap
+            if push < most:
+                push = most
+            jn = mass_scale * (before - mn * speed) - mn * push
+        if jn < mn * least:
+            jn = 0.0
+        c.jn = jn
+        jn -= before
+        change = jn * a.inv_mass
+        a.vx -= nx * change
+        a.vy -= ny * change
+        if moves_b:
+            change = jn * b.inv_mass
+            b.vx += nx * change
+            b.vy += ny * change
+
+
+def stop(group: Group, contacts: list[Contact], h: float) -> None:
+    """Stop bodies that still come together, and take back the speed of a push."""
+    moves_b = group.moves_b
+    for c in contacts:
+        a, b = c.a, c.b
+        nx, ny = c.nx, c.ny
+        speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
+        before = c.jn
+        if not before:
+            gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
+            if gap > 0:
+                speed += gap / h
+        jn = before - c.mn * speed
+        if jn < 0:
+            jn = 0.0
+        c.jn = jn
+        jn -= before
+        change = jn * a.inv_mass
+        a.vx -= nx * change
+        a.vy -= ny * change
+        if moves_b:
+            change = jn * b.inv_mass
+            b.vx += nx * change
+            b.vy += ny * change

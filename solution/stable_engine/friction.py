@@ -7,13 +7,17 @@ from .contacts import Contacts
 from .effect import Effect
 from .order import Group
 
-CALM = 1e-7  # share of the limit; smaller changes are skipped
+CALM = 1e-7  # share of the normal impulse; smaller changes are skipped
 
 
 class Friction(Effect):
     """Coulomb's law: the friction impulse is at most mu jn, with mu = sqrt(mu_a mu_b).
 
-    The tangent is the normal turned clockwise.
+    The tangent is the normal turned clockwise. An impulse along one does not change the speed along
+    the other: so a pass of Contacts solves each contact along both at once. It does so before the
+    move and after it; in relax alone, a pile would never rest. Where piles are solved, friction
+    follows them, as it depends on what they bear, and they are solved again: it makes bodies come
+    together where heavy ones press.
     """
 
     __slots__ = ("contacts",)
@@ -22,6 +26,7 @@ class Friction(Effect):
     def attach(self) -> None:
         self.contacts: Contacts = self.world.need("Contacts", self)
         self.contacts.has_friction = True
+        self.contacts.push, self.contacts.stop = push_and_rub, stop_and_rub
 
     def is_used(self) -> bool:
         return any(body.mu > 0 for body in self.world.bodies)
@@ -35,45 +40,107 @@ class Friction(Effect):
             c.jt = 0.0
 
     def solve(self, h: float) -> None:
-        """Apply friction to contacts that press now; in relax alone, a pile would never rest.
-
-        It makes bodies come together where heavy ones press: that is left neither to the move
-        nor to the next substep.
-        """
-        for group in self.contacts.groups:
-            self.rub(group, group.in_turn, h)
-            for tie in group.ties:
-                tie.solve(self.rub, group, h)
-        self.contacts.settle()
+        if self.contacts.piles:
+            self.contacts.go_over(rub, h)
+            self.contacts.settle()
 
     def relax(self, h: float) -> None:
         self.solve(h)
 
-    def rub(self, group: Group, contacts: list[Contact], h: float) -> None:
-        """Slow the slip of each contact, as far as its normal impulse allows."""
-        moves_b = group.moves_b
-        for c in contacts:
-            limit, before = c.mu * c.jn, c.jt
-            if limit or before:
-                a, b = c.a, c.b
-                nx, ny = c.nx, c.ny
-                rims = b.w * c.arm_b + a.w * c.arm_a
-                jt = before - c.mt * ((b.vy - a.vy) * nx - (b.vx - a.vx) * ny - rims)
-                if jt > limit:
-                    jt = limit
-                elif jt < -limit:
-                    jt = -limit
-                calm = CALM * limit
-                if -calm <= jt - before <= calm:
-                    continue
-                c.jt = jt
-                jt -= before
-                change = jt * a.inv_mass
-                a.vx += ny * change
-                a.vy -= nx * change
-                a.w -= c.arm_a * a.inv_inertia * jt
-                if moves_b:
-                    change = jt * b.inv_mass
-                    b.vx -= ny * change
-                    b.vy += nx * change
-                    b.w -= c.arm_b * b.inv_inertia * jt
+
+def rub(group: Group, contacts: list[Contact], h: float) -> None:
+    """Slow the slip of each contact, as far as its normal impulse allows."""
+    for c in contacts:
+        limit, held = c.mu * c.jn, c.jt
+        if limit or held:
+            a, b = c.a, c.b
+            nx, ny = c.nx, c.ny
+            rims = b.w * c.arm_b + a.w * c.arm_a
+            jt = held - c.mt * ((b.vy - a.vy) * nx - (b.vx - a.vx) * ny - rims)
+            c.jt = jt = max(-limit, min(jt, limit))
+            jt -= held
+            a.vx += ny * jt * a.inv_mass
+            a.vy -= nx * jt * a.inv_mass
+            a.w -= c.arm_a * a.inv_inertia * jt
+            b.vx -= ny * jt * b.inv_mass
+            b.vy += nx * jt * b.inv_mass
+            b.w -= c.arm_b * b.inv_inertia * jt
+
+
+def push_and_rub(group: Group, contacts: list[Contact], h: float) -> None:
+    """Push bodies as `push` does, and slow the slip of each contact."""
+    most, least = -group.max_push_speed, group.least
+    moves_b, bias_rate, mass_scale = group.moves_b, group.bias_rate, group.mass_scale
+    for c in contacts:
+        a, b = c.a, c.b
+        nx, ny, mn = c.nx, c.ny, c.mn
+        vx, vy = b.vx - a.vx, b.vy - a.vy
+        gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
+        before, held = c.jn, c.jt
+        if gap > least:
+            jn = before - mn * (vx * nx + vy * ny + gap / h)
+        else:
+            push = bias_rate * gap
+            if push < most:
+                push = most
+            jn = mass_scale * (before - mn * (vx * nx + vy * ny)) - mn * push
+        if jn < mn * least:
+            jn = 0.0
+        jt = 0.0
+        if jn:
+            limit = c.mu * jn
+            jt = held - c.mt * (vy * nx - vx * ny - (b.w * c.arm_b + a.w * c.arm_a))
+            if jt > limit:
+                jt = limit
+            elif jt < -limit:
+                jt = -limit
+        more, turn, calm = jn - before, jt - held, CALM * jn
+        if -calm <= more <= calm and -calm <= turn <= calm:
+            continue
+        c.jn, c.jt = jn, jt
+        jx, jy = nx * more - ny * turn, ny * more + nx * turn
+        a.vx -= jx * a.inv_mass
+        a.vy -= jy * a.inv_mass
+        a.w -= c.arm_a * a.inv_inertia * turn
+        if moves_b:
+            b.vx += jx * b.inv_mass
+            b.vy += jy * b.inv_mass
+            b.w -= c.arm_b * b.inv_inertia * turn
+
+
+def stop_and_rub(group: Group, contacts: list[Contact], h: float) -> None:
+    """Stop bodies as `stop` does, and slow the slip of each contact."""
+    moves_b = group.moves_b
+    for c in contacts:
+        a, b = c.a, c.b
+        nx, ny = c.nx, c.ny
+        vx, vy = b.vx - a.vx, b.vy - a.vy
+        speed = vx * nx + vy * ny
+        before, held = c.jn, c.jt
+        if not before:
+            gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
+            if gap > 0:
+                speed += gap / h
+        jn = before - c.mn * speed
+        if jn < 0:
+            jn = 0.0
+        jt = 0.0
+        if jn:
+            limit = c.mu * jn
+            jt = held - c.mt * (vy * nx - vx * ny - (b.w * c.arm_b + a.w * c.arm_a))
+            if jt > limit:
+                jt = limit
+            elif jt < -limit:
+                jt = -limit
+        more, turn, calm = jn - before, jt - held, CALM * jn
+        if -calm <= more <= calm and -calm <= turn <= calm:
+            continue
+        c.jn, c.jt = jn, jt
+        jx, jy = nx * more - ny * turn, ny * more + nx * turn
+        a.vx -= jx * a.inv_mass
+        a.vy -= jy * a.inv_mass
+        a.w -= c.arm_a * a.inv_inertia * turn
+        if moves_b:
+            b.vx += jx * b.inv_mass
+            b.vy += jy * b.inv_mass
+            b.w -= c.arm_b * b.inv_inertia * turn

@@ -18,8 +18,8 @@ class Group:
     """Contacts that are solved alike: ball against ball, or ball against static body."""
 
     __slots__ = (
-        *("bias_rate", "contacts", "in_turn", "is_mirrored", "mass_scale", "moves_b", "ordered"),
-        *("sorted", "ties", "turn"),
+        *("bias_rate", "contacts", "in_turn", "is_mirrored", "least", "mass_scale"),
+        *("max_push_speed", "moves_b", "ordered", "sorted", "ties", "turn"),
     )
 
     def __init__(self, moves_b: bool) -> None:
@@ -32,6 +32,8 @@ class Group:
         self.turn = 0  # how often they were put in order
         self.is_mirrored = False  # whether any two of them had the same place then
         self.bias_rate = self.mass_scale = 0.0  # see softness
+        self.max_push_speed = 0.0  # px/s, overlap is pushed out no faster
+        self.least = 0.0  # px and px/s, less counts as 0; at 0, rounding would decide
 
 
 Stage = Callable[[Group, list[Contact], float], None]
@@ -61,8 +63,7 @@ class Tie:
         for c in self.contacts:
             jn, jt = c.jn, c.jt
             stage(group, [c], h)
-            lets_go = c.jn < LEFT * jn or abs(c.jt) < LEFT * abs(jt)
-            share = 1.0 if lets_go else self.share
+            share = 1.0 if c.jn < LEFT * jn else self.share
             c.jn, c.jt = jn + share * (c.jn - jn), jt + share * (c.jt - jt)
             for ball, vx, vy, w in before:
                 change = share * (ball.vx - vx), share * (ball.vy - vy), share * (ball.w - w)

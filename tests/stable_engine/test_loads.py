@@ -2,11 +2,10 @@
 
 import math
 import random
-from collections import Counter
 from itertools import pairwise, product
 
 import pytest
-from worlds_for_tests import make
+from worlds_for_tests import bearing_balls, make
 
 from experiments.scenes import DT, G
 from stable_engine import Body, Box, Circle, Rod, Segment, World
@@ -306,10 +305,8 @@ def test_a_press_in_a_bin_throws_no_ball_away(seed):
 
 
 def fastest_of_pile(world):
-    """Return the highest speed of balls that bear others: one that bears none may roll on."""
-    contacts = world.effects["Contacts"]
-    bearing = Counter(body for c in contacts.touching if c.impulse > 0 for body in (c.a, c.b))
-    return max(body.vel.length() for body in bearing if bearing[body] > 1 and body.mass)
+    """Return the highest speed of balls that bear others."""
+    return max(ball.vel.length() for ball in bearing_balls(world))
 
 
 @pytest.mark.parametrize(("mass", "seed"), [(200.0, 0)])

@@ -1,6 +1,7 @@
 """Make worlds for tests of the stable engine, beside the experiments' scenes."""
 
 import math
+from collections import Counter
 from dataclasses import replace
 
 import stable_engine
@@ -32,6 +33,13 @@ def make(names):
 def balls(world):
     """Return the bodies that can move."""
     return [body for body in world.bodies if not body.is_static]
+
+
+def bearing_balls(world):
+    """Return the balls that touch two bodies or more: one that touches the floor alone rolls on."""
+    contacts = world.effects["Contacts"]
+    touched = Counter(body for c in contacts.touching if c.impulse > 0 for body in (c.a, c.b))
+    return [ball for ball in balls(world) if touched[ball] > 1]
 
 
 def state(world):
