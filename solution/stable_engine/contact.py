@@ -24,7 +24,7 @@ class Contact:
 
     __slots__ = (
         *("a", "b", "nx", "ny", "found", "gap", "reach", "jn", "jt", "mn", "mt", "mu", "e"),
-        *("arm_a", "arm_b", "last", "place", "turn", "ratio"),
+        *("arm_a", "arm_b", "spin_a", "spin_b", "last", "place", "turn", "ratio"),
     )
 
     def __init__(self, a: Body, b: Body) -> None:
@@ -45,6 +45,7 @@ class Contact:
         self.mu = 0.0  # friction of the pair, filled in by Friction
         self.e = 0.0  # restitution of the pair, filled in by Bounce
         self.arm_a = self.arm_b = 0.0  # px, from the centres to where friction acts
+        self.spin_a = self.spin_b = 0.0  # 1/(kg px), the spin that friction gives per impulse
 
     def weigh(self) -> None:
         """Take over the masses of A and B. A kinematic body counts as PUSHER balls."""
@@ -56,10 +57,9 @@ class Contact:
         """Let the arms of friction end at one point, amid a gap (px), or spin would be made."""
         a, b = self.a, self.b
         half = gap / 2 if b.inv_mass else 0.0
-        self.arm_a, self.arm_b = a.r + half, b.r + half
-        turn_a, turn_b = self.arm_a * self.arm_a, self.arm_b * self.arm_b
-        spin = turn_a * a.inv_inertia + turn_b * b.inv_inertia
-        self.mt = 1 / (a.inv_mass + b.inv_mass + spin)
+        self.arm_a, self.arm_b = arm_a, arm_b = a.r + half, b.r + half
+        self.spin_a, self.spin_b = spin_a, spin_b = arm_a * a.inv_inertia, arm_b * b.inv_inertia
+        self.mt = 1 / (a.inv_mass + b.inv_mass + (arm_a * spin_a + arm_b * spin_b))
 
     def __repr__(self) -> str:
         return f"Contact({self.a!r}, {self.b!r})"
@@ -122,26 +122,26 @@ def turn_normals(contacts: list[Contact]) -> None:
 
     Balls that have passed each other, or are far apart, drop their impulses: taken back there,
     these would add energy. From a static body, a ball leaves the way it came. These are the circles
-    of collide, without the cost of a call for each.
+    of collide and the arms of set_arms, without the cost of calls.
     """
     for c in contacts:
         a, b = c.a, c.b
         dx, dy = b.x - a.x, b.y - a.y
         distance = sqrt(dx * dx + dy * dy)
-        if distance > 0:
-            nx, ny = dx / distance, dy / distance
-            same = nx * c.nx + ny * c.ny
-            if b.inv_mass == 0 and same < SAME_DIRECTION:
-                continue
-            if same < 0 or distance > 2 * (a.r + b.r):
-                c.jn = c.jt = 0.0
-            c.nx, c.ny = nx, ny
-            if c.mu:
-                half = (distance - a.r - b.r) / 2 if b.inv_mass else 0.0
-                arm_a, arm_b = a.r + half, b.r + half
-                c.arm_a, c.arm_b = arm_a, arm_b
-                spin = arm_a * arm_a * a.inv_inertia + arm_b * arm_b * b.inv_inertia
-                c.mt = 1 / (a.inv_mass + b.inv_mass + spin)
+        if distance == 0:
+            continue
+        nx, ny, radii = dx / distance, dy / distance, a.r + b.r
+        same, inv_mass = nx * c.nx + ny * c.ny, b.inv_mass
+        if same < SAME_DIRECTION and not inv_mass:
+            continue
+        if same < 0 or distance > 2 * radii:
+            c.jn = c.jt = 0.0
+        c.nx, c.ny = nx, ny
+        if c.mu:
+            half = (distance - radii) / 2 if inv_mass else 0.0
+            c.arm_a, c.arm_b = arm_a, arm_b = a.r + half, b.r + half
+            c.spin_a, c.spin_b = spin_a, spin_b = arm_a * a.inv_inertia, arm_b * b.inv_inertia
+            c.mt = 1 / (a.inv_mass + inv_mass + (arm_a * spin_a + arm_b * spin_b))
 
 
 def circle_box(a: Body, b: Body) -> tuple[float, float, float]:

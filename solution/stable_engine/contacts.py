@@ -169,8 +169,8 @@ class Contacts(Detection):
                     b.vx += jx * b.inv_mass
                     b.vy += jy * b.inv_mass
                 if jt:
-                    a.w -= c.arm_a * a.inv_inertia * jt
-                    b.w -= c.arm_b * b.inv_inertia * jt
+                    a.w -= c.spin_a * jt
+                    b.w -= c.spin_b * jt
 
     def solve(self, h: float) -> None:
         for pile in self.piles:
@@ -218,7 +218,8 @@ class Contacts(Detection):
         """
         least = self.touching_gap / h + BEARING * hypot(*self.world.g) * h  # px/s
         for c in self.touching:
-            if c.jn > least * c.mn and c.closing_speed() > -self.speculative_speed:
+            is_new = c.jn > least * c.mn and not (c.a.is_pressed and c.b.is_pressed)
+            if is_new and c.closing_speed() > -self.speculative_speed:
                 c.a.is_pressed = c.b.is_pressed = True
 
     def unload(self, lost: dict[Body, float], direction: Direction) -> None:

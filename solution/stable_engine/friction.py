@@ -61,10 +61,10 @@ def rub(group: Group, contacts: list[Contact], h: float) -> None:
             jt -= held
             a.vx += ny * jt * a.inv_mass
             a.vy -= nx * jt * a.inv_mass
-            a.w -= c.arm_a * a.inv_inertia * jt
+            a.w -= c.spin_a * jt
             b.vx -= ny * jt * b.inv_mass
             b.vy += nx * jt * b.inv_mass
-            b.w -= c.arm_b * b.inv_inertia * jt
+            b.w -= c.spin_b * jt
 
 
 def push_and_rub(group: Group, contacts: list[Contact], h: float) -> None:
@@ -101,11 +101,11 @@ def push_and_rub(group: Group, contacts: list[Contact], h: float) -> None:
         jx, jy = nx * more - ny * turn, ny * more + nx * turn
         a.vx -= jx * a.inv_mass
         a.vy -= jy * a.inv_mass
-        a.w -= c.arm_a * a.inv_inertia * turn
+        a.w -= c.spin_a * turn
         if moves_b:
             b.vx += jx * b.inv_mass
             b.vy += jy * b.inv_mass
-            b.w -= c.arm_b * b.inv_inertia * turn
+            b.w -= c.spin_b * turn
 
 
 def stop_and_rub(group: Group, contacts: list[Contact], h: float) -> None:
@@ -139,8 +139,8 @@ def stop_and_rub(group: Group, contacts: list[Contact], h: float) -> None:
         jx, jy = nx * more - ny * turn, ny * more + nx * turn
         a.vx -= jx * a.inv_mass
         a.vy -= jy * a.inv_mass
-        a.w -= c.arm_a * a.inv_inertia * turn
+        a.w -= c.spin_a * turn
         if moves_b:
             b.vx += jx * b.inv_mass
             b.vy += jy * b.inv_mass
-            b.w -= c.arm_b * b.inv_inertia * turn
+            b.w -= c.spin_b * turn
