@@ -1,8 +1,9 @@
 """Keep fast and hard-pressed balls out of static bodies."""
 
 from math import hypot, inf
+from operator import itemgetter
 
-from .body import Body, State, state_of
+from .body import Body, state_of
 from .contact import Contact, collide, leave_as_entered
 from .detection import Detection, pair_number
 from .soft import SAME_DIRECTION
@@ -13,6 +14,9 @@ SWEEP_FROM = 0.5  # radii, a bullet that moves further in one step is swept
 OVERLAP = 0.05  # radii, the overlap of a stopped bullet, so that the next step finds the contact
 SEAM = 1e-9  # a squared sine; faces that turn less are one
 CORNER_PASSES = 4  # of keeping cores out: a ball put back may meet another static body
+
+Way = tuple[float, float, float]  # how far (px) or how fast (px/s) into a face, and its normal
+HOW_FAR = itemgetter(0)
 
 
 class Cores:
@@ -45,7 +49,7 @@ class Cores:
             self.stop_core(body, h)
         statics = contacts.statics.contacts
         for _ in range(CORNER_PASSES if statics else 0):
-            ways: dict[Body, list[State]] = {}
+            ways: dict[Body, tuple[list[Way], list[Way]]] = {}
             for c in statics:
                 a, b = c.a, c.b
                 gap = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny - c.reach + c.found - c.gap
@@ -54,7 +58,7 @@ class Cores:
             if not ways:
                 break
             for body, ways_out in ways.items():
-                self.put_out(body, ways_out)
+                self.put_out(body, *ways_out)
                 self.stop_core(body, h)
 
     def stop_core(self, body: Body, h: float) -> None:
@@ -84,7 +88,9 @@ class Cores:
         body.last_x, body.last_y = body.x, body.y
         return share < 1
 
-    def find_way_out(self, c: Contact, gap: float, ways: dict[Body, list[State]]) -> None:
+    def find_way_out(
+        self, c: Contact, gap: float, ways: dict[Body, tuple[list[Way], list[Way]]]
+    ) -> None:
         """Note what puts back and stops a ball whose core entered a static body, or went deeper.
 
         `gap` is along the normal at the start of the step; past a corner the new normal counts,
@@ -97,18 +103,18 @@ class Cores:
         back = min(c.found, -CORE * a.r) - now
         if back > self.contacts.touching_gap:
             closing = max((a.vx - b.vx) * nx + (a.vy - b.vy) * ny, 0.0)
-            ways.setdefault(a, []).append((back, closing, nx, ny))
+            ways_out, speeds = ways.setdefault(a, ([], []))
+            ways_out.append((back, nx, ny))
+            speeds.append((closing, nx, ny))
 
-    def put_out(self, body: Body, ways: list[State]) -> None:
-        """Put a ball out along the two longest of these ways at once: in a V, neither is first."""
-        back, closing, nx, ny = max(ways)
-        ways.remove((back, closing, nx, ny))
-        if ways:
-            back_2, closing_2, x, y = max(ways)
-            back, back_2 = split(back, back_2, nx * x + ny * y)
-            closing, closing_2 = split(closing, closing_2, nx * x + ny * y)
-            move_out(body, x, y, back_2, closing_2)
-        move_out(body, nx, ny, back, closing)
+    def put_out(self, body: Body, ways: list[Way], speeds: list[Way]) -> None:
+        """Put a ball out of faces, and take its speed into them away."""
+        for back, at in way_out(ways):
+            _, nx, ny = ways[at]
+            body.x, body.y = body.x - nx * back, body.y - ny * back
+        for closing, at in way_out(speeds):
+            _, nx, ny = speeds[at]
+            body.vx, body.vy = body.vx - nx * closing, body.vy - ny * closing
         self.contacts.broad_phase.note_leaver(body)
 
     def went_through(self, c: Contact) -> bool:
@@ -197,20 +203,31 @@ def core_of(body: Body) -> float:
     return body.r if body.is_bullet else CORE * body.r
 
 
-def move_out(body: Body, nx: float, ny: float, back: float, closing: float) -> None:
-    """Move a ball back (px) along a normal, and take a speed (px/s) along it away."""
-    body.x -= nx * back
-    body.y -= ny * back
-    body.vx -= nx * closing
-    body.vy -= ny * closing
-
-
 def lose_energy(body: Body, energy: float) -> None:
     """Take an energy (kg px²/s²) from the motion of a ball, as far as it has any."""
     if energy > 0:
         speed2 = body.vx * body.vx + body.vy * body.vy
         share = share_left(speed2, 2 * energy * body.inv_mass)
         body.vx, body.vy = body.vx * share, body.vy * share
+
+
+def way_out(ways: list[Way]) -> list[tuple[float, int]]:
+    """Return how far along which of these a ball gets out of faces, by so much of each or more.
+
+    Two faces are left at once: one after the other, a ball would not leave a V in its middle.
+    """
+    farthest = max(ways, key=HOW_FAR)
+    far, nx, ny = farthest
+    first = ways.index(farthest)
+    if far <= 0 or len(ways) == 1:
+        return [(far, first)] if far > 0 else []
+    cosines = [nx * x + ny * y for _, x, y in ways]
+    left = [way[0] - far * cosine for way, cosine in zip(ways, cosines, strict=True)]
+    second = left.index(max(left))
+    if left[second] <= 0:
+        return [(far, first)]
+    far, more = split(far, ways[second][0], cosines[second])
+    return [way for way in ((far, first), (more, second)) if way[0] > 0]
 
 
 def split(one: float, other: float, cosine: float) -> tuple[float, float]:

@@ -3,7 +3,8 @@
 from math import hypot, sqrt
 
 from .contact import Contact, collide, is_at_face
-from .flight import Flight, way_out
+from .cores import way_out
+from .flight import Flight
 from .soft import SAME_DIRECTION
 
 
@@ -49,7 +50,8 @@ class Faces:
         A free frame of rods is lifted as a whole if it can pay: its rods would be stretched. What
         leaves the faces pays with its speed, as if it had risen there.
         """
-        ways = way_out([(self.added_depth(c), c) for c in faces])
+        found = way_out([(self.added_depth(c), c.nx, c.ny) for c in faces])
+        ways = [(far, faces[at]) for far, at in found]
         if not ways:
             return
         a, (up, c) = faces[0].a, ways[0]

@@ -1,19 +1,17 @@
 """How balls fly between the impacts of a step, forwards, and back to a touch."""
 
 from math import cos, hypot, sin
-from operator import itemgetter
 
 from .body import Body, State, state_of
 from .contact import Contact
 from .contacts import Contacts
-from .cores import core_of, split
+from .cores import core_of, way_out
 from .frame import Frame
 from .rods import Rods
 from .springs import Spring, share_before
 from .sweep import free_share
 
 DEEPEST = 2.0  # radii that a ball may fly into a wall off which it will bounce
-HOW_FAR = itemgetter(0)
 
 
 class Flight:
@@ -241,8 +239,8 @@ class Flight:
             x, y = x - share * rod_x, y - share * rod_y
         bearing = self.bearing.get(body)
         if bearing:
-            for into, c in way_out([(x * c.nx + y * c.ny, c) for c in bearing]):
-                x, y = x - c.nx * into, y - c.ny * into
+            for into, at in way_out([(x * c.nx + y * c.ny, c.nx, c.ny) for c in bearing]):
+                x, y = x - bearing[at].nx * into, y - bearing[at].ny * into
         return x, y
 
     def unhit(self, body: Body) -> State:
@@ -297,22 +295,6 @@ class Flight:
             now_x, now_y = self.acceleration(body)
             body.vx += (x - now_x) * self.h / 2
             body.vy += (y - now_y) * self.h / 2
-
-
-def way_out(ways: list[tuple[float, Contact]]) -> list[tuple[float, Contact]]:
-    """Return how far along which normals a ball gets out of faces, by so much of each or more.
-
-    Two faces are left at once: one after the other, a ball would not leave a V in its middle.
-    """
-    far, first = max(ways, key=HOW_FAR)
-    if far <= 0 or len(ways) == 1:
-        return ways if far > 0 else []
-    others = [(way, first.nx * way[1].nx + first.ny * way[1].ny) for way in ways]
-    (more, second), cosine = max(others, key=lambda other: other[0][0] - far * other[1])
-    if more <= far * cosine:
-        return [(far, first)]
-    far, more = split(far, more, cosine)
-    return [way for way in ((far, first), (more, second)) if way[0] > 0]
 
 
 def find_pivots(rods: Rods) -> dict[Body, Body]:
