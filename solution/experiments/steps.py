@@ -30,6 +30,11 @@ def ramps(long=1 / 30, short=1 / 1000, count=60):
     return cycle([*down, *reversed(down)])
 
 
+def remainders(step=1 / 60, rest=1e-6):
+    """Yield steps, and after each a rest, as of frames cut into steps of at most that length."""
+    return cycle([step, rest])
+
+
 def lasting(seconds, steps):
     """Yield the first of these steps, until they last `seconds`."""
     passed = 0.0

@@ -35,7 +35,8 @@ class Bounce(Effect):
     def impact(self, h: float) -> None:
         if not self.contacts.groups:
             return
-        contacts, slow = self.contacts, self.slow_speed(h * self.world.substep_count)
+        contacts = self.contacts
+        slow = self.slow_speed(max(h, contacts.pace.h) * self.world.substep_count)
         fast = select_fast(contacts.touching, slow)
         may_hit = contacts.begun and (fast or contacts.ends)
         if not may_hit and all([abs(c.closing_speed()) <= slow for c in fast]):
@@ -58,7 +59,7 @@ class Bounce(Effect):
                 c.gap = FAR_APART * c.a.r
 
     def slow_speed(self, dt: float) -> float:
-        """Return the speed (px/s) up to which contacts do not bounce.
+        """Return the speed (px/s) up to which contacts do not bounce in steps of dt seconds.
 
         Gravity gives that much in a few steps; without gravity all but the slowest bounce.
         """

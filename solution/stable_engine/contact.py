@@ -79,7 +79,8 @@ class Contact:
     def impulse(self) -> float:
         """Return the impulse (kg px/s) of the latest substep, 0 or more: it pushes A and B apart.
 
-        Divide it by the length of a substep for the force. It leaves out impulses of Bounce.
+        Divide it by the length of a substep for the force. It leaves out impulses of Bounce. In a
+        step shorter than those before, it is a mean of both.
         """
         return self.jn
 

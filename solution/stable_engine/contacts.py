@@ -42,7 +42,7 @@ class Contacts(Detection):
 
     __slots__ = (
         *("beginnings", "has_friction", "is_mirrored", "max_push_speed", "pace", "piles", "round"),
-        *("cores", "push", "squeezed", "stop", "target"),
+        *("cores", "held", "push", "squeezed", "stop", "target"),
     )
     rank = 3
 
@@ -50,6 +50,8 @@ class Contacts(Detection):
         super().__init__(on_hit, on_part)
         self.squeezed: dict[Contact, float] = {}  # and the largest impulses they keep (kg px/s)
         self.round: list[Contact] = []  # those of two round bodies
+        # those of a short step, with their impulses before: jn, jt and last
+        self.held: list[tuple[Contact, float, float, float]] = []
         self.beginnings = 0.0  # in how many steps any contact has begun
         self.is_mirrored = False  # whether contacts may have the same place in the order
         self.piles: list[Pile] = []  # with heavy bodies
@@ -78,6 +80,8 @@ class Contacts(Detection):
         if h != self.h:
             self.keep_forces(h)
         pace = self.pace.follow(h)
+        if h < pace:
+            self.held = [(c, c.jn, c.jt, c.last) for c in self.touching]
         if not (self.groups or self.piles or self.crowd):
             return
         if self.has_friction:
@@ -148,6 +152,17 @@ class Contacts(Detection):
                 c.last *= h / self.h
         self.h = h
 
+    def steady_forces(self, h: float) -> None:
+        """After a step shorter than those before, take over only a share of the forces in it.
+
+        What stops a body in a short time is a large force: in a longer step it would throw it.
+        """
+        share = h / self.pace.h
+        for c, jn, jt, last in self.held:
+            c.jn, c.jt = jn + share * (c.jn - jn), jt + share * (c.jt - jt)
+            c.last = last + share * (c.last - last)
+        self.held = []
+
     def warm_start(self, h: float) -> None:
         """Apply both impulses of each contact: one pass costs less than one for each."""
         for pile in self.piles:
@@ -204,6 +219,8 @@ class Contacts(Detection):
             pile.settle(self.target)
 
     def finish(self, h: float) -> None:
+        if self.held:
+            self.steady_forces(h)
         super().finish(h)
         if self.crowd:
             deepest = part_crowd(self, self.max_push_speed * self.last_dt)
@@ -216,6 +233,8 @@ class Contacts(Detection):
 
         Those that have bounced off are free.
         """
+        if h != self.h:
+            self.keep_forces(h)
         least = self.touching_gap / h + BEARING * hypot(*self.world.g) * h  # px/s
         for c in self.touching:
             is_new = c.jn > least * c.mn and not (c.a.is_pressed and c.b.is_pressed)

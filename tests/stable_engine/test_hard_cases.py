@@ -12,7 +12,7 @@ from math import pi
 
 import pytest
 from samples import sample
-from worlds_for_tests import bearing_balls, build
+from worlds_for_tests import bearing_balls, build, whole_energy
 
 from experiments.engines import Stable
 from experiments.engines.contestants import Contestant
@@ -38,7 +38,7 @@ from experiments.scenes import (
     rammer,
     shot,
 )
-from experiments.steps import at_random, hiccups, in_turns, lasting
+from experiments.steps import at_random, hiccups, in_turns, lasting, remainders
 from stable_engine.soft import Pace
 
 H = DT / 4  # s
@@ -114,6 +114,26 @@ def test_a_chain_gains_no_energy_by_a_change_of_step(scene, steps):
     for dt in lasting(4, steps()):
         engine.step(dt)
         assert energy(engine, dt) < start + 1e-6 * abs(start)
+
+
+@pytest.mark.parametrize("scene", [pile(8, 80.0), closed_box(0)], ids=["pile", "box"])
+def test_no_scene_gains_energy_by_the_rest_of_a_frame(scene):
+    """What stops a ball in a short step must not throw it in the next one."""
+    world = build(scene)
+    start = whole_energy(world)
+    for dt in lasting(0.5, remainders()):
+        world.step(dt)
+        assert whole_energy(world) < start * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("rest", [1e-9, 1e-6, 1e-3])
+def test_a_pile_rests_while_frames_are_cut_into_steps(rest):
+    """Its forces stay the same: its speed changes by less than gravity's in a substep."""
+    world = build(pile(8, 80.0))
+    run(world, 3)
+    for dt in lasting(1, remainders(rest=rest)):
+        world.step(dt)
+        assert max(speed(ball) for ball in bearing_balls(world)) < G * H
 
 
 def test_equal_steps_are_as_stiff_as_they_can_be():
