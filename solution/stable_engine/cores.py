@@ -75,8 +75,8 @@ class Cores:
         """
         x, y, core = body.last_x, body.last_y, CORE * body.r
         dx, dy = body.x - x, body.y - y
-        is_deep = any([c.gap < -core and c.b.is_static for c in beside])
-        if not is_deep and dx * dx + dy * dy <= core * core:
+        is_near = dx * dx + dy * dy <= core * core
+        if is_near and not any([c.gap < -core and not c.b.inv_mass for c in beside]):
             return False
         share = free_share(body, self.world.statics, core_of(body), (x, y), dx, dy)
         if share < 1:

@@ -22,7 +22,7 @@ class Faces:
 
         Also note whether the face bears the ball.
         """
-        if c.b.is_static and is_at_face(c) and c.a not in self.flight.pivots:
+        if c.b.inv_mass == 0 and is_at_face(c) and c.a not in self.flight.pivots:
             self.depths[c] = depth
             if not c.a.is_bullet:
                 self.flight.walls.setdefault(c.a, []).append(c.b)

@@ -128,9 +128,11 @@ class Flight:
             for frame in flying:
                 self.fly_frame(frame, seconds)
         if not self.springs_of:
+            is_plain = self.is_simple and not (self.bearing or self.pivots)
             for body in free:
+                pull = self.world.g if is_plain else self.acceleration(body)
                 time = self.own_time(body, seconds) if self.late else seconds
-                self.fly_ball(body, self.acceleration(body), time)
+                self.fly_ball(body, pull, time)
             return
         free, parts = [*free, *self.partners], self.world.substep_count
         times = [self.own_time(body, seconds) / parts for body in free]
@@ -156,11 +158,11 @@ class Flight:
     def fly_ball(self, body: Body, pull: tuple[float, float], seconds: float) -> float:
         """Let a ball fly on under a pull (px/s²). Return for how long (s) it could."""
         ax, ay = pull
-        x = (body.vx + ax * (self.h + seconds) / 2) * seconds
-        y = (body.vy + ay * (self.h + seconds) / 2) * seconds
-        radius = core_of(body)
+        mean = (self.h + seconds) / 2
+        x, y = (body.vx + ax * mean) * seconds, (body.vy + ay * mean) * seconds
         if self.cut_short:
             self.cut_short.pop(body, None)
+        radius = core_of(body)
         if seconds > 0 and (body.is_bullet or x * x + y * y > radius * radius):
             known = self.walls.get(body, []) if hypot(x, y) <= DEEPEST * body.r else []
             others = [s for s in self.world.statics if s not in known]
@@ -254,7 +256,7 @@ class Flight:
         Also return by how much (px/s) a velocity lags behind the position: with semi-implicit
         Euler half a substep.
         """
-        if self.is_simple and not (c.b.is_static or self.bearing or self.pivots):
+        if self.is_simple and c.b.inv_mass and not (self.bearing or self.pivots):
             return 0.0, 0.0
         (ax, ay), (bx, by) = self.acceleration(c.a), self.acceleration(c.b)
         g = (ax - bx) * c.nx + (ay - by) * c.ny

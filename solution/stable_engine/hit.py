@@ -80,7 +80,7 @@ def law_of(c: Contact, flight: Flight) -> tuple[float, float]:
     """
     closing, e = c.closing_speed(), c.e
     g, lag = flight.pull(c)
-    lag += flight.stiff_lag(c)
+    lag += flight.stiff_lag(c) if flight.stiff else 0.0
     if g == lag == 0:
         return e * closing, 1.0
     crossing = max(speed_at_touch(c, closing, g, lag), 0.0)

@@ -46,7 +46,7 @@ def moment_of_touch(a: Body, b: Body, dt: float) -> tuple[float, float, float]:
 
     Both have flown straight since. Return 0 if they did not begin to touch within dt seconds.
     """
-    stays = b.is_static and not b.is_kinematic
+    stays = b.inv_mass == 0 and not b.is_kinematic
     vx, vy = (a.vx, a.vy) if stays else (a.vx - b.vx, a.vy - b.vy)
     dx, dy = vx * dt, vy * dt
     x, y = a.x - b.x - dx, a.y - b.y - dy

@@ -32,27 +32,29 @@ class TimeOfImpact:
         A flat face of a static body has one normal. Other normals stay unless the two began to
         touch while both flew freely. Nothing flies through a wall.
         """
-        since = self.contacts.flight_of(c.a, c.b)
+        a, b, late = c.a, c.b, self.contacts.late
+        since = self.contacts.flight_of(a, b)
         if since <= 0:
             return 0.0
-        frame = self.frame_of.get(c.a) if self.frame_of else None
-        if frame and not frame.hangs and is_at_face(c) and self.flight.is_loose(frame, c.a):
-            return self.time_on_arc(c, frame, since)
-        if self.contacts.is_led_far(c.a) or self.contacts.is_led_far(c.b):
-            return 0.0
-        late = self.contacts.late
-        if is_at_face(c):
+        is_face = is_at_face(c)
+        if a.joint_count or b.joint_count:
+            frame = self.frame_of.get(a)
+            if frame and not frame.hangs and is_face and self.flight.is_loose(frame, a):
+                return self.time_on_arc(c, frame, since)
+            if self.contacts.is_led_far(a) or self.contacts.is_led_far(b):
+                return 0.0
+        if is_face:
             ago = self.time_below(c, since)
-            return ago + late.get(c.a, 0.0) if ago > 0 and late else ago
-        is_arc = c.a in self.frame_of or c.b in self.frame_of
-        if late and (c.a in late or c.b in late):
-            ago, nx, ny = self.contacts.look_back_late(c.a, c.b)
+            return ago + late.get(a, 0.0) if ago > 0 and late else ago
+        if late and (a in late or b in late):
+            ago, nx, ny = self.contacts.look_back_late(a, b)
         else:
             ago, nx, ny = self.look_back(c, since)
             if ago == 0:
-                ago, nx, ny = moment_of_touch(c.a, c.b, since * ARC if is_arc else since)
+                is_arc = a in self.frame_of or b in self.frame_of
+                ago, nx, ny = moment_of_touch(a, b, since * ARC if is_arc else since)
                 ago = min(ago, since)
-        if c.b.is_static and nx * c.nx + ny * c.ny <= 0:
+        if not b.inv_mass and nx * c.nx + ny * c.ny <= 0:
             return 0.0
         if ago > 0 and (nx, ny) != (c.nx, c.ny):
             c.nx, c.ny = nx, ny
