@@ -334,11 +334,10 @@ class Body:
 
     def check(self) -> None:
         """Raise ValueError naming the first number that is NaN or infinite."""
-        if (self.x + self.y + self.vx + self.vy + self.turn + self.w) * 0.0:  # not 0, but NaN
-            pair("Body.pos", (self.x, self.y))
-            pair("Body.vel", (self.vx, self.vy))
-            finite("Body.angle", self.turn)
-            finite("Body.omega", self.w)
+        pair("Body.pos", (self.x, self.y))
+        pair("Body.vel", (self.vx, self.vy))
+        finite("Body.angle", self.turn)
+        finite("Body.omega", self.w)
 
 
 def state_of(body: Body) -> State:

@@ -59,6 +59,7 @@ class BroadPhase:
         self.age = 0.0  # s, of the rooms
         self.end = 0.0  # s, the age up to which a body that nothing pushes stays in its room
         self.falls = False  # whether gravity pushes all
+        self.is_free = False  # whether nothing else has pushed any since the sweep
         self.looks = 0  # checks of pairs that did not touch, since the last sweep
 
     def take(self, bodies: list[Body]) -> None:
@@ -117,7 +118,7 @@ class BroadPhase:
         if self.is_stale:
             self.set_ahead(dt)
             self.leavers = self.moving
-            self.is_quiet, self.falls = False, g != (0.0, 0.0)
+            self.is_quiet, self.falls, self.is_free = False, g != (0.0, 0.0), not held
             steady = not self.falls and all(
                 one.body.vx == one.vx and one.body.vy == one.vy for one in self.moving
             )
@@ -154,7 +155,7 @@ class BroadPhase:
         if not self.is_listed:
             self.is_listed = True
             self.near = [one for one in self.moving if one.near]
-            self.far = [one for one in self.moving if not one.near]
+            self.far = [] if self.falls else [one for one in self.moving if not one.near]
 
     def set_ahead(self, dt: float) -> None:
         """Choose the length of new rooms by how the last ones did."""
@@ -283,7 +284,8 @@ class BroadPhase:
         upright = taller > (1 / WIDER if self.upright else WIDER)
         self.is_listed = False
         for one in self.bounds:
-            one.near, one.pairs = False, []
+            if one.pairs:
+                one.near, one.pairs = False, []
             one.update_box(upright, margin)
         breadth = 0.0  # px, the sum over all boxes
         for one in self.moving:
@@ -325,7 +327,12 @@ class BroadPhase:
         Boxes that begin together keep the order of the world's list, whatever it was before.
         """
         bounds, self.upright = self.bounds, upright
-        bounds.sort(key=LOW)
+        highest = -inf
+        for one in bounds:
+            if one.low < highest:
+                bounds.sort(key=LOW)
+                break
+            highest = one.low
         highest = -inf
         for at, one in enumerate(bounds):
             if one.low > highest:

@@ -110,6 +110,9 @@ class Contacts(Detection):
             if c.mu:
                 c.set_arms(distance - a.r - b.r)
         self.piles = find_piles(self, self.piles, h)
+        if not (self.piles or self.crowd or self.can_press(h * self.world.substep_count)):
+            self.all_part = True
+            self.world.update_hooks()
 
     def find_squeezed(self, h: float) -> dict[Contact, float]:
         """Return contacts of balls with static bodies, and how much impulse they may keep.
@@ -219,6 +222,21 @@ class Contacts(Detection):
             pile.settle(self.target)
 
     def finish(self, h: float) -> None:
+        """Part crowds, and put balls back that got into static bodies.
+
+        Contacts rest while all bodies fall freely in the rooms made for that, with nobody near. The
+        end of that is left out, as velocities lag behind positions when rooms are made.
+        """
+        phase, world, dt = self.broad_phase, self.world, h * self.world.substep_count
+        phase.is_free = phase.is_free and not self.groups and world.is_falling()
+        stay = phase.is_free and phase.age + dt + h <= phase.ahead and h == self.h
+        if self.is_resting and stay:
+            phase.age += dt
+            return
+        if self.is_resting:
+            self.is_resting = False
+            world.update_hooks()
+            self.prepare(h)
         if self.held:
             self.steady_forces(h)
         super().finish(h)
@@ -227,6 +245,12 @@ class Contacts(Detection):
             if deepest < REDETECT_DISTANCE * self.world.unit:
                 self.crowd = {}
         self.cores.keep_out(h)
+        if stay and not (phase.near or phase.is_stale or self.crowd or self.cores.starts):
+            # other effects must not change what moves after this
+            self.is_resting = self.pace.h == h and len(world.hooks["finish"]) == 1
+            if self.is_resting:
+                self.last_dt = 0.0
+                world.update_hooks()
 
     def press(self, h: float) -> None:
         """Mark bodies that contacts hold: by more than rounding, or the weight of a falling pair.
@@ -241,11 +265,15 @@ class Contacts(Detection):
             if is_new and c.closing_speed() > -self.speculative_speed:
                 c.a.is_pressed = c.b.is_pressed = True
 
+    def is_at_rest(self) -> bool:
+        return self.is_resting and not self.world.has_changed
+
     def unload(self, lost: dict[Body, float], direction: Direction) -> None:
         """Lower the kept impulses under bodies that press less.
 
         The next step begins with these; unchanged, they would throw balls up.
         """
+        self.broad_phase.is_free = False  # gravity may have changed
         impulses = {body: force * self.h for body, force in lost.items()}
         take_off(self.all_contacts(), impulses, direction)
 

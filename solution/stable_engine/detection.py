@@ -36,7 +36,7 @@ class Detection(Effect):
         *("lets_none_pass", "last_dt", "flying", "hit_ago", "stopped", "late", "ends"),
         *("broad_phase", "crowd", "beside_static", "landings", "rods", "balls", "statics"),
         *("groups", "unpaired", "ignored", "h", "touching_gap", "speculative_speed", "springs"),
-        "begin_contact_hooks",
+        *("all_part", "begin_contact_hooks", "is_resting"),
     )
 
     def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:
@@ -66,6 +66,8 @@ class Detection(Effect):
         self.groups: list[Group] = []  # of these two, those with any contact
         self.unpaired: dict[int, Contact] = {}  # of sleeping bodies, by their pair's number
         self.ignored: set[int] = set()  # numbers of pairs
+        self.is_resting = False  # while nobody is near, see Contacts.finish
+        self.all_part = False  # whether in this step no contact can press, as all bodies part
 
     def attach(self) -> None:
         self.touching_gap = TOUCHING * self.world.unit  # px
@@ -76,6 +78,10 @@ class Detection(Effect):
 
     def detect(self, h: float) -> None:
         world, phase, dt = self.world, self.broad_phase, h * self.world.substep_count
+        was_idle = self.is_idle()
+        self.is_resting = self.all_part = False
+        if self.last_dt == 0:  # a program may have changed velocities
+            phase.is_free = False
         if len(phase.bounds) != len(world.bodies):
             phase.take(world.bodies)
             rods = self.rods
@@ -91,6 +97,8 @@ class Detection(Effect):
             if self.landings.speeds:
                 self.landings.end()
             self.find_contacts(dt)
+        if self.is_idle() != was_idle:
+            world.update_hooks()
 
     def note_moved(self) -> bool:
         """Note which bodies with others near have moved since their contacts were last found.
@@ -131,7 +139,7 @@ class Detection(Effect):
         if self.ignored:
             phase.pairs = [p for p in phase.pairs if pair_number(p.a, p.b) not in self.ignored]
         for pair in found:
-            if pair.b.is_static:
+            if not pair.b.inv_mass:
                 self.beside_static[pair.a] = None
         rods = self.rods
         if rods and rods.awake:
@@ -195,27 +203,38 @@ class Detection(Effect):
             if b.inv_mass and (gap < -a.r or gap < -b.r):
                 self.crowd.setdefault(c, False)
         self.touching, self.renewed = touching, [*self.renewed, *renewed]
-        was_idle = not self.groups
         self.group_contacts()
         if self.unpaired:
             self.end_unpaired()
         if self.landings.pairs or self.landings.speeds:
             self.landings.foresee(dt)
-        if (not self.groups) != was_idle:
-            self.world.update_hooks()
         self.broad_phase.add_looks(len(self.broad_phase.pairs) - len(touching), dt)
 
     def group_contacts(self) -> None:
         """Put contacts into their groups, and count those of balls with other balls."""
-        for one in self.broad_phase.near:
-            one.body.touches = 0
-        balls = [c for c in self.touching if c.b.inv_mass]
-        for c in balls:
-            c.a.touches += 1
-            c.b.touches += 1
-        self.balls.contacts = balls
-        self.statics.contacts = [c for c in self.touching if not c.b.inv_mass]
+        for c in self.balls.contacts:
+            c.a.touches = c.b.touches = 0
+        balls: list[Contact] = []
+        statics: list[Contact] = []
+        for c in self.touching:
+            if c.b.inv_mass:
+                balls.append(c)
+                c.a.touches += 1
+                c.b.touches += 1
+            else:
+                statics.append(c)
+        self.balls.contacts, self.statics.contacts = balls, statics
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
+
+    def can_press(self, dt: float) -> bool:
+        """Return whether any contact may press within dt seconds: not if all bodies part fast."""
+        least = self.touching_gap + hypot(*self.world.g) * dt  # px/s
+        for c in self.touching:
+            b = c.b
+            is_led = c.a.joint_count or b.joint_count or (b.is_static and (b.vx or b.vy))
+            if is_led or c.jn or c.jt or c.gap < 0 or c.closing_speed() > -least:
+                return True
+        return bool(self.world.forces)
 
     def make_contact(self, a: Body, b: Body, nx: float, ny: float) -> Contact:
         """Return a new contact with this normal, filled in by the other effects."""
@@ -408,7 +427,7 @@ class Detection(Effect):
 
     def forget(self, body: Body) -> None:
         """Wake whatever touches the body: it may have rested on it."""
-        body.flown = inf
+        body.flown, body.touches = inf, 0
         self.flying = [other for other in self.flying if other is not body]
         self.hit_ago.pop(body, None)
         self.wake_beside(body)
@@ -426,7 +445,7 @@ class Detection(Effect):
         self.broad_phase.bounds = []
 
     def is_idle(self) -> bool:
-        return not self.groups
+        return self.all_part or not self.groups
 
     def is_used(self) -> bool:
         return len(self.world.bodies) > 1

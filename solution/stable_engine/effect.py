@@ -51,6 +51,10 @@ class Effect:
         """
         return False
 
+    def is_at_rest(self) -> bool:
+        """Return whether the hooks of the step have nothing to do now either, but for `finish`."""
+        return False
+
     # once per step
 
     def detect(self, h: float) -> None:

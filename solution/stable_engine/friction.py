@@ -32,7 +32,7 @@ class Friction(Effect):
         return any(body.mu > 0 for body in self.world.bodies)
 
     def is_idle(self) -> bool:
-        return not self.contacts.groups
+        return self.contacts.is_idle()
 
     def begin_contact(self, c: Contact) -> None:
         c.mu = sqrt(c.a.mu * c.b.mu)

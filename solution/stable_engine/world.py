@@ -16,10 +16,13 @@ from .rays import RayHit, cast_ray
 from .validate import pair, positive, refuse, require, whole
 
 HOOKS = [name for name, hook in vars(Effect).items() if callable(hook) and name[0] != "_"]
-SUBSTEP = ("force", "warm_start", "solve", "press", "lag", "relax")  # hooks of the substeps
+SUBSTEP = ("force", "warm_start", "solve", "press", "lag", "relax")  # hooks that idle effects skip
+STEP = ("detect", "prepare", "tell")  # hooks that resting effects skip
 
 Thing = TypeVar("Thing", bound=Body | Joint)
 Kind = TypeVar("Kind", bound=Effect)
+Hooks = dict[str, list[Callable[..., Any]]]  # by name
+State = tuple[tuple[bool, bool], ...]  # whether each effect is idle, and at rest
 
 
 class World:
@@ -34,7 +37,8 @@ class World:
 
     __slots__ = (
         *("lengths", "substep_count", "g", "bodies", "awake", "statics", "added", "declared"),
-        *("listeners", "hooks", "has_changed", "lags", "unchecked", "warned", "forces"),
+        *("ranked", "hooks", "hooks_in", "is_pushed", "has_changed", "lags", "unchecked"),
+        *("warned", "forces"),
     )
 
     def __init__(
@@ -66,11 +70,9 @@ class World:
             found = f"a list with {name}() twice"
             require(name not in self.declared, "World.effects", found, "one of each effect")
             self.declared[name] = effect
-        ranked = sorted(self.declared.values(), key=lambda effect: effect.rank)
-        self.listeners = {name: find_listeners(name, ranked) for name in HOOKS}
-        self.hooks: dict[str, list[Callable[..., Any]]] = {}
-        for name, listening in self.listeners.items():
-            self.hooks[name] = [getattr(effect, name) for effect in listening]
+        self.ranked = sorted(self.declared.values(), key=lambda effect: effect.rank)
+        self.hooks = {name: find_hooks(name, self.ranked) for name in HOOKS}
+        self.hooks_in: dict[State, tuple[Hooks, bool]] = {}  # and whether any pushes in substeps
         for effect in self.declared.values():
             name, found = f"World.effects' {effect!r}", "in another world already"
             require(not hasattr(effect, "world"), name, found, "a new one: each world has its own")
@@ -79,10 +81,15 @@ class World:
         self.update_hooks()
 
     def update_hooks(self) -> None:
-        """Leave idle effects out of the substeps. Lags may be other ones then."""
-        for name in SUBSTEP:
-            busy = [effect for effect in self.listeners[name] if not effect.is_idle()]
-            self.hooks[name] = [getattr(effect, name) for effect in busy]
+        """Skip hooks of idle and resting effects. Lags may be other ones then."""
+        state = tuple([(effect.is_idle(), effect.is_at_rest()) for effect in self.ranked])
+        if state not in self.hooks_in:
+            busy = [effect for effect in self.ranked if not effect.is_idle()]
+            active = [effect for effect in self.ranked if not effect.is_at_rest()]
+            pushes = {name: find_hooks(name, busy) for name in SUBSTEP}
+            others = {name: find_hooks(name, active) for name in STEP}
+            self.hooks_in[state] = {**self.hooks, **pushes, **others}, any(pushes.values())
+        self.hooks, self.is_pushed = self.hooks_in[state]
         self.lags.forget()
 
     def call(self, name: str, *arguments: Any) -> None:
@@ -252,6 +259,10 @@ class World:
             x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
         return x, y
 
+    def is_falling(self) -> bool:
+        """Return whether gravity alone changes velocities in the substeps of this step."""
+        return not (self.is_pushed or self.forces)
+
     def relieve(self, lost: dict[Body, float]) -> None:
         """Tell effects of masses (kg) that bodies have lost: infinity if they leave."""
         pull = math.hypot(*self.g) or 1.0
@@ -289,16 +300,16 @@ class World:
         """Advance by dt seconds. Raises ValueError on a bad dt or a body with NaN or infinity."""
         h = self.cut(dt)
         for body in self.awake:
-            body.check()
+            if (body.x + body.y + body.vx + body.vy + body.turn + body.w) * 0.0:  # not 0, but NaN
+                body.check()
         if not self.awake:
             for coast in self.hooks["coast"]:
                 coast(dt)
             return
-        hooks = self.hooks
 
         # 1 detect: the step before has, unless the program has changed anything since
         falls = self.g != (0.0, 0.0)
-        has_lags = falls or bool(hooks["lag"] or self.forces)
+        has_lags = falls or bool(self.hooks["lag"] or self.forces)
         is_known = self.lags.take_off(h)
         has_changed = self.has_changed
         if has_changed:
@@ -307,14 +318,14 @@ class World:
             self.detect(h)
         if has_lags and not is_known:
             self.lags.take_off_new(h)
-        for impact in hooks["impact"] if has_changed else []:
+        for impact in self.hooks["impact"] if has_changed else []:
             impact(h)
 
         # 2 prepare
-        for prepare in hooks["prepare"]:
+        for prepare in self.hooks["prepare"]:
             prepare(h)
-        forces, warm_starts = hooks["force"], hooks["warm_start"]
-        solves, relaxes = hooks["solve"], hooks["relax"]
+        forces, warm_starts = self.hooks["force"], self.hooks["warm_start"]
+        solves, relaxes = self.hooks["solve"], self.hooks["relax"]
 
         for _ in range(self.substep_count):
             # 3 forces
@@ -336,21 +347,23 @@ class World:
             for relax in relaxes:
                 relax(h)
 
-        for finish in hooks["finish"]:
+        for finish in self.hooks["finish"]:
             finish(h)
         if self.awake:
             self.detect(h)
-            for impact in hooks["impact"]:
+            for impact in self.hooks["impact"]:
                 impact(h)
         self.lags.forget()
         if has_lags:
             self.lags.add(h)
         self.lags.pushed, self.forces = self.forces, {}
-        for tell in hooks["tell"]:
+        for tell in self.hooks["tell"]:
             tell(h)
 
     def detect(self, h: float) -> None:
-        """Find out which bodies touch."""
+        """Find out which bodies touch. If the program has changed anything, no effect rests."""
+        if self.has_changed:
+            self.update_hooks()
         self.has_changed = False
         for detect in self.hooks["detect"]:
             detect(h)
@@ -375,7 +388,7 @@ class World:
                 body.turn += body.w * h
 
 
-def find_listeners(name: str, effects: list[Effect]) -> list[Effect]:
-    """Return the effects that override the hook of this name."""
+def find_hooks(name: str, effects: list[Effect]) -> list[Callable[..., Any]]:
+    """Return the hooks of this name that effects override."""
     base = getattr(Effect, name)
-    return [effect for effect in effects if getattr(type(effect), name) is not base]
+    return [getattr(effect, name) for effect in effects if getattr(type(effect), name) is not base]

@@ -1,0 +1,72 @@
+"""Test that contacts change no motion by what they skip: while nobody is near, or all part."""
+
+import random
+
+import pytest
+
+from stable_engine import Body, Bounce, Box, Circle, Contacts, Damping, Friction, World
+
+DT = 1 / 120
+
+
+def push(world):
+    world.bodies[-1].apply_force((-9e4, 0))
+
+
+def turn_gravity(world):
+    world.gravity = (-600, 0)
+
+
+def throw(world):
+    world.bodies[-1].vel = (-900, 0)
+
+
+def slow_down(world):
+    world.effects["Damping"].linear = 2.0
+
+
+def take_more_substeps(world):
+    world.substeps = 12
+
+
+def add(world):
+    x, y = world.bodies[-1].pos
+    world.add(Body(Circle(5), (x - 40, y), 1.0))
+
+
+def remove(world):
+    world.remove(world.bodies[1])
+
+
+CHANGES = [push, turn_gravity, throw, slow_down, take_more_substeps, add, remove]
+
+
+def film(gravity, speed, change):
+    """Return all states of balls that fly apart and to a floor, and how many steps were skipped.
+
+    Something changes after 40 steps.
+    """
+    rng = random.Random(7)
+    world = World(gravity, 4, [Contacts(), Bounce(), Friction(), Damping(0, 0)])
+    world.add(Body(Box((900, 20)), (0, 700), restitution=1.0))
+    for i in range(8):
+        ball = world.add(Body(Circle(10), (120 * i - 420, 0), 1.0, restitution=0.9))
+        ball.vel = (rng.uniform(-speed, speed), rng.uniform(-speed, speed))
+    states, skipped = [], 0
+    for step in range(240):
+        if step == 40:
+            change(world)
+        world.step(DT)
+        skipped += world.effects["Contacts"].is_at_rest()
+        states.append([(b.x, b.y, b.vx, b.vy, b.w) for b in world.bodies])
+    return states, skipped
+
+
+@pytest.mark.parametrize("change", CHANGES)
+@pytest.mark.parametrize(("gravity", "speed"), [((0, 980), 3), ((0, 0), 3), ((0, 0), 300)])
+def test_steps_that_contacts_skip_change_nothing(gravity, speed, change, monkeypatch):
+    states, skipped = film(gravity, speed, change)
+    monkeypatch.setattr(World, "is_falling", lambda world: False)
+    monkeypatch.setattr(Contacts, "can_press", lambda contacts, dt: True)
+    assert film(gravity, speed, change) == (states, 0)
+    assert skipped > 0
