@@ -72,14 +72,16 @@ def part_crowd(contacts: Detection, most: float) -> float:
 def move_apart(c: Contact, x: float, y: float, frame_of: dict[Body, Frame]) -> None:
     """Move A and B apart by (x, y) px in all, each with the balls on its rods.
 
-    Rods that hang hold them, unless both hang.
+    Rods that hang hold them, unless neither would move then.
     """
-    moved = [([body], body.inv_mass) for body in (c.a, c.b)]
+    alone = [([body], body.inv_mass) for body in (c.a, c.b)]
+    moved = [*alone]
     frames = [frame_of.get(body) for body in (c.a, c.b)]
-    if frames[0] is not frames[1] and not all([frame and frame.hangs for frame in frames]):
-        for i, frame in enumerate(frames):
-            if frame:
-                moved[i] = frame.balls, 0.0 if frame.hangs else 1 / frame.mass
+    for i, frame in enumerate(frames):
+        if frame and frames[0] is not frames[1]:
+            moved[i] = frame.balls, 0.0 if frame.hangs else 1 / frame.mass
+    if not any([share for _, share in moved]):
+        moved = alone
     (balls, light), (others, other_light) = moved
     for bodies, share in ((balls, -light), (others, other_light)):
         for body in bodies:
