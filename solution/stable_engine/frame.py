@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import hypot
+from math import hypot, inf
 from typing import TYPE_CHECKING
 
 from .cluster import Cluster
@@ -25,6 +25,10 @@ LOOSE = 0.003  # share of a length; above this error the frame is soft
 GUARDED = 0.9  # cosine; if a rod turns further in a substep, none may gain energy
 LOST = 0.8  # cosine; if a rod turns further in a substep, Newton's method fails
 STEADY = 0.1  # share of an impulse; after parts, a whole substep must change it by less
+FITTING = 3e-4  # share of a length; rods that are less off may pull with any force
+STRONGEST = 10.0  # times what stops a frame: larger impulses strain it
+GIVE = 0.1  # share of its pivot by which a strained rod gives way
+FASTEST = 4.0  # times the drive of a strained frame, up to which that may speed it up
 
 
 class Frame(Cluster):
@@ -40,6 +44,9 @@ class Frame(Cluster):
         self.is_uneven = self.heaviest > HEAVY * self.lightest
         is_braced = len(self.rods) > 2 * len(self.ends) - 3  # by more rods than keep its shape
         self.load = self.mass if is_braced else self.heaviest  # kg, that presses where it touches
+        # whether rods lead from a ball back to it, if all static bodies count as one
+        self.has_loop = len(self.rods) >= len(self.balls) + self.hangs
+        self.most = inf  # kg px/s, of any rod's impulse in this substep
         # twice the energies, in kg px²/s²
         self.limit = -1.0  # of what it may have after this substep, or -1 for none
         self.lost = 0.0  # what it lost while it turned fast; it may gain it again
@@ -54,6 +61,8 @@ class Frame(Cluster):
         """
         before = [rod.j for rod in self.rods]
         parts = self.parts
+        if self.has_loop:
+            self.find_most()
         if parts.count <= PARTS and self.find_impulses(h, bias):
             if parts.count == 1 or not self.has_jerked(before):
                 parts.count = 1
@@ -79,6 +88,8 @@ class Frame(Cluster):
                 break
             self.network.solve()
             self.take()
+            if self.is_strained():
+                break
             if off < NEAR:
                 return True
             last = off
@@ -104,8 +115,17 @@ class Frame(Cluster):
         return off, turned
 
     def apply(self) -> None:
-        """Solve for the impulses that change all rods' speeds by rhs, and apply them."""
+        """Solve for the impulses that remove all speed along the rods, and apply them."""
+        for rod in self.rods:
+            rod.ask(0.0)
         self.network.solve()
+        if self.most < inf:
+            most = self.strongest()
+            if any([abs(rod.rhs) > most for rod in self.rods]):
+                for rod in self.rods:
+                    rod.ask(0.0)
+                    rod.pivot += GIVE / rod.m
+                self.network.solve()
         for rod in self.rods:
             rod.apply_impulse(rod.rhs)
 
@@ -135,9 +155,11 @@ class Frame(Cluster):
         """Choose velocities for a frame that cannot go in parts.
 
         It is torn, would need too many parts, or hangs on bodies of different velocities. It is
-        soft if it turns too far for Newton's method. Its rods do no work.
+        soft if it turns too far for Newton's method, or if impulses would strain it. Its rods do no
+        work.
         """
         is_soft = is_off = False
+        before = [rod.j for rod in self.rods]
         for left in range(PASSES - 1, -1, -1):
             off, turned = self.look_ahead(h, bias)
             if off <= EXACT:
@@ -152,22 +174,67 @@ class Frame(Cluster):
                     rod.rhs -= give * rod.j
             self.network.solve()
             self.take()
+            if self.is_strained():
+                is_soft = True
+                self.return_to(before)
+                if self.limit < 0:
+                    self.limit, _ = self.look_back(h)
+                self.look_ahead(h, bias)
+                for rod in self.rods:
+                    rod.pivot += GIVE / rod.m
+                    rod.rhs -= GIVE / rod.m * rod.j
+                self.network.solve()
+                self.take()
+                break
             if is_soft or off < NEAR:
                 break
         if self.limit >= 0:
             self.gave_way = is_soft or is_off
             self.work = self.twice_energy() - self.limit
 
+    def find_most(self) -> None:
+        """Find the largest impulse that a rod may have, by the speeds without those of rods.
+
+        Rods in a loop may ask for the impossible, if bodies that they hang on move apart or lengths
+        do not fit. At a dead point, the matrix is singular, and impulses would have no limit.
+        """
+        self.most = inf
+        if self.drive() == 0 and not any(
+            [abs(rod.distance - rod.rest) > FITTING * rod.rest for rod in self.rods]
+        ):
+            return
+        speeds = [(body, body.vx, body.vy) for body in self.ends]
+        for rod in self.rods:
+            rod.apply_impulse(-rod.j)
+        self.most = self.strongest()
+        for body, vx, vy in speeds:
+            body.vx, body.vy = vx, vy
+
+    def strongest(self) -> float:
+        """Return the largest impulse (kg px/s) that the present speeds may call for."""
+        vx, vy = self.velocity()
+        fastest = max([hypot(body.vx - vx, body.vy - vy) for body in self.ends])
+        return STRONGEST * self.mass * fastest
+
+    def is_strained(self) -> bool:
+        """Return whether any rod has a larger impulse than it may have."""
+        return self.most < inf and any([abs(rod.j) > self.most for rod in self.rods])
+
+    def drive(self) -> float:
+        """Return how fast (px/s) any static body moves, seen from the first one it hangs on."""
+        static = [body for body in self.ends if body.is_static]
+        return max([hypot(b.vx - static[0].vx, b.vy - static[0].vy) for b in static], default=0.0)
+
     def look_back(self, h: float) -> tuple[float, bool]:
         """Return twice the energy (kg px²/s²) before the rods acted in this substep.
 
-        Also return whether any rod has the wrong length, or would have without impulses: a rod that
-        was torn or hit takes energy.
+        A drive may add to that. Also return whether any rod has the wrong length, or would have
+        without impulses: a rod that was torn or hit takes energy.
         """
         for rod in self.rods:
             rod.apply_impulse(-rod.j)
         errors = [(abs(r.distance - r.rest) + abs(r.speed()) * h, r.rest) for r in self.rods]
-        energy = self.twice_energy()
+        energy = max(self.twice_energy(), self.mass * (FASTEST * self.drive()) ** 2)
         for rod in self.rods:
             rod.apply_impulse(rod.j)
         return energy, any([off > LOOSE * length for off, length in errors])
@@ -176,7 +243,6 @@ class Frame(Cluster):
         """Remove all speed along the rods, at this instant."""
         for rod in self.rods:
             rod.measure()
-            rod.ask(0.0)
         self.apply()
 
     def hold_lags(self) -> None:
@@ -199,8 +265,6 @@ class Frame(Cluster):
                 rod.j = 0.0
         if self.parts.later:
             self.parts.end(h)
-        for rod in self.rods:
-            rod.ask(0.0)
         if self.limit < 0:
             self.apply()
             self.lost = 0.0

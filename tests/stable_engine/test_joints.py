@@ -3,7 +3,7 @@
 import math
 import random
 from functools import partial
-from itertools import product
+from itertools import combinations, product
 
 import pytest
 from samples import sample
@@ -13,6 +13,7 @@ from experiments.engines import Stable
 from experiments.measures import energy, run, watch, worst_stretch
 from experiments.rows.row import fall_speed, late
 from experiments.scenes import DT, TOUCH, Ball, Block, G, Scene, Spring, chain
+from stable_engine import Body, Circle, Rod, Rods, World
 
 # ---------------------------------------------------------------- rods keep energy
 
@@ -95,6 +96,21 @@ def test_a_closed_frame_of_rods_turns_with_its_energy():
     run(engine, 10)
     assert energy(engine) == pytest.approx(start, rel=0.01)
     assert worst_stretch(engine) < 0.1
+
+
+@pytest.mark.parametrize("shorter", [0.003, 0.05, 0.3])
+def test_rods_that_cannot_all_have_their_lengths_share_the_error(shorter):
+    """A square with both diagonals has one rod too many: its matrix is singular."""
+    world = World((0, 0), 4, [Rods()])
+    corners = [(-50, -50), (50, -50), (50, 50), (-50, 50)]
+    balls = [world.add(Body(Circle(5), corner, mass=1)) for corner in corners]
+    rods = [world.add(Rod(a, b)) for a, b in combinations(balls, 2)]
+    off = shorter * rods[1].length
+    rods[1].length -= off
+    for _ in range(120):
+        world.step(DT)
+        assert max(abs(r.a.pos.distance_to(r.b.pos) - r.length) for r in rods) < off
+        assert max(ball.vel.length() for ball in balls) < 1
 
 
 # ---------------------------------------------------------------- springs hang at their stretch

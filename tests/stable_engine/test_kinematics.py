@@ -3,6 +3,7 @@
 import math
 from itertools import pairwise
 
+import pygame
 import pytest
 from worlds_for_tests import make
 
@@ -67,6 +68,25 @@ def test_a_peg_that_moves_takes_its_rod_along():
     run(world, 1)
     assert bob.vel == (-100, 0)
     assert math.dist(peg.pos, bob.pos) == pytest.approx(80, rel=1e-6)
+
+
+@pytest.mark.parametrize("spin", [0.2, 2.0, 6.5])
+@pytest.mark.parametrize("substeps", [1, 4, 8])
+def test_a_crank_turns_a_linkage_through_its_dead_points(substeps, spin):
+    """All rods are in line there: their matrix is singular, and both ends are held."""
+    arm, length = 40.0, 200.0
+    world = World((0, 0), substeps, [Rods(), Kinematics()])
+    crank = world.add(Body(Circle(5), (arm, 0), kinematic=True))
+    hub = world.add(Body(Circle(5), (length, 0)))
+    pin = world.add(Body(Circle(5), (length + arm, 0), mass=1))
+    pin.vel = (0, spin * arm)
+    rods = [world.add(Rod(crank, pin)), world.add(Rod(hub, pin))]
+    for step in range(1, round(4 / spin / DT)):
+        angle = spin * step * DT
+        crank.vel = (pygame.Vector2(arm, 0).rotate_rad(angle) - crank.pos) / DT
+        world.step(DT)
+        assert all(abs(rod.a.pos.distance_to(rod.b.pos) - rod.length) < 1 for rod in rods)
+        assert pin.vel.length() < 2 * spin * arm
 
 
 @pytest.mark.parametrize(("speed", "gain"), [(60, 60), (400, 400), (1000, 1000), (400, 15)])
