@@ -30,9 +30,9 @@ class Contacts(Detection):
 
     on_hit(a, b, speed) is called at the end of a step for each pair that began to touch in it, with
     the speed (px/s) at which the two met: the earliest hit first. on_part(a, b) is called for each
-    pair that no longer touches, before other pairs that meet in the step. `a` is a ball with mass,
-    `b` any body. Both functions may add and remove bodies, and can be set later on. Bodies that are
-    removed do not part.
+    pair that no longer touches at the end of a step, before pairs that met later. `a` is a ball
+    with mass, `b` any body. Both functions may add and remove bodies, and can be set later on.
+    Bodies that are removed do not part.
 
     Each stage solves contacts of static bodies last, so that these hold best. Where passes would
     leave much, all that balls connect is then solved together, see Pile: where a body is more than

@@ -160,6 +160,7 @@ class Detection(Effect):
         slow, touching_gap = self.speculative_speed, self.touching_gap
         margin, slow2 = slow * dt, slow * slow
         back, late = self.last_dt if self.lets_none_pass else 0.0, self.late
+        gone = self.news.gone
         for pair in self.broad_phase.pairs:
             a, b, c = pair.a, pair.b, pair.contact
             if not (a.has_moved or b.has_moved) and (c is None or c.gap == c.found):
@@ -193,6 +194,8 @@ class Detection(Effect):
                 self.news.note_hit(c)
                 if gap < -touching_gap and self.last_dt == 0:  # a program has put them there
                     self.crowd[c] = True
+            elif gone and c in gone:
+                self.news.note_again(c)
             if not b.r:
                 nx, ny, gap = leave_as_entered(c, nx, ny, gap)
             if nx * c.nx + ny * c.ny < SAME_DIRECTION:
@@ -372,6 +375,8 @@ class Detection(Effect):
             self.stopped, self.ends, self.late = {}, {}, {}
 
     def tell(self, h: float) -> None:
+        if self.on_hit or self.on_part:
+            self.news.find_gone()
         self.last_dt, self.ends = 0.0, {}  # impacts are over; a program may change anything now
         if self.news.hits or self.news.parted:
             self.news.tell()

@@ -225,9 +225,12 @@ class Impacts:
     def resolve_first(self) -> None:
         """Resolve the first impacts, and find those that they cause."""
         group, ago = self.queue.take_first()
+        news = self.contacts.news
         for c in group:
-            if c in self.begun and c in self.contacts.news.hits and self.queue.counts[c] == 1:
-                self.contacts.news.note_hit(c, ago)
+            is_new = c in self.begun or c in news.again
+            if is_new and c in news.hits and self.queue.counts[c] == 1:
+                news.note_hit(c, ago)
+            news.again.pop(c, None)
         if len(group) == 1 and self.is_alone(group[0]):
             hit = self.resolve_alone(group[0], ago)
         else:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from math import inf
+from math import hypot, inf
 from operator import itemgetter
 from typing import TYPE_CHECKING
 
-from .contact import Contact
+from .contact import Contact, collide
 from .sweep import moment_of_touch
 
 if TYPE_CHECKING:
@@ -16,12 +16,14 @@ if TYPE_CHECKING:
 class News:
     """Whom on_hit and on_part of Contacts will be called for, and when in the step it happened."""
 
-    __slots__ = ("contacts", "hits", "parted")
+    __slots__ = ("again", "contacts", "gone", "hits", "parted")
 
     def __init__(self, contacts: Detection) -> None:
         self.contacts = contacts
         self.hits: dict[Contact, tuple[float, float]] = {}  # how long ago (s), and how fast (px/s)
-        self.parted: dict[Contact, None] = {}
+        self.parted: dict[Contact, float] = {}  # how long ago (s)
+        self.gone: dict[Contact, None] = {}  # contacts that last after their bodies parted
+        self.again: dict[Contact, None] = {}  # those of them whose bodies seem to meet again
 
     def note_hit(self, c: Contact, at: float = 0.0) -> None:
         """Note that two bodies began to touch, `at` seconds ago or as they have flown."""
@@ -32,10 +34,43 @@ class News:
 
     def note_part(self, c: Contact) -> None:
         """Note that two bodies parted, before other pairs met."""
-        if self.contacts.on_part and c not in self.contacts.landings.speeds:
-            self.parted[c] = None
+        if c in self.gone:
+            del self.gone[c]
+        elif self.contacts.on_part and c not in self.contacts.landings.speeds:
+            self.parted[c] = inf
             if c in self.hits:
                 self.hits[c] = inf, self.hits[c][1]
+
+    def note_again(self, c: Contact) -> None:
+        """Note that two bodies which had parted seem to touch again."""
+        del self.gone[c]
+        self.again[c] = None
+        self.note_hit(c)
+
+    def find_gone(self) -> None:
+        """Find the pairs that are apart at the end of the step though their contacts last.
+
+        The next step may bring them together again, which is a new hit. Slow ones that gravity may
+        turn back within a step have not parted. No pair parts twice in a step.
+        """
+        contacts = self.contacts
+        fast = contacts.speculative_speed + hypot(*contacts.world.g) * contacts.last_dt  # px/s
+        before, self.gone, parted = self.gone, {}, {(c.a, c.b) for c in self.parted}
+        for c in contacts.touching:
+            if c not in before:
+                is_fast = abs(c.closing_speed()) > fast and c not in contacts.landings.speeds
+                if (
+                    not is_fast
+                    or (c.a, c.b) in parted
+                    or collide(c.a, c.b)[2] <= contacts.touching_gap
+                ):
+                    continue
+                if c in self.again:
+                    self.hits.pop(c, None)
+                elif contacts.on_part:
+                    self.parted[c] = self.hits[c][0] if c in self.hits else inf
+            self.gone[c] = None
+        self.again = {}
 
     def meeting_of(self, c: Contact) -> tuple[float, float]:
         """Return how long ago (s) A and B began to touch, and how fast (px/s) they did."""
@@ -52,7 +87,7 @@ class News:
         contacts = self.contacts
         news: list[tuple[float, Contact, float | None]] = [
             *[(ago, c, speed) for c, (ago, speed) in self.hits.items()],
-            *[(inf, c, None) for c in self.parted],
+            *[(ago, c, None) for c, ago in self.parted.items()],
         ]
         self.hits, self.parted = {}, {}
         for _, c, speed in sorted(news, key=itemgetter(0), reverse=True):

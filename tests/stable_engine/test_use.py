@@ -630,6 +630,24 @@ def test_hits_and_partings_alternate_where_balls_bounce():
     assert told == (["hit", "part"] * len(told))[: len(told)]
 
 
+@pytest.mark.parametrize("way", [50.3, 61.3, 66.7])
+def test_each_hit_of_a_fast_ball_between_two_walls_is_told(way):
+    """A ball flies `way` px a step in a gap of 40 px: it meets a wall again a step later."""
+    hits, touching = [], set()
+    contacts = Contacts(
+        lambda a, b, _: (hits.append(b), touching.add(b)), lambda a, b: touching.remove(b)
+    )
+    world = World((0, 0), 4, [contacts, Bounce()])
+    for x in (-50, 110):
+        world.add(Body(Box((50, 100)), (x, 0), restitution=1))
+    ball = world.add(Body(Circle(10), (30, 0), mass=1, restitution=1))
+    ball.vel = (way / DT, 0)
+    for step in range(1, 61):
+        world.step(DT)
+        assert len(hits) == (way * step + 20) // 40
+        assert not touching
+
+
 def test_a_callback_must_be_callable():
     with pytest.raises(ValueError, match=r"Contacts\.on_part"):
         Contacts(on_part=3)
