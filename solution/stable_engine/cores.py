@@ -7,7 +7,7 @@ from .body import Body, state_of
 from .contact import Contact, collide, leave_as_entered
 from .detection import Detection, pair_number
 from .soft import SAME_DIRECTION
-from .sweep import NO_HIT, first_hit, free_share, put_back, share_left
+from .sweep import NO_HIT, first_hit, first_stop, free_share, put_back, share_left
 
 CORE = 0.5  # radii
 SWEEP_FROM = 0.5  # radii, a bullet that moves further in one step is swept
@@ -15,6 +15,7 @@ OVERLAP = 0.05  # radii, the overlap of a stopped bullet, so that the next step 
 SEAM = 1e-9  # a squared sine; faces that turn less are one
 CORNER_PASSES = 4  # of keeping cores out: a ball put back may meet another static body
 
+Place = tuple[float, float]  # px
 Way = tuple[float, float, float]  # how far (px) or how fast (px/s) into a face, and its normal
 HOW_FAR = itemgetter(0)
 
@@ -53,7 +54,7 @@ class Cores:
             for c in statics:
                 a, b = c.a, c.b
                 gap = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny - c.reach + c.found - c.gap
-                if gap < -CORE * a.r:
+                if gap < -CORE * a.r and c.found < a.r:  # else its way was swept
                     self.find_way_out(c, gap, ways)
             if not ways:
                 break
@@ -68,10 +69,11 @@ class Cores:
         if is_far and not body.is_static:
             self.sweep(body, (body.last_x, body.last_y), CORE * body.r, 0.0, h)
 
-    def stop_hit(self, body: Body, beside: list[Contact]) -> bool:
+    def stop_hit(self, body: Body, beside: list[Contact], turns: list[Place]) -> bool:
         """Stop a ball where impacts took its core through a static body. Return whether they did.
 
-        Its contacts are `beside`. In the next step it comes from where it is now.
+        Its contacts are `beside`; it flew straight from each of its turns to the next. In the next
+        step it comes from where it is now.
         """
         x, y, core = body.last_x, body.last_y, CORE * body.r
         dx, dy = body.x - x, body.y - y
@@ -79,6 +81,8 @@ class Cores:
         if is_near and not any([c.gap < -core and not c.b.inv_mass for c in beside]):
             return False
         share = free_share(body, self.world.statics, core_of(body), (x, y), dx, dy)
+        if share < 1 and turns and self.is_free(body, turns):
+            share = 1.0
         if share < 1:
             body.x, body.y = x + dx * share, y + dy * share
             for c in beside:
@@ -87,6 +91,16 @@ class Cores:
             self.contacts.note_impact(body, 0.0)
         body.last_x, body.last_y = body.x, body.y
         return share < 1
+
+    def is_free(self, body: Body, turns: list[Place]) -> bool:
+        """Return whether no static body stopped the core of a ball on its way over these turns."""
+        radius = core_of(body) - self.contacts.touching_gap
+        x, y = body.last_x, body.last_y
+        for to_x, to_y in [*turns, (body.x, body.y)]:
+            if first_stop(self.world.statics, radius, x, y, to_x - x, to_y - y) < NO_HIT:
+                return False
+            x, y = to_x, to_y
+        return True
 
     def find_way_out(
         self, c: Contact, gap: float, ways: dict[Body, tuple[list[Way], list[Way]]]

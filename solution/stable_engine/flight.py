@@ -5,7 +5,7 @@ from math import cos, hypot, sin
 from .body import Body, State, state_of
 from .contact import Contact
 from .contacts import Contacts
-from .cores import core_of, way_out
+from .cores import Place, core_of, way_out
 from .frame import Frame
 from .rods import Rods
 from .springs import Spring, share_before
@@ -30,6 +30,7 @@ class Flight:
         self.held: set[Body] = set()  # balls at static bodies that cannot go back
         # balls that a wall stopped: where they would be, and how much later (s)
         self.cut_short: dict[Body, tuple[State, float]] = {}
+        self.turns: dict[Body, list[Place]] = {}  # where balls were hit, and flew straight on
         self.walls: dict[Body, list[Body]] = {}  # at which a ball is: it may fly into them
         self.rests: dict[Body, list[Contact]] = {}  # at faces on which a ball rested
         self.bearing: dict[Body, list[Contact]] = {}  # those of them that bear it now
@@ -111,6 +112,12 @@ class Flight:
             body.vx, body.vy = body.vx + vx, body.vy + vy
             if body not in self.touching:  # else it might get into another body
                 body.x, body.y = body.x + x, body.y + y
+
+    def note_turns(self, hit: list[Body]) -> None:
+        """Note where balls that were hit fly straight on."""
+        for body in [] if self.springs_of else hit:
+            if body not in self.frame_of:
+                self.turns.setdefault(body, []).append((body.x, body.y))
 
     def fly(self, hit: list[Body], seconds: float) -> None:
         """Let balls fly back to an impact, or on. One that flies on far stops before a wall."""

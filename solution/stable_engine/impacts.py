@@ -199,7 +199,10 @@ class Impacts:
         for body in moved:
             if body not in contacts.hit_ago:
                 contacts.note_impact(body, 0.0)  # so the next step may stop it before a wall
-        stopped = [b for b in moved if contacts.cores.stop_hit(b, self.beside.get(b, []))]
+        turns, beside = self.flight.turns, self.beside
+        stopped = [
+            b for b in moved if contacts.cores.stop_hit(b, beside.get(b, []), turns.get(b, []))
+        ]
         if stopped:
             self.follow(stopped)
 
@@ -290,6 +293,7 @@ class Impacts:
         resolve(group, frames, self.flight)
         for wall, (x, y) in walls.items():
             wall.x, wall.y = x, y
+        self.flight.note_turns(hit)
         self.flight.fly(hit, ago)
 
     def note_impact(self, body: Body, ago: float) -> None:

@@ -13,7 +13,7 @@ import pytest
 from worlds_for_tests import IDEAL, add_ideal_ball, balls, whole_energy
 
 from experiments.scenes import DT
-from stable_engine import Body, Bounce, Box, Bullets, Circle, Contacts, Rod, Rods, World
+from stable_engine import Body, Bounce, Box, Bullets, Circle, Contacts, Rod, Rods, Segment, World
 
 ROUNDING = 1e-9  # relative
 LENGTH = (16 / 240) ** 2  # relative
@@ -44,6 +44,40 @@ def test_a_bullet_that_meets_a_wall_and_a_ball_in_one_step_keeps_its_energy():
     for _ in range(6):
         world.step(1 / 60)
         assert whole_energy(world) == pytest.approx(before, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("bullet", [False, True])
+@pytest.mark.parametrize("steps", [1, 2, 64])
+def test_a_ball_squeezed_between_a_corner_and_another_keeps_the_energy(steps, bullet):
+    """It flies round the corner of a box: the straight line from its start goes through that."""
+    world = make_world()
+    world.add(Body(Segment((400, 300), (0, 300)), **IDEAL))
+    world.add(Body(Box((30, 20)), (300, 200), **IDEAL))
+    for radius, pos, vel, mass in (
+        (10.537, (341.302, 231.441), (-1984.2, -630.05), 1.148),
+        (11.961, (340.610, 281.915), (416.41, 4660.32), 1.676),
+    ):
+        ball = world.add(Body(Circle(radius), pos, mass, bullet=bullet, **IDEAL))
+        ball.vel = vel
+    before = whole_energy(world)
+    for _ in range(steps):
+        world.step(1 / 60 / steps)
+    assert whole_energy(world) == pytest.approx(before, rel=ROUNDING)
+
+
+def test_a_bullet_passes_the_end_of_a_line_that_it_has_met():
+    """A heavy one turns it back. It then passes the end 5.7 px away, on the line's other side."""
+    world, dt = make_world(), 1 / 60
+    world.add(Body(Segment((100, 100), (180, 140)), **IDEAL))
+    bullet = world.add(Body(Circle(3.07), (103.01, 113.68), mass=1, bullet=True, **IDEAL))
+    heavy = world.add(Body(Circle(10.07), (18.2, 152.04), mass=9, bullet=True, **IDEAL))
+    bullet.vel, heavy.vel = (-1369, -5619), (1421, -1593)
+    before = whole_energy(world)
+    world.step(dt)
+    x, y, vx, vy = *bullet.pos, *bullet.vel
+    world.step(dt)
+    assert tuple(bullet.pos) == pytest.approx((x + vx * dt, y + vy * dt))
+    assert whole_energy(world) == pytest.approx(before, rel=ROUNDING)
 
 
 @pytest.mark.parametrize("speed", [300, 1000, 3000, 8000])
