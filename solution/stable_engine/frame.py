@@ -61,8 +61,12 @@ class Frame(Cluster):
         """
         before = [rod.j for rod in self.rods]
         parts = self.parts
+        self.gave_way = False
         if self.has_loop:
             self.find_most()
+            if self.most < inf and not self.fits(LOOSE):
+                self.gave_way, self.lost = True, 0.0
+                self.limit, _ = self.look_back(h)
         if parts.count <= PARTS and self.find_impulses(h, bias):
             if parts.count == 1 or not self.has_jerked(before):
                 parts.count = 1
@@ -149,7 +153,11 @@ class Frame(Cluster):
 
     def is_whole(self) -> bool:
         """Return whether all rods have nearly the right length."""
-        return all([abs(rod.distance - rod.rest) < TORN * rod.rest for rod in self.rods])
+        return self.fits(TORN)
+
+    def fits(self, share: float) -> bool:
+        """Return whether all rods have the right length, but for less than a share of it."""
+        return all([abs(rod.distance - rod.rest) < share * rod.rest for rod in self.rods])
 
     def give_way(self, h: float, bias: float, soft: float) -> None:
         """Choose velocities for a frame that cannot go in parts.
@@ -189,7 +197,7 @@ class Frame(Cluster):
             if is_soft or off < NEAR:
                 break
         if self.limit >= 0:
-            self.gave_way = is_soft or is_off
+            self.gave_way = self.gave_way or is_soft or is_off
             self.work = self.twice_energy() - self.limit
 
     def find_most(self) -> None:
@@ -199,9 +207,7 @@ class Frame(Cluster):
         do not fit. At a dead point, the matrix is singular, and impulses would have no limit.
         """
         self.most = inf
-        if self.drive() == 0 and not any(
-            [abs(rod.distance - rod.rest) > FITTING * rod.rest for rod in self.rods]
-        ):
+        if self.drive() == 0 and self.fits(FITTING):
             return
         speeds = [(body, body.vx, body.vy) for body in self.ends]
         for rod in self.rods:

@@ -3,7 +3,7 @@
 import math
 import random
 from functools import partial
-from itertools import combinations, product
+from itertools import combinations, pairwise, product
 
 import pytest
 from samples import sample
@@ -111,6 +111,22 @@ def test_rods_that_cannot_all_have_their_lengths_share_the_error(shorter):
         world.step(DT)
         assert max(abs(r.a.pos.distance_to(r.b.pos) - r.length) for r in rods) < off
         assert max(ball.vel.length() for ball in balls) < 1
+
+
+@pytest.mark.parametrize("count", [2, 5])
+def test_a_zigzag_chain_too_short_for_its_pegs_stays_slow(count):
+    """Rods do no work, so balls that start at rest do not speed up as these pull them straight."""
+    world = World((0, 0), 4, [Rods()])
+    places = [(200 * i / (count + 1), 5 * (i % 2 == 0)) for i in range(1, count + 1)]
+    pegs = [world.add(Body(Circle(5), (x, 0))) for x in (0, 200)]
+    row = [world.add(Body(Circle(3), place, mass=1)) for place in places]
+    rods = [world.add(Rod(a, b)) for a, b in pairwise([pegs[0], *row, pegs[1]])]
+    for rod in rods:
+        rod.length *= 0.95
+    for _ in range(120):
+        world.step(DT)
+        assert max(ball.vel.length() for ball in row) < 1
+    assert max(rod.a.pos.distance_to(rod.b.pos) / rod.length for rod in rods) < 1.1
 
 
 # ---------------------------------------------------------------- springs hang at their stretch
