@@ -3,12 +3,11 @@
 from math import hypot
 
 from .contact import RESTING_SPEED, Contact
-from .contacts import Contacts
+from .contacts import FAR_APART, Contacts
 from .effect import Effect
 from .impacts import Impacts, select_fast
 
 RESTING_STEPS = 3.7  # impacts slower than gravity's speed after so many do not bounce
-FAR_APART = 1e6  # radii: no step takes a ball as far
 LEAST_SPEED = 0.001  # 1/s, in units of the world: the same without gravity
 
 

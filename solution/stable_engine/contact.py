@@ -180,6 +180,15 @@ def is_at_face(c: Contact) -> bool:
     return abs((a.x - b.x) * b.segment.ux + (a.y - b.y) * b.segment.uy) <= b.segment.reach
 
 
+def is_over_face(b: Body, nx: float, ny: float, x: float, y: float) -> bool:
+    """Return whether a ball at (x, y) from the centre of B, with this normal, is at a flat face."""
+    if b.segment is not None:
+        return abs(x * b.segment.ux + y * b.segment.uy) <= b.segment.reach
+    if b.r or (nx and ny):
+        return False
+    return abs(x) <= b.hx if ny else abs(y) <= b.hy
+
+
 def leave_as_entered(c: Contact, nx: float, ny: float, gap: float) -> tuple[float, float, float]:
     """Return the normal and gap of two bodies that touched before, with normal (c.nx, c.ny).
 

@@ -3,7 +3,7 @@
 from math import hypot, pi
 
 from .body import Body
-from .contact import RESTING_SPEED, Contact, turn_normals
+from .contact import RESTING_SPEED, Contact, is_at_face, turn_normals
 from .cores import Cores
 from .crowd import gather_crowd, part_crowd
 from .detection import REDETECT_DISTANCE, Detection, OnHit, OnPart
@@ -19,6 +19,7 @@ LEAST_DAMPING = 10.0  # ratio, so high that overlap is pushed out without a boun
 SUBSTEP_DAMPING = 2.5  # ratio, per substep of a step: see Contacts.prepare
 STIFFENING = 0.07  # of a substep, per step
 # lengths are in units of the world, see World.unit
+FAR_APART = 1e6  # radii: no step takes a ball as far
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
 BORNE = 40.0  # weights of a ball; static bodies need no larger impulses beside what it carries
 HELD = 0.1  # of the normal impulse; with less, friction does not hold what is squeezed
@@ -33,6 +34,8 @@ class Contacts(Detection):
     pair that no longer touches at the end of a step, before pairs that met later. `a` is a ball
     with mass, `b` any body. Both functions may add and remove bodies, and can be set later on.
     Bodies that are removed do not part.
+
+    Flush static bodies are one: at a corner that another one covers, a contact does nothing.
 
     Each stage solves contacts of static bodies last, so that these hold best. Where passes would
     leave much, all that balls connect is then solved together, see Pile: where a body is more than
@@ -99,6 +102,7 @@ class Contacts(Detection):
             self.crowd = gather_crowd(self, most, give)
             for c in self.crowd:  # they just touch, so that the solver does not push them apart
                 c.gap = max(c.gap, self.touching_gap)
+        self.leave_covered()
         self.find_order()
         if self.begun:  # impulses may reach all others
             self.renewed = self.touching
@@ -113,6 +117,21 @@ class Contacts(Detection):
         if not (self.piles or self.crowd or self.can_press(h * self.world.substep_count)):
             self.all_part = True
             self.world.update_hooks()
+
+    def leave_covered(self) -> None:
+        """Let contacts at corners that other bodies cover do nothing, as at a seam of flush boxes.
+
+        What these bear passes on to the others.
+        """
+        tilted = [c for c in self.statics.contacts if not c.b.r and c.nx and c.ny]
+        for c in [c for c in tilted if not is_at_face(c)]:
+            pair = self.find_cover(c)
+            cover = pair.contact if pair else None
+            if cover:
+                cover.jn, cover.jt = cover.jn + c.jn, cover.jt + c.jt
+                c.jn = c.jt = 0.0
+                c.gap = FAR_APART * c.a.r
+                self.renewed = [*self.renewed, c]
 
     def find_squeezed(self, h: float) -> dict[Contact, float]:
         """Return contacts of balls with static bodies, and how much impulse they may keep.

@@ -115,7 +115,7 @@ class Cores:
         if nx * c.nx + ny * c.ny < SAME_DIRECTION and self.went_through(c):
             nx, ny, now = c.nx, c.ny, gap
         back = min(c.found, -CORE * a.r) - now
-        if back > self.contacts.touching_gap:
+        if back > self.contacts.touching_gap and not self.contacts.find_cover(c):
             closing = max((a.vx - b.vx) * nx + (a.vy - b.vy) * ny, 0.0)
             ways_out, speeds = ways.setdefault(a, ([], []))
             ways_out.append((back, nx, ny))

@@ -6,7 +6,7 @@ from math import hypot, inf, sqrt
 from .body import Body, State
 from .bounds import Pair
 from .broad_phase import BroadPhase
-from .contact import Contact, collide, leave_as_entered
+from .contact import Contact, collide, is_over_face, leave_as_entered
 from .effect import Effect
 from .landings import Landings
 from .news import News
@@ -14,7 +14,7 @@ from .order import Group
 from .rods import Rods
 from .soft import SAME_DIRECTION
 from .springs import Springs, any_stiff
-from .sweep import moment_of_touch
+from .sweep import covers, moment_of_touch, seen_before
 from .validate import refuse
 
 # lengths are in units of the world, see World.unit
@@ -302,6 +302,30 @@ class Detection(Effect):
                 self.unpaired[number] = c
             else:
                 self.news.note_part(c)
+
+    def find_cover(self, c: Contact, ago: float = 0.0) -> Pair | None:
+        """Return the pair of a ball and the static body that covers a corner, or None.
+
+        The ball is at a corner or end with the normal of this contact some seconds ago, or is now.
+        If the corner is on another body, along which the ball comes nearer, the two are one there:
+        the ball touches that body, and not the corner.
+        """
+        a, b = c.a, c.b
+        has_flown = ago > 0
+        nx, ny, gap = (c.nx, c.ny, 0.0) if has_flown else collide(a, b)
+        if has_flown and self.late:
+            ago -= self.late.get(a, 0.0)  # a wall stopped it so long before the others
+        if b.r or is_over_face(b, nx, ny, *seen_before(a, b, ago)):
+            return None
+        reach = a.r + gap
+        for pair in self.broad_phase.rooms[a].pairs:
+            b = pair.b
+            may_touch = pair.contact or (has_flown and pair_number(a, b) not in self.ignored)
+            if b.is_static and pair.contact is not c and may_touch:
+                x, y = seen_before(a, b, ago)
+                if covers(b, x, y, nx * reach, ny * reach, self.touching_gap):
+                    return pair
+        return None
 
     def have_passed(self, a: Body, b: Body, gap: float) -> bool:
         """Return whether two balls have touched on their way here and passed each other.

@@ -14,6 +14,7 @@ from .frame import Frame
 from .hit import resolve
 from .impact_queue import ImpactQueue
 from .order import balls_of
+from .sweep import moment_of_touch
 from .time_of_impact import ARC_PASSES, TimeOfImpact
 
 MOVED = 0.01  # radii; a ball that was hit and moved by less meets nothing new
@@ -124,8 +125,7 @@ class Impacts:
             return False
         walls = [c for c in self.beside.get(body, []) if c.b.is_static]
         self.put(body, end)
-        for c in walls:
-            self.look(c, c in self.begun)
+        walls = [c for c in walls if not self.look(c, c in self.begun)]
         known = {c for c in walls if c in self.queue.due and self.queue.due[c][0] < 0}
         sunk = [c for c in walls if self.faces.added_depth(c) > self.touching_gap]
         if known and known.issuperset(sunk):
@@ -149,18 +149,58 @@ class Impacts:
         for c in self.beside.get(body, []):
             self.faces.look(c)
 
-    def look(self, c: Contact, is_new: bool = False) -> None:
-        """Note an impact if the pair closes in fast, or did before it passed each other."""
+    def look(self, c: Contact, is_new: bool = False) -> bool:
+        """Note an impact if the pair closes in fast, or did before it passed each other.
+
+        Return whether it would be at a corner that another body covers: this is no impact.
+        """
         self.queue.due.pop(c, None)
         if not is_new and (c.closing_speed() <= self.slow or self.is_open(c)):
-            return
+            return False
         now = c.nx, c.ny, c.gap
         ago = self.times.turn_back(c) if c.gap < 0 or is_new else 0.0
         speed = c.closing_speed()
         if speed <= self.slow:
             c.nx, c.ny, c.gap = now
+        elif not c.b.r and self.is_covered(c, ago):
+            c.nx, c.ny, c.gap = now
+            return True
         elif ago > 0 or not self.is_open(c):
             self.queue.add(c, ago, speed)
+        return False
+
+    def is_covered(self, c: Contact, ago: float = 0.0) -> bool:
+        """Return whether a ball was at a corner some seconds ago that another body covers.
+
+        If it touched that body in this step and has left it since, the two meet.
+        """
+        pair = self.contacts.find_cover(c, ago)
+        if pair and pair.contact is None:
+            self.meet_before(pair)
+        return pair is not None
+
+    def meet_before(self, pair: Pair) -> None:
+        """Add the contact of a ball and a static body that it touched, and then flew past."""
+        a, b = pair.a, pair.b
+        ago, nx, ny = moment_of_touch(a, b, self.contacts.flight_of(a, b))
+        if ago > 0:
+            if not self.beside:
+                self.link(self.touching)
+            c = self.contacts.meet(pair, nx, ny, ((b.vx - a.vx) * nx + (b.vy - a.vy) * ny) * ago)
+            self.contacts.news.note_hit(c, ago)
+            self.take_in([c])
+            self.look(c, is_new=True)
+
+    def uncover(self, group: list[Contact]) -> list[Contact]:
+        """Return contacts, those of other bodies instead where these cover their corners now."""
+        found: dict[Contact, None] = {}
+        for c in group:
+            pair = None if c.b.r else self.contacts.find_cover(c)
+            cover = pair.contact if pair else None
+            if cover:
+                self.faces.look(cover)
+            found[cover or c] = None
+        return list(found)
 
     def is_open(self, c: Contact) -> bool:
         """Return whether a pair is still to meet: they are apart, far or fast."""
@@ -290,7 +330,7 @@ class Impacts:
             self.stops.pop(body, None)
         for c in group:
             self.faces.look(c)
-        resolve(group, frames, self.flight)
+        resolve(self.uncover(group) if frames else group, frames, self.flight)
         for wall, (x, y) in walls.items():
             wall.x, wall.y = x, y
         self.flight.note_turns(hit)
@@ -322,7 +362,7 @@ class Impacts:
             self.beside[c.a].append(c)
             if c.b.inv_mass:
                 self.beside[c.b].append(c)
-            elif not (c in self.faces.normals or c in self.begun):
+            elif not (c in self.faces.normals or c in self.begun or self.is_covered(c)):
                 self.flight.held.add(c.a)
 
     def follow(self, moved: list[Body]) -> None:
@@ -345,11 +385,7 @@ class Impacts:
                         self.meet(pair, met)
         if not met:
             return
-        self.met += met
-        self.begun.update(met)
-        for c in met:
-            self.faces.note(c, 0.0)
-        self.link(met)
+        self.take_in(met)
         for body in hit:
             cut = self.flight.cut_short.get(body)
             if cut and any([c.a is body and c.b.is_static for c in met]):
@@ -359,6 +395,14 @@ class Impacts:
                     self.contacts.note_impact(body, flown)
         for c in met:
             self.look(c, is_new=True)
+
+    def take_in(self, met: list[Contact]) -> None:
+        """Take in contacts that began through impacts."""
+        self.met += met
+        self.begun.update(met)
+        for c in met:
+            self.faces.note(c, 0.0)
+        self.link(met)
 
     def meet(self, pair: Pair, met: list[Contact]) -> None:
         """Add the contact of a near pair to those that have met, if impacts have made it touch."""

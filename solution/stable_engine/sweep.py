@@ -4,6 +4,7 @@ from collections.abc import Callable
 from math import copysign, sqrt
 
 from .body import Body
+from .contact import Contact, is_over_face
 from .shapes import Segment
 
 NO_HIT = 1.0
@@ -58,6 +59,19 @@ def moment_of_touch(a: Body, b: Body, dt: float) -> tuple[float, float, float]:
     return (1 - fraction) * dt, -x / distance, -y / distance
 
 
+def seen_before(a: Body, b: Body, ago: float) -> tuple[float, float]:
+    """Return where a ball was some seconds ago, seen from the centre of B. Both flew straight."""
+    x, y = a.x - b.x - a.vx * ago, a.y - b.y - a.vy * ago
+    if b.is_static and not b.is_kinematic:
+        return x, y  # a belt does not move
+    return x + b.vx * ago, y + b.vy * ago
+
+
+def was_at_face(c: Contact, ago: float) -> bool:
+    """Return whether a ball with the normal of a contact was at a flat face some seconds ago."""
+    return is_over_face(c.b, c.nx, c.ny, *seen_before(c.a, c.b, ago))
+
+
 def first_hit(
     statics: list[Body], radius: float, x: float, y: float, dx: float, dy: float
 ) -> float:
@@ -69,6 +83,17 @@ def first_hit(
     for s in within_reach(statics, radius, x, y, dx, dy):
         fraction = min(fraction, hit_body(s, radius, x - s.x, y - s.y, dx, dy))
     return fraction
+
+
+def covers(s: Body, x: float, y: float, to_x: float, to_y: float, edge: float) -> bool:
+    """Return whether a point is on a body, along which a ball at (x, y) comes nearer.
+
+    The point is (to_x, to_y) from the ball's centre, and up to `edge` px off the body.
+    """
+    reach = sqrt(to_x * to_x + to_y * to_y)
+    if distance_from(s, x, y) >= reach * (1 - GRAZING):
+        return False
+    return distance_from(s, x + to_x, y + to_y) <= edge
 
 
 def first_stop(

@@ -8,7 +8,7 @@ from .contacts import Contacts
 from .faces import Faces
 from .frame import Frame
 from .soft import SAME_DIRECTION
-from .sweep import moment_of_touch
+from .sweep import moment_of_touch, was_at_face
 
 ARC = 1.1  # ratio by which the touch may lie further back for flights on an arc
 ARC_PASSES = 4  # of Newton's method, to find the touch of a ball on an arc
@@ -29,8 +29,9 @@ class TimeOfImpact:
     def turn_back(self, c: Contact) -> float:
         """Turn a contact's normal back to that of the touch. Return the time (s) since then.
 
-        A flat face of a static body has one normal. Other normals stay unless the two began to
-        touch while both flew freely. Nothing flies through a wall.
+        A flat face of a static body has one normal, unless the ball came past its end. Other
+        normals stay unless the two began to touch while both flew freely. Nothing flies through a
+        wall.
         """
         a, b, late = c.a, c.b, self.contacts.late
         since = self.contacts.flight_of(a, b)
@@ -45,7 +46,8 @@ class TimeOfImpact:
                 return 0.0
         if is_face:
             ago = self.time_below(c, since)
-            return ago + late.get(a, 0.0) if ago > 0 and late else ago
+            if ago <= 0 or c.closing_speed() <= self.slow or was_at_face(c, ago):
+                return ago + late.get(a, 0.0) if ago > 0 and late else ago
         if late and (a in late or b in late):
             ago, nx, ny = self.contacts.look_back_late(a, b)
         else:
@@ -60,6 +62,8 @@ class TimeOfImpact:
             c.nx, c.ny = nx, ny
             c.gap = -c.closing_speed() * ago
             self.turned.append(c)
+        if ago > 0 and a not in late and not b.inv_mass and was_at_face(c, ago):
+            ago = self.time_below(c, since) or ago
         return ago
 
     def see_from_here(self, group: list[Contact]) -> None:
