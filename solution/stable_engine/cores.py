@@ -7,7 +7,7 @@ from .body import Body, state_of
 from .contact import Contact, collide, leave_as_entered
 from .detection import Detection, pair_number
 from .soft import SAME_DIRECTION
-from .sweep import NO_HIT, first_hit, first_stop, free_share, put_back, share_left
+from .sweep import NO_HIT, drop_covered, first_hit, first_stop, free_share, put_back, share_left
 
 CORE = 0.5  # radii
 SWEEP_FROM = 0.5  # radii, a bullet that moves further in one step is swept
@@ -152,7 +152,11 @@ class Cores:
         x, y = start
         dx, dy = body.x - x, body.y - y
         # a little smaller, or rounding would decide whether a ball that slides along is stopped
-        fraction = first_hit(statics, radius - self.contacts.touching_gap, x, y, dx, dy)
+        gap = self.contacts.touching_gap
+        fraction = first_hit(statics, radius - gap, x, y, dx, dy)
+        if fraction < NO_HIT and radius == body.r:  # cores may meet any corner
+            statics = drop_covered(statics, radius - gap, x, y, dx, dy, gap)
+            fraction = first_hit(statics, radius - gap, x, y, dx, dy)
         if fraction < NO_HIT:
             fraction = min(fraction, first_hit(statics, radius, x, y, dx, dy))
             fraction += overlap / hypot(dx, dy)

@@ -85,6 +85,23 @@ def first_hit(
     return fraction
 
 
+def drop_covered(
+    statics: list[Body], radius: float, x: float, y: float, dx: float, dy: float, edge: float
+) -> list[Body]:
+    """Return the bodies that a ball on its way may meet, but not at a corner that others cover."""
+    near, kept = within_reach(statics, radius, x, y, dx, dy), []
+    for s in near:
+        fraction = hit_body(s, radius, x - s.x, y - s.y, dx, dy)
+        at_x, at_y = x + dx * fraction, y + dy * fraction
+        far_x, far_y = seen_from_nearest(s, at_x - s.x, at_y - s.y)
+        share = -radius / (sqrt(far_x * far_x + far_y * far_y) or 1.0)
+        to = far_x * share, far_y * share
+        others = [other for other in near if other is not s and fraction < NO_HIT]
+        if not any([covers(o, at_x - o.x, at_y - o.y, *to, edge) for o in others]):
+            kept.append(s)
+    return kept
+
+
 def covers(s: Body, x: float, y: float, to_x: float, to_y: float, edge: float) -> bool:
     """Return whether a point is on a body, along which a ball at (x, y) comes nearer.
 

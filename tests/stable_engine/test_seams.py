@@ -82,6 +82,18 @@ def test_a_ball_dropped_beside_a_seam_gets_no_speed_sideways(kind, restitution):
 
 
 @pytest.mark.parametrize("kind", KINDS)
+def test_a_bullet_that_slides_over_seams_loses_no_time(kind):
+    world = World(effects=make(["Contacts", "Bounce", "Bullets"]))
+    lay_floor(world, kind, 40, 0)
+    ball = world.add(Body(Circle(R), (-300, -R), 1, 0, 0, bullet=True))
+    ball.vel = (700, 0)
+    run(world, 0.1)  # it lands
+    start = ball.x
+    run(world, 1)
+    assert ball.x == pytest.approx(start + 700, abs=0.01)
+
+
+@pytest.mark.parametrize("kind", KINDS)
 def test_a_dumbbell_bounces_off_tiles_as_off_one_body(kind):
     for x in (-45.0, -35.0, -25.0, -15.0, -5.0):
         ends = []
