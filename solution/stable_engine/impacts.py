@@ -14,7 +14,7 @@ from .frame import Frame
 from .hit import resolve
 from .impact_queue import ImpactQueue
 from .order import balls_of
-from .sweep import moment_of_touch
+from .sweep import NO_HIT, first_hit, moment_of_touch, was_at_face
 from .time_of_impact import ARC_PASSES, TimeOfImpact
 
 MOVED = 0.01  # radii; a ball that was hit and moved by less meets nothing new
@@ -409,7 +409,10 @@ class Impacts:
         a, b, ignored = pair.a, pair.b, self.contacts.ignored
         if a in self.stops or b in self.stops or (ignored and pair_number(a, b) in ignored):
             return
-        nx, ny, gap = collide(a, b) if b.inv_mass else seen_from_start(a, b)
+        if b.inv_mass:
+            nx, ny, gap = collide(a, b)
+        else:
+            nx, ny, gap = seen_from_start(a, b, self.contacts.flight_of(a, b))
         dx, dy = (a.vx - b.vx) * self.dt, (a.vy - b.vy) * self.dt
         if gap > 0 and gap * gap > dx * dx + dy * dy:
             return
@@ -431,10 +434,22 @@ def select_fast(contacts: list[Contact], slow: float) -> list[Contact]:
     return fast
 
 
-def seen_from_start(a: Body, b: Body) -> tuple[float, float, float]:
-    """Return normal and gap of a ball and a static body, from the side where the ball was."""
-    before, x, y = Contact(a, b), a.x, a.y
+def seen_from_start(a: Body, b: Body, since: float) -> tuple[float, float, float]:
+    """Return normal and gap of a ball and a static body, from the side where the ball was.
+
+    A ball that flew past the end of a segment, straight since so long (s) ago, is not behind it.
+    """
+    before, now, x, y = Contact(a, b), collide(a, b), a.x, a.y
     a.x, a.y = a.last_x, a.last_y
     before.nx, before.ny, _ = collide(a, b)
     a.x, a.y = x, y
-    return leave_as_entered(before, *collide(a, b))
+    seen = leave_as_entered(before, *now)
+    if b.segment is None or seen == now:
+        return seen
+    ago, nx, ny = moment_of_touch(a, b, since)
+    if ago > 0:
+        if was_at_face(before, ago):
+            return seen
+        return nx, ny, ((b.vx - a.vx) * nx + (b.vy - a.vy) * ny) * ago
+    way = x - a.last_x, y - a.last_y
+    return seen if first_hit([b], 0.0, a.last_x, a.last_y, *way) < NO_HIT else now

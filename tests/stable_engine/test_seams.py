@@ -1,4 +1,4 @@
-"""Test flush bodies: they are one flat face."""
+"""Test flush bodies: they are one flat face. Test that no face goes on past its end."""
 
 import math
 
@@ -7,6 +7,7 @@ from worlds_for_tests import add_ideal_ball, make
 
 from stable_engine import Body, Box, Circle, Rod, Segment, World
 
+pytestmark = pytest.mark.filterwarnings("ignore:This scene calls for Bullets")
 R, DT = 10.0, 1 / 60
 KINDS = ["box", "segment"]
 LEFT, RIGHT = -400.0, 1200.0  # px, the ends of each floor
@@ -132,3 +133,24 @@ def test_a_ball_is_reflected_by_the_face_that_it_meets_beside_a_bend(degrees):
             ball = add_ideal_ball(world, (x - start, -R - start), (400, 400))
             run(world, 0.2)
             assert tuple(ball.vel) == pytest.approx((400, -400), abs=1e-6)
+
+
+@pytest.mark.parametrize("bullet", [False, True])
+@pytest.mark.parametrize(
+    ("r", "pos", "vel"),
+    [
+        (1, (4.15, 50.09), (-4436, -4040)),
+        (3, (6.1, 50.09), (-4436, -4040)),
+        (3, (9.35, 46.75), (-2898, -775)),
+    ],
+)
+def test_a_ball_flies_past_the_end_of_a_segment_after_a_wall(r, pos, vel, bullet):
+    effects = ["Contacts", "Bounce", "Bullets"] if bullet else ["Contacts", "Bounce"]
+    world = World(gravity=(0, 0), effects=make(effects))
+    world.add(Body(Segment((40, 40), (80, 60)), restitution=1, friction=0))
+    world.add(Body(Segment((0, -3000), (0, 3000)), restitution=1, friction=0))
+    ball = add_ideal_ball(world, pos, vel, r, bullet=bullet)
+    world.step(DT)
+    assert tuple(ball.vel) == pytest.approx((-vel[0], vel[1]), rel=1e-9)
+    reflected = 2 * r - pos[0] - vel[0] * DT, pos[1] + vel[1] * DT
+    assert tuple(ball.pos) == pytest.approx(reflected, abs=1e-6)
