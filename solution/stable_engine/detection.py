@@ -273,9 +273,12 @@ class Detection(Effect):
             self.news.note_part(c)
 
     def drop_untouched(self, new: set[Contact]) -> None:
-        """Drop new contacts of bodies that were hit by others and so did not touch."""
+        """Drop new contacts of bodies that were hit by others and so did not touch.
+
+        Before a step none are new: the program has been told of all.
+        """
         missed: set[Contact] = set()
-        for c in new:
+        for c in new if self.last_dt else ():
             was_hit, gap = c.a in self.hit_ago or c.b in self.hit_ago, collide(c.a, c.b)[2]
             touch = gap <= self.touching_gap or self.have_passed(c.a, c.b, gap)
             if was_hit and not touch and c not in self.landings.speeds:

@@ -80,7 +80,8 @@ class News:
             return (0.0 if contacts.last_dt else inf), max(c.closing_speed(), 0.0)
         (gx, gy), falls = contacts.world.g, b.is_static and not a.joint_count
         since = contacts.h / 2 - ago if falls else 0.0  # s: velocities lag half a substep behind
-        return ago, (a.vx - b.vx + gx * since) * nx + (a.vy - b.vy + gy * since) * ny
+        speed = (a.vx - b.vx + gx * since) * nx + (a.vy - b.vy + gy * since) * ny
+        return ago, max(speed, 0.0)  # what rolls onto a body does not fall
 
     def tell(self) -> None:
         """Call on_hit and on_part, in order, for bodies that are still in the world."""

@@ -39,6 +39,7 @@ from experiments.scenes import (
     shot,
 )
 from experiments.steps import at_random, hiccups, in_turns, lasting, remainders
+from stable_engine import Body, Circle, Contacts, Kinematics, Rod, Rods, World
 from stable_engine.soft import Pace
 
 H = DT / 4  # s
@@ -101,6 +102,21 @@ def test_balls_in_one_place_part_and_get_no_speed(count):
     xs, ys = ([getattr(body, axis) for body in engine.bodies] for axis in "xy")
     assert max(xs) - min(xs) > 10 < max(ys) - min(ys)
     assert sum(xs) == pytest.approx(0, abs=1e-9) == sum(ys)
+
+
+@pytest.mark.parametrize("depth", [0.001, 1, 15])
+@pytest.mark.parametrize("kinematic", [False, True])
+def test_a_bob_that_is_built_into_a_peg_comes_out_of_it(depth, kinematic):
+    """Neither the peg nor the body that the bob hangs on gives way."""
+    world = World(effects=[Contacts(), Rods(), Kinematics()])
+    hook, bob = world.add(Body(Circle(2), (0, 0))), world.add(Body(Circle(20), (0, 200), 1.0))
+    rod, peg = world.add(Rod(hook, bob)), Body(Circle(5), (25 - depth, 200), kinematic=kinematic)
+    world.add(peg)
+    for _ in range(60):
+        world.step(DT)
+    assert math.dist(bob.pos, peg.pos) == pytest.approx(25, abs=0.05)
+    assert math.dist(bob.pos, hook.pos) == pytest.approx(rod.length, rel=1e-3)
+    assert bob.vel.length() < 1
 
 
 # ---------------------------------------------------------------- steps that vary

@@ -34,6 +34,7 @@ from stable_engine import (
     Damping,
     Effect,
     Friction,
+    Kinematics,
     Rod,
     Rods,
     Segment,
@@ -651,6 +652,28 @@ def test_each_hit_of_a_fast_ball_between_two_walls_is_told(way):
 def test_a_callback_must_be_callable():
     with pytest.raises(ValueError, match=r"Contacts\.on_part"):
         Contacts(on_part=3)
+
+
+def test_a_pair_is_told_in_turns_while_a_program_pushes():
+    """What it sets before a step makes contacts look again, but nobody meets or parts by that."""
+    touching = {}
+
+    def meet(a, b, speed):
+        assert speed >= 0 and frozenset((a, b)) not in touching
+        touching[frozenset((a, b))] = speed
+
+    def part(a, b):
+        del touching[frozenset((a, b))]
+
+    world = World(effects=[Contacts(meet, part), Bounce(), Kinematics()])
+    for x in range(-75, 76, 50):
+        world.add(Body(Box((25, 20)), (x, 20)))
+    hand = world.add(Body(Circle(20), (-90, -30), kinematic=True))
+    for i in range(10):
+        world.add(Body(Circle(9), (14 * i - 60, -60 - 19 * i), 1.0, restitution=0.6))
+    for step in range(240):
+        hand.vel = (150 * math.cos(step / 15), 0)
+        world.step(1 / 60)
 
 
 @pytest.mark.parametrize("seed", range(3))
