@@ -175,9 +175,7 @@ def circle_segment(a: Body, b: Body, wall: Segment) -> tuple[float, float, float
 def is_at_face(c: Contact) -> bool:
     """Return whether a ball is at a flat face of a box or segment, and not at a corner or end."""
     a, b = c.a, c.b
-    if b.segment is None:
-        return not b.r and (c.nx == 0 or c.ny == 0)
-    return abs((a.x - b.x) * b.segment.ux + (a.y - b.y) * b.segment.uy) <= b.segment.reach
+    return is_over_face(b, c.nx, c.ny, a.x - b.x, a.y - b.y)
 
 
 def is_over_face(b: Body, nx: float, ny: float, x: float, y: float) -> bool:

@@ -2,7 +2,7 @@
 
 from math import hypot, sqrt
 
-from .contact import Contact, collide, is_over_face
+from .contact import Contact, collide, is_at_face
 from .cores import way_out
 from .flight import Flight
 from .soft import SAME_DIRECTION
@@ -22,9 +22,7 @@ class Faces:
 
         Also note whether the face bears the ball.
         """
-        x, y = c.a.x - c.b.x, c.a.y - c.b.y
-        is_at_face = is_over_face(c.b, c.nx, c.ny, x, y)
-        if c.b.inv_mass == 0 and is_at_face and c.a not in self.flight.pivots:
+        if c.b.inv_mass == 0 and is_at_face(c) and c.a not in self.flight.pivots:
             self.depths[c] = depth
             if not c.a.is_bullet:
                 self.flight.walls.setdefault(c.a, []).append(c.b)
