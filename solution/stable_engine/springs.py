@@ -126,13 +126,14 @@ class Springs(Joints[Spring]):
     partly by the speed before the substep and partly by that after it, see part_after.
     """
 
-    __slots__ = ("networks", "springs_of")
+    __slots__ = ("last", "networks", "springs_of")
     rank = 1
 
     def __init__(self) -> None:
         super().__init__()
         self.networks: list[Network[Spring]] = []
         self.springs_of: dict[Body, list[Spring]] = {}
+        self.last = 0.0  # s, the substep of the last step
 
     def prepare(self, h: float) -> None:
         """Take impacts out of the swing."""
@@ -225,16 +226,28 @@ class Springs(Joints[Spring]):
         """Add the pull of soft springs: that of a third of a substep before, as it changes.
 
         Where any spring of a network is stiff, only gravity lags, or momentum would not be kept;
-        nothing does where a contact or static body holds it, or what joints tie it to.
+        nothing does where a contact or static body holds it, or what joints tie it to. If other
+        substeps make it soft or stiff, its velocities lag from then on, or no more.
         """
         self.find_networks()
-        h = 2 * abs(seconds)
+        h, before = 2 * abs(seconds), self.last if seconds < 0 else 0.0
         for network in self.networks:
-            if not any_stiff(network.rows, h):
-                self.lag_softly(network.rows, seconds)
-            elif any([body.is_pressed or body.is_static for body in self.bodies_around(network)]):
+            is_stiff, was_stiff = any_stiff(network.rows, h), any_stiff(network.rows, before)
+            is_held = (is_stiff or was_stiff) and self.is_held(network)
+            if not is_stiff or (before and not was_stiff):
+                self.lag_softly(network.rows, seconds, before if was_stiff else 0.0)
+                gx, gy = self.world.g
+                for body in bodies_of(network.rows) if was_stiff and is_held else []:
+                    body.lag_x += gx * before / 2
+                    body.lag_y += gy * before / 2
+            elif is_held:
                 for body in bodies_of(network.rows):
                     body.is_pressed = True
+        self.last = h
+
+    def is_held(self, network: Network[Spring]) -> bool:
+        """Return whether a contact or static body holds a network, or what joints tie it to."""
+        return any([body.is_pressed or body.is_static for body in self.bodies_around(network)])
 
     def bodies_around(self, network: Network[Spring]) -> list[Body]:
         """Return all bodies that joints connect with a network, and its own."""
@@ -246,16 +259,21 @@ class Springs(Joints[Spring]):
         ball = next(body for body in bodies if not body.is_static)
         return bodies_of(tied_to(joints, ball))
 
-    def lag_softly(self, springs: list[Spring], seconds: float) -> None:
-        """Let velocities lag by the pull of springs in so many seconds."""
+    def lag_softly(self, springs: list[Spring], seconds: float, before: float) -> None:
+        """Let velocities lag by the pull of springs in so many seconds.
+
+        If these were stiff in substeps of `before` s, velocities are half of that older already.
+        """
         h = 2 * abs(seconds)
         for spring in springs:
             a, b = spring.end_a, spring.end_b
+            age = before / 2 * share_before(before * before * spring.crowd)  # s
+            lag = seconds * share_before(h * h * spring.crowd) + age
             fx, fy = spring.pull_between(state_of(a), state_of(b), h / 3)
-            a.lag_x += fx * a.inv_mass * seconds
-            a.lag_y += fy * a.inv_mass * seconds
-            b.lag_x -= fx * b.inv_mass * seconds
-            b.lag_y -= fy * b.inv_mass * seconds
+            a.lag_x += fx * a.inv_mass * lag
+            a.lag_y += fy * a.inv_mass * lag
+            b.lag_x -= fx * b.inv_mass * lag
+            b.lag_y -= fy * b.inv_mass * lag
 
     def relax(self, h: float) -> None:
         """Keep the speeds of this move for the next one."""

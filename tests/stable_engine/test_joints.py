@@ -7,12 +7,13 @@ from itertools import combinations, pairwise, product
 
 import pytest
 from samples import sample
-from worlds_for_tests import balls, whole_energy
+from worlds_for_tests import balls, build, whole_energy
 
 from experiments.engines import Stable
 from experiments.measures import energy, run, watch, worst_stretch
 from experiments.rows.row import fall_speed, late
-from experiments.scenes import DT, TOUCH, Ball, Block, G, Scene, Spring, chain
+from experiments.scenes import DT, TOUCH, Ball, Block, G, Scene, Spring, chain, oscillator
+from experiments.steps import at_random, lasting
 from stable_engine import Body, Circle, Rod, Rods, World
 
 # ---------------------------------------------------------------- rods keep energy
@@ -243,6 +244,19 @@ def test_a_damped_spring_follows_the_exact_solution(omega, ratio):
 @pytest.mark.parametrize("stiffness", [1e2, 1e4, 1e6, 1e8])
 def test_a_critically_damped_spring_passes_its_rest_by_no_hair(stiffness):
     assert min(path_of_a_pull(stiffness, 2 * math.sqrt(stiffness))) > -50 * 1e-4
+
+
+@pytest.mark.parametrize("turn", [0.45, 0.5, 0.55])
+@pytest.mark.parametrize("change", [0.05, 0.2])
+def test_a_spring_that_steps_make_soft_and_stiff_in_turns_gains_no_energy(turn, change):
+    """With q = omega h / 2, a leapfrog's energy reads up to 1 / (1 - q²) of what it is, and by
+    velocities half a substep old up to 1 + sin(q) of that."""
+    omega, dt = turn * 240, 1 / 60
+    world, q = build(oscillator(omega**2)), omega * dt * (1 + change) / 8
+    most = whole_energy(world) * (1 + math.sin(q)) / (1 - q * q)
+    for step in lasting(5, at_random(dt * (1 - change), dt * (1 + change))):
+        world.step(step)
+        assert whole_energy(world) < most
 
 
 @pytest.mark.parametrize("turn", [0.2, 0.41, 0.49])
