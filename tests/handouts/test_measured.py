@@ -91,20 +91,20 @@ def test_no_point_of_a_curve_lies_beyond_its_axes(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "look", "place", "line"),
+    ("name", "look", "line"),
     [
-        ("accuracy-dials-tower", "as it is", 0, "tower of 20, lesson, 8 passes: sink"),
-        ("accuracy-dials-tower", "step", 0, "tower of 20, lesson, 8 passes, 1/60 s: sink"),
-        ("accuracy-dials-tower", "step", -1, "tower of 20, lesson, 8 passes, 1/480 s: sink"),
-        ("accuracy-dials-tower", "passes", -1, "tower of 20, lesson, 64 passes: sink"),
-        ("accuracy-engines-tower", "stable", 4, "tower of 20, stable, 32 substeps: sink"),
-        ("accuracy-smooth-energy", "rk4", 0, "orbit, rk4: energy error of the first round"),
-        ("accuracy-smooth-energy", "rk4", -1, "orbit, rk4: energy error of the last round"),
+        ("accuracy-dials-tower", "as it is", "tower of 20, lesson, 8 passes: sink"),
+        ("accuracy-dials-tower", "step", "tower of 20, lesson, 8 passes, 1/60 s: sink"),
+        ("accuracy-dials-tower", "step", "tower of 20, lesson, 8 passes, 1/480 s: sink"),
+        ("accuracy-dials-tower", "passes", "tower of 20, lesson, 64 passes: sink"),
+        ("accuracy-engines-tower", "stable", "tower of 20, stable, 32 substeps: sink"),
+        ("accuracy-smooth-energy", "rk4", "orbit, rk4: energy error of the first round"),
+        ("accuracy-smooth-energy", "rk4", "orbit, rk4: energy error of the last round"),
     ],
 )
-def test_a_curve_says_what_the_lines_say(name: str, look: str, place: int, line: str) -> None:
-    points = sorted(curve_of(name, look)["points"])
-    assert points[place][1] == pytest.approx(RESULTS["accuracy.md"][line], rel=1e-3)
+def test_a_curve_has_the_points_of_the_lines(name: str, look: str, line: str) -> None:
+    errors = [error for _, error in curve_of(name, look)["points"]]
+    assert pytest.approx(RESULTS["accuracy.md"][line], rel=1e-3) in errors
 
 
 def describe_point(curve: dict[str, Any], place: int, unit: str) -> str:
