@@ -33,7 +33,7 @@ class Contacts(Detection):
     the speed (px/s) at which the two met: the earliest hit first. on_part(a, b) is called for each
     pair that no longer touches at the end of a step, before pairs that met later. `a` is a ball
     with mass, `b` any body. Both functions may add and remove bodies, and can be set later on.
-    Bodies that are removed do not part.
+    Bodies that are removed do not part; those that a rod ties so close that they overlap do.
 
     Flush static bodies are one: at a corner that another one covers, a contact does nothing.
 

@@ -414,6 +414,8 @@ class Detection(Effect):
             self.broad_phase.bounds = []
         else:
             self.ignored.add(pair_number(a, b))
+            for c in [c for c in self.of_body(a) if b in (c.a, c.b)]:
+                self.news.note_part(c)
             self.drop(a, b)
 
     def all_contacts(self) -> list[Contact]:

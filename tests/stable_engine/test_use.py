@@ -654,6 +654,17 @@ def test_a_callback_must_be_callable():
         Contacts(on_part=3)
 
 
+def test_balls_that_a_short_rod_ties_are_told_to_part():
+    parted = []
+    contacts = Contacts(on_part=lambda a, b: parted.append({a, b}))
+    world = World((0, 0), effects=[contacts, Rods()])
+    a, b = [world.add(Body(Circle(10), (x, 0), 1.0)) for x in (0, 20)]
+    world.step(DT)
+    world.add(Rod(a, b))
+    world.step(DT)
+    assert parted == [{a, b}]
+
+
 def test_a_pair_is_told_in_turns_while_a_program_pushes():
     """What it sets before a step makes contacts look again, but nobody meets or parts by that."""
     touching = {}
