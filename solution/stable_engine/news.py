@@ -86,9 +86,11 @@ class News:
     def tell(self) -> None:
         """Call on_hit and on_part, in order, for bodies that are still in the world."""
         contacts = self.contacts
+        parted = [(ago, c, None) for c, ago in self.parted.items()]
         news: list[tuple[float, Contact, float | None]] = [
+            *[part for part in parted if part[1] not in self.hits],  # before hits of that moment
             *[(ago, c, speed) for c, (ago, speed) in self.hits.items()],
-            *[(ago, c, None) for c, ago in self.parted.items()],
+            *[part for part in parted if part[1] in self.hits],
         ]
         self.hits, self.parted = {}, {}
         for _, c, speed in sorted(news, key=itemgetter(0), reverse=True):
