@@ -45,7 +45,7 @@ class Contacts(Detection):
 
     __slots__ = (
         *("beginnings", "has_friction", "is_mirrored", "max_push_speed", "pace", "piles", "round"),
-        *("cores", "held", "push", "squeezed", "stop", "target"),
+        *("cores", "held", "push", "squeezed", "target"),
     )
     rank = 3
 
@@ -60,9 +60,7 @@ class Contacts(Detection):
         self.piles: list[Pile] = []  # with heavy bodies
         self.target = Target(0.0, 0.0, 0.0)  # of the substep, if there are piles
         self.has_friction = False  # which may hold squeezes
-        # the passes before the move and after it, unless there are piles: see Friction
-        self.push: Stage = push
-        self.stop: Stage = stop
+        self.push: Stage = push  # of passes, unless there are piles: see Friction
         self.pace = Pace(STIFFENING)
 
     def attach(self) -> None:
@@ -212,7 +210,7 @@ class Contacts(Detection):
     def solve(self, h: float) -> None:
         for pile in self.piles:
             pile.look(h)
-        self.go_over(push if self.piles else self.push, h)
+        self.press_on(h, has_moved=False)
         if self.piles:
             rates = self.balls.bias_rate, self.statics.bias_rate
             self.target = Target(h, self.max_push_speed, self.touching_gap / 2, rates)
@@ -221,12 +219,17 @@ class Contacts(Detection):
     def relax(self, h: float) -> None:
         if self.changed:
             turn_normals(self.round)
-        self.go_over(stop if self.piles else self.stop, h)
+        self.press_on(h, has_moved=True)
         if self.piles:
             self.target = Target(h, self.max_push_speed, self.touching_gap / 2)
             for pile in self.piles:
                 if pile.rods or not self.has_friction:  # else friction settles it
                     pile.settle(self.target)
+
+    def press_on(self, h: float, has_moved: bool) -> None:
+        """Push bodies in a pass over contacts, before the move or after it."""
+        self.balls.has_moved = self.statics.has_moved = has_moved
+        self.go_over(push if self.piles else self.push, h)
 
     def go_over(self, stage: Stage, h: float) -> None:
         """Pass over contacts, one after the other: those of static bodies last."""
@@ -317,50 +320,36 @@ class Contacts(Detection):
 
 
 def push(group: Group, contacts: list[Contact], h: float) -> None:
-    """Push overlapping bodies apart, and stop those that would overlap after the move."""
-    most, least = -group.max_push_speed, group.least
+    """Push overlapping bodies apart, and stop those that would overlap after the move.
+
+    After the move, stop those that still come together, and take back the speed of a push.
+    """
+    has_moved, most, least = group.has_moved, -group.max_push_speed, group.least
     moves_b, bias_rate, mass_scale = group.moves_b, group.bias_rate, group.mass_scale
     for c in contacts:
         a, b = c.a, c.b
         nx, ny, mn = c.nx, c.ny, c.mn
-        gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
         speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
         before = c.jn
-        if gap > least:
-            jn = before - mn * (speed + gap / h)
+        if has_moved:
+            if not before:
+                gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
+                if gap > 0:
+                    speed += gap / h
+            jn = before - mn * speed
+            if jn < 0:
+                jn = 0.0
         else:
-            push = bias_rate * gap
-            if push < most:
-                push = most
-            jn = mass_scale * (before - mn * speed) - mn * push
-        if jn < mn * least:
-            jn = 0.0
-        c.jn = jn
-        jn -= before
-        change = jn * a.inv_mass
-        a.vx -= nx * change
-        a.vy -= ny * change
-        if moves_b:
-            change = jn * b.inv_mass
-            b.vx += nx * change
-            b.vy += ny * change
-
-
-def stop(group: Group, contacts: list[Contact], h: float) -> None:
-    """Stop bodies that still come together, and take back the speed of a push."""
-    moves_b = group.moves_b
-    for c in contacts:
-        a, b = c.a, c.b
-        nx, ny = c.nx, c.ny
-        speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
-        before = c.jn
-        if not before:
             gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
-            if gap > 0:
-                speed += gap / h
-        jn = before - c.mn * speed
-        if jn < 0:
-            jn = 0.0
+            if gap > least:
+                jn = before - mn * (speed + gap / h)
+            else:
+                bias = bias_rate * gap
+                if bias < most:
+                    bias = most
+                jn = mass_scale * (before - mn * speed) - mn * bias
+            if jn < mn * least:
+                jn = 0.0
         c.jn = jn
         jn -= before
         change = jn * a.inv_mass

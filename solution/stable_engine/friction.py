@@ -26,7 +26,7 @@ class Friction(Effect):
     def attach(self) -> None:
         self.contacts: Contacts = self.world.need("Contacts", self)
         self.contacts.has_friction = True
-        self.contacts.push, self.contacts.stop = push_and_rub, stop_and_rub
+        self.contacts.push = push_and_rub
 
     def is_used(self) -> bool:
         return any(body.mu > 0 for body in self.world.bodies)
@@ -68,62 +68,34 @@ def rub(group: Group, contacts: list[Contact], h: float) -> None:
 
 
 def push_and_rub(group: Group, contacts: list[Contact], h: float) -> None:
-    """Push bodies as `push` does, and slow the slip of each contact."""
-    most, least = -group.max_push_speed, group.least
+    """Push bodies as `push` does, and slow the slip of each contact, in one loop: calls cost."""
+    has_moved, most, least = group.has_moved, -group.max_push_speed, group.least
     moves_b, bias_rate, mass_scale = group.moves_b, group.bias_rate, group.mass_scale
     for c in contacts:
         a, b = c.a, c.b
         nx, ny, mn = c.nx, c.ny, c.mn
         vx, vy = b.vx - a.vx, b.vy - a.vy
-        gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
-        before, held = c.jn, c.jt
-        if gap > least:
-            jn = before - mn * (vx * nx + vy * ny + gap / h)
-        else:
-            push = bias_rate * gap
-            if push < most:
-                push = most
-            jn = mass_scale * (before - mn * (vx * nx + vy * ny)) - mn * push
-        if jn < mn * least:
-            jn = 0.0
-        jt = 0.0
-        if jn:
-            limit = c.mu * jn
-            jt = held - c.mt * (vy * nx - vx * ny - (b.w * c.arm_b + a.w * c.arm_a))
-            if jt > limit:
-                jt = limit
-            elif jt < -limit:
-                jt = -limit
-        more, turn, calm = jn - before, jt - held, CALM * jn
-        if -calm <= more <= calm and -calm <= turn <= calm:
-            continue
-        c.jn, c.jt = jn, jt
-        jx, jy = nx * more - ny * turn, ny * more + nx * turn
-        a.vx -= jx * a.inv_mass
-        a.vy -= jy * a.inv_mass
-        a.w -= c.spin_a * turn
-        if moves_b:
-            b.vx += jx * b.inv_mass
-            b.vy += jy * b.inv_mass
-            b.w -= c.spin_b * turn
-
-
-def stop_and_rub(group: Group, contacts: list[Contact], h: float) -> None:
-    """Stop bodies as `stop` does, and slow the slip of each contact."""
-    moves_b = group.moves_b
-    for c in contacts:
-        a, b = c.a, c.b
-        nx, ny = c.nx, c.ny
-        vx, vy = b.vx - a.vx, b.vy - a.vy
         speed = vx * nx + vy * ny
         before, held = c.jn, c.jt
-        if not before:
+        if has_moved:
+            if not before:
+                gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
+                if gap > 0:
+                    speed += gap / h
+            jn = before - mn * speed
+            if jn < 0:
+                jn = 0.0
+        else:
             gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
-            if gap > 0:
-                speed += gap / h
-        jn = before - c.mn * speed
-        if jn < 0:
-            jn = 0.0
+            if gap > least:
+                jn = before - mn * (speed + gap / h)
+            else:
+                bias = bias_rate * gap
+                if bias < most:
+                    bias = most
+                jn = mass_scale * (before - mn * speed) - mn * bias
+            if jn < mn * least:
+                jn = 0.0
         jt = 0.0
         if jn:
             limit = c.mu * jn
