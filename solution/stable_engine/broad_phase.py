@@ -7,8 +7,8 @@ from .body import Body
 from .bounds import Bounds, Pair
 from .sweep import NO_HIT, hit_point
 
-SWEEP = 5  # checks of near pairs per body that can move, which cost as much as a sweep
-LONGEST = 0.5  # s of motion in a room
+SWEEP = 8  # checks of near pairs per body that can move, which cost as much as a sweep
+LONGEST = 2.0  # s of motion in a room
 WIDER = 1.1  # ratio of the spreads along both axes at which the sweep changes its axis
 LANE = 6.0  # width of a lane, in half widths of a ball
 FEW = 4  # boxes in a lane; up to so many, ended ones may stay
@@ -52,12 +52,12 @@ class BroadPhase:
         self.lanes: list[list[Bounds]] = []  # the boxes that cross each since the last sweep
         self.lanes_per_px = 0.0
         self.hull = 0.0, 0.0, 0.0, 0.0  # px, what the sweep has covered, along it and across
-        self.is_quiet = False  # whether no near pair will touch unless a velocity changes
+        self.is_quiet = False  # whether no near pair will touch unless something pushes
         self.is_stale = True  # whether all rooms are renewed in the next step
         self.upright = False  # whether the sweep goes along y
         self.ahead = LONGEST  # s of motion in a room
         self.age = 0.0  # s, of the rooms
-        self.end = 0.0  # s, the age up to which a body that nothing pushes stays in its room
+        self.end = -1.0  # s, the age up to which a body that nothing pushes stays in its room
         self.falls = False  # whether gravity pushes all
         self.is_free = False  # whether nothing else has pushed any since the sweep
         self.looks = 0  # checks of pairs that did not touch, since the last sweep
@@ -96,7 +96,8 @@ class BroadPhase:
                 leavers.append(one)
         count = len(leavers)
         are_many = count > MANY and (self.falls or count > SHARE * len(self.moving))
-        if (leavers and (late or are_many)) or (doubtful and self.is_quiet):
+        is_pushed = not self.is_free if self.falls else len(doubtful) > 0
+        if (leavers and (late or are_many)) or (is_pushed and self.is_quiet):
             self.is_stale = True
         return leavers
 
@@ -118,10 +119,8 @@ class BroadPhase:
         if self.is_stale:
             self.set_ahead(dt)
             self.leavers = self.moving
-            self.is_quiet, self.falls, self.is_free = False, g != (0.0, 0.0), not held
-            steady = not self.falls and all(
-                one.body.vx == one.vx and one.body.vy == one.vy for one in self.moving
-            )
+            self.is_quiet, self.falls = False, g != (0.0, 0.0)
+            steady = self.is_free if self.falls else self.is_steady()
             self.end, self.pairs, self.spare = self.ahead + ROUNDING * dt, [], self.pairs
         count, ahead = len(self.pairs), max(self.ahead - self.age, dt)
         fall_x, fall_y = g[0] * ahead * ahead / 2, g[1] * ahead * ahead / 2
@@ -165,10 +164,14 @@ class BroadPhase:
             self.ahead = min(2 * self.ahead, LONGEST)
         self.age, self.looks = 0.0, 0
 
-    def skip_pairs(self, seconds: float, margin: float) -> None:
-        """Look at no pair while all fly straight on, unless two balls then come within margin px.
+    def is_steady(self) -> bool:
+        """Return whether no velocity has changed since the last sweep."""
+        return all([one.body.vx == one.vx and one.body.vy == one.vy for one in self.moving])
 
-        A static body counts as if a ball came near it.
+    def skip_pairs(self, seconds: float, margin: float) -> None:
+        """Look at no pair while nothing pushes, unless two balls then come within margin px.
+
+        All fly straight on, or fall alike. A static body counts as if a ball came near it.
         """
         self.looks += len(self.pairs)
         for pair in self.pairs:

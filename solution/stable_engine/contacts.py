@@ -249,11 +249,12 @@ class Contacts(Detection):
         Contacts rest while all bodies fall freely in the rooms made for that, with nobody near. The
         end of that is left out, as velocities lag behind positions when rooms are made.
         """
-        phase, world, dt = self.broad_phase, self.world, h * self.world.substep_count
+        phase, world = self.broad_phase, self.world
         phase.is_free = phase.is_free and not self.groups and world.is_falling()
-        stay = phase.is_free and phase.age + dt + h <= phase.ahead and h == self.h
+        age = phase.age + h * world.substep_count
+        stay = phase.is_free and age + h <= phase.ahead and h == self.h
         if self.is_resting and stay:
-            phase.age += dt
+            phase.age = age
             return
         if self.is_resting:
             self.is_resting = False

@@ -118,13 +118,14 @@ class Detection(Effect):
     def renew_pairs(self, dt: float) -> list[Pair]:
         """Return the near pairs that are new, with the contacts of bodies that still touch."""
         phase, g = self.broad_phase, self.world.g
+        bearing = self.touching if g != (0.0, 0.0) else []
+        held = {c.a for c in bearing} | {c.b for c in bearing}
+        back = self.last_dt if self.lets_none_pass else 0.0
         if phase.is_stale:  # all pairs are new
             self.beside_static, self.landings.pairs = {}, []
             for c in self.touching:
                 self.unpaired[pair_number(c.a, c.b)] = c
-        bearing = self.touching if g != (0.0, 0.0) else []
-        held = {c.a for c in bearing} | {c.b for c in bearing}
-        back = self.last_dt if self.lets_none_pass else 0.0
+            phase.is_free = self.world.is_falling() and not held
         found = phase.renew(g, held, dt, back, self.speculative_speed * dt)
         self.take_in(found)
         touched = {c.a for c in self.unpaired.values()}

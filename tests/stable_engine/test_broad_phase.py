@@ -89,17 +89,27 @@ def test_sleeping_bodies_form_no_pairs():
     assert not any(set(pair) <= asleep for pair in found)
 
 
-def test_a_pair_that_flies_past_is_skipped_until_one_of_the_two_is_pushed():
+def set_velocity(ball):
+    ball.vel += (0, 3000)
+
+
+def press(ball):
+    ball.apply_force((0, 3000 / DT))
+
+
+@pytest.mark.parametrize("gravity", [0, 980])
+@pytest.mark.parametrize("push", [set_velocity, press])
+def test_a_pair_that_flies_past_is_skipped_until_one_of_the_two_is_pushed(push, gravity):
     hits = []
     contacts = Contacts(on_hit=lambda *hit: hits.append(hit))
-    world = World((0, 0), effects=[contacts])
+    world = World((0, gravity), effects=[contacts])
     low, high = (world.add(Body(Circle(10), (0, y), 1.0)) for y in (0, 100))
     for ball in (low, high):
         ball.vel = (3000, 0)
     for _ in range(20):
         world.step(DT)
     assert contacts.broad_phase.is_quiet
-    low.vel = (3000, 3000)
+    push(low)
     for _ in range(STEPS):
         world.step(DT)
     assert [(a, b) for a, b, _ in hits] == [(high, low)]
