@@ -27,7 +27,9 @@ LOST = 0.8  # cosine; if a rod turns further in a substep, Newton's method fails
 STEADY = 0.1  # share of an impulse; after parts, a whole substep must change it by less
 FITTING = 3e-4  # share of a length; rods that are less off may pull with any force
 STRONGEST = 10.0  # times what stops a frame: larger impulses strain it
-GIVE = 0.1  # share of its pivot by which a strained rod gives way
+HEATED = 2.0  # times the energy of a frame; impulses that would give it more strain it
+GIVE = 0.1  # share of its pivot by which a strained rod gives way at first
+MOST_GIVE = 1e4  # and at most
 FASTEST = 4.0  # times the drive of a strained frame, up to which that may speed it up
 
 
@@ -168,6 +170,7 @@ class Frame(Cluster):
         """
         is_soft = is_off = False
         before = [rod.j for rod in self.rods]
+        free = self.look_back(h)[0] if self.has_loop else inf  # twice its energy without rods
         for left in range(PASSES - 1, -1, -1):
             off, turned = self.look_ahead(h, bias)
             if off <= EXACT:
@@ -182,23 +185,33 @@ class Frame(Cluster):
                     rod.rhs -= give * rod.j
             self.network.solve()
             self.take()
-            if self.is_strained():
+            if self.is_strained() or self.twice_energy() > HEATED * free:
                 is_soft = True
-                self.return_to(before)
                 if self.limit < 0:
                     self.limit, _ = self.look_back(h)
-                self.look_ahead(h, bias)
-                for rod in self.rods:
-                    rod.pivot += GIVE / rod.m
-                    rod.rhs -= GIVE / rod.m * rod.j
-                self.network.solve()
-                self.take()
+                self.return_to(before)
+                self.give_more(h, bias)
                 break
             if is_soft or off < NEAR:
                 break
         if self.limit >= 0:
             self.gave_way = self.gave_way or is_soft or is_off
             self.work = self.twice_energy() - self.limit
+
+    def give_more(self, h: float, bias: float) -> None:
+        """Choose velocities for a strained frame, softer and softer until it gains no energy."""
+        before, give = [rod.j for rod in self.rods], GIVE
+        while True:
+            self.look_ahead(h, bias)
+            for rod in self.rods:
+                rod.pivot += give / rod.m
+                rod.rhs -= give / rod.m * rod.j
+            self.network.solve()
+            self.take()
+            if self.twice_energy() <= HEATED * self.limit or give > MOST_GIVE:
+                break
+            self.return_to(before)
+            give *= 10
 
     def find_most(self) -> None:
         """Find the largest impulse that a rod may have, by the speeds without those of rods.
@@ -269,8 +282,10 @@ class Frame(Cluster):
             rod.measure()
             if nx * rod.nx + ny * rod.ny < SAME_DIRECTION:
                 rod.j = 0.0
+        starts_anew = self.gave_way and self.has_loop
         if self.parts.later:
             self.parts.end(h)
+            starts_anew = not self.is_uneven
         if self.limit < 0:
             self.apply()
             self.lost = 0.0
@@ -280,6 +295,8 @@ class Frame(Cluster):
             self.keep_energy(unchanged)
         for rod in self.rods:
             rod.given += rod.rhs
+            if starts_anew:  # as a warm start, such impulses would throw what touches
+                rod.j = 0.0
 
     def keep_energy(self, unchanged: float) -> None:
         """Scale speeds so that rods do no work: twice the energy is then `unchanged` (kg px²/s²).

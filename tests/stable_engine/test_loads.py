@@ -171,6 +171,31 @@ def test_a_heavy_ball_on_a_bridge_of_light_ones_gets_no_energy(count, mass):
     assert off < 0.5
 
 
+@pytest.mark.parametrize("count", [1, 2, 3, 4])
+@pytest.mark.parametrize("drop", [10, 30, 100, 200])
+def test_a_ball_that_falls_on_planks_pulled_straight_gets_no_energy(count, drop):
+    """Nothing can move the planks: their rods may pull with any force, and do no work.
+
+    No rod stretches by a plank, of 25 px.
+    """
+    for mass, dt in product((0.5, 3.0), (1 / 60, 1 / 120)):
+        world = World((0, G), effects=make(("Contacts", "Bounce", "Rods")))
+        row = [add_ball(world, 0, 0, 0, 5.0)]
+        row += [add_ball(world, 25 * i, 0, 0.5, 12.0) for i in range(1, count + 1)]
+        row.append(add_ball(world, 25 * count + 25, 0, 0, 5.0))
+        rods = [world.add(Rod(a, b)) for a, b in pairwise(row)]
+        moving = [*row[1:-1], add_ball(world, 12.5 * (count + 1), -28 - drop, mass, 15.0)]
+
+        def energy(balls=moving):
+            return sum(b.m * (b.vel.length_squared() / 2 - G * b.y) for b in balls)
+
+        start = energy()
+        for _ in range(round(1 / dt)):
+            world.step(dt)
+            assert energy() - start < 0.02 * mass * G * drop
+            assert all(rod.a.pos.distance_to(rod.b.pos) < 50 for rod in rods)
+
+
 @pytest.mark.parametrize("count", [10, 20, 40])
 def test_a_tower_does_not_sink(count):
     world = world_with_floor()
