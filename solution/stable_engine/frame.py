@@ -28,7 +28,7 @@ STEADY = 0.1  # share of an impulse; after parts, a whole substep must change it
 FITTING = 3e-4  # share of a length; rods that are less off may pull with any force
 STRONGEST = 10.0  # times what stops a frame: larger impulses strain it
 HEATED = 2.0  # times the energy of a frame; impulses that would give it more strain it
-GIVE = 0.1  # share of its pivot by which a strained rod gives way at first
+GIVE = 0.1  # share of its pivot by which a rod gives way at first, if strained
 MOST_GIVE = 1e4  # and at most
 FASTEST = 4.0  # times the drive of a strained frame, up to which that may speed it up
 
@@ -203,15 +203,19 @@ class Frame(Cluster):
         before, give = [rod.j for rod in self.rods], GIVE
         while True:
             self.look_ahead(h, bias)
-            for rod in self.rods:
-                rod.pivot += give / rod.m
-                rod.rhs -= give / rod.m * rod.j
+            self.soften(give)
             self.network.solve()
             self.take()
             if self.twice_energy() <= HEATED * self.limit or give > MOST_GIVE:
                 break
             self.return_to(before)
             give *= 10
+
+    def soften(self, give: float = GIVE) -> None:
+        """Let rods give way by a share of their pivots. Where these fit, a matrix is singular."""
+        for rod in self.rods:
+            rod.pivot += give / rod.m
+            rod.rhs -= give / rod.m * rod.j
 
     def find_most(self) -> None:
         """Find the largest impulse that a rod may have, by the speeds without those of rods.

@@ -32,6 +32,9 @@ class Molecule:
             turned = min([frame.look_ahead(h, bias)[1] for frame in self.frames])
             if turned < TURNED:
                 return
+            for frame in self.frames:
+                if frame.has_loop:  # else springs would be asked for what taut rods call for
+                    frame.soften()
             for spring in self.springs:
                 spring.aim()
             self.network.solve()
