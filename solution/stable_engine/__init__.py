@@ -5,7 +5,7 @@ friction, bounce, then any other effect. Effects with more than one file:
 
 - Contacts finds in detection, by broad_phase (bounds), contact and landings, and tells news. It
   solves in contacts, by order and piles (pile, unload). It keeps balls out of walls in cores
-  (sweep), and parts bodies that a program puts into each other in crowd.
+  (sweep, stop), and parts bodies that a program puts into each other in crowd.
 - Bounce: bounce, impacts, impact_queue, time_of_impact, flight, faces, hit.
 - Rods and Springs: rods (frame, frame_parts, cluster) and springs, by joint; molecule for both.
 - Rods, springs, piles and hits are rows (row), solved together in network and limits.

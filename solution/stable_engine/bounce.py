@@ -37,7 +37,7 @@ class Bounce(Effect):
         contacts = self.contacts
         slow = self.slow_speed(max(h, contacts.pace.h) * self.world.substep_count)
         fast = select_fast(contacts.touching, slow)
-        may_hit = contacts.begun and (fast or contacts.ends)
+        may_hit = contacts.begun and (fast or contacts.may_pass())
         if not may_hit and all([abs(c.closing_speed()) <= slow for c in fast]):
             return
         impacts = Impacts(contacts, slow, h)

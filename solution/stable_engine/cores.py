@@ -3,11 +3,12 @@
 from math import hypot, inf
 from operator import itemgetter
 
-from .body import Body, state_of
+from .body import Body, State, state_of
 from .contact import Contact, collide, leave_as_entered
 from .detection import Detection, pair_number
 from .soft import SAME_DIRECTION
-from .sweep import NO_HIT, drop_covered, first_hit, first_stop, free_share, put_back, share_left
+from .stop import Stop, lose_energy, put_back
+from .sweep import NO_HIT, drop_covered, first_hit, first_stop, free_share
 
 CORE = 0.5  # radii
 SWEEP_FROM = 0.5  # radii, a bullet that moves further in one step is swept
@@ -176,12 +177,15 @@ class Cores:
             lose_energy(body, springs.energy_in(stiff) - stored)
         else:
             put_back(body, way, fraction, self.pull, h)
-        if not body.is_bullet or (contacts.rods and contacts.rods.holds(body)):
-            contacts.ends[body] = state_of(body), contacts.ends.get(body, (end, end))[1]
-        before = contacts.stopped.get(body, contacts.last_dt)
-        contacts.stopped[body] = fraction * before
-        if not (contacts.rods and contacts.rods.holds(body)):
-            contacts.late[body] = contacts.last_dt - contacts.stopped[body]
+        is_on_rod = contacts.rods is not None and contacts.rods.holds(body)
+        earlier = contacts.stops.get(body)
+        before = earlier.time if earlier else contacts.last_dt
+        time = fraction * before
+        late = 0.0 if is_on_rod else contacts.last_dt - time  # its rods would take others along
+        first: State | None = earlier.end if earlier else end
+        if body.is_bullet and not is_on_rod:
+            first = None
+        contacts.stops[body] = Stop(state_of(body), first, time, late)
         flown = body.flown if body.flown < inf else contacts.last_dt
         body.flown = flown - (1 - fraction) * before
         contacts.flying.append(body)
@@ -219,14 +223,6 @@ class Cores:
 def core_of(body: Body) -> float:
     """Return the radius (px) of a ball that no static body enters in impacts: all of a bullet."""
     return body.r if body.is_bullet else CORE * body.r
-
-
-def lose_energy(body: Body, energy: float) -> None:
-    """Take an energy (kg px²/s²) from the motion of a ball, as far as it has any."""
-    if energy > 0:
-        speed2 = body.vx * body.vx + body.vy * body.vy
-        share = share_left(speed2, 2 * energy * body.inv_mass)
-        body.vx, body.vy = body.vx * share, body.vy * share
 
 
 def way_out(ways: list[Way]) -> list[tuple[float, int]]:

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from math import hypot, inf, sqrt
 
-from .body import Body, State
+from .body import Body
 from .bounds import Pair
 from .broad_phase import BroadPhase
 from .contact import Contact, collide, is_over_face, leave_as_entered
@@ -14,6 +14,7 @@ from .order import Group
 from .rods import Rods
 from .soft import SAME_DIRECTION
 from .springs import Springs, any_stiff
+from .stop import Stop
 from .sweep import covers, moment_of_touch, seen_before
 from .validate import refuse
 
@@ -33,7 +34,7 @@ class Detection(Effect):
 
     __slots__ = (
         *("on_hit", "on_part", "news", "touching", "begun", "renewed", "changed"),
-        *("lets_none_pass", "last_dt", "flying", "hit_ago", "stopped", "late", "ends"),
+        *("lets_none_pass", "last_dt", "flying", "hit_ago", "stops"),
         *("broad_phase", "crowd", "beside_static", "landings", "rods", "balls", "statics"),
         *("groups", "unpaired", "ignored", "h", "touching_gap", "speculative_speed", "springs"),
         *("all_part", "begin_contact_hooks", "is_resting"),
@@ -55,10 +56,7 @@ class Detection(Effect):
         self.h = 0.0  # s, the substep of the kept impulses
         self.flying: list[Body] = []  # balls that were hit in the step before, or stopped
         self.hit_ago: dict[Body, float] = {}  # s, since the last impact of a ball in this step
-        self.stopped: dict[Body, float] = {}  # s, into the step, until a static body stopped it
-        self.late: dict[Body, float] = {}  # s, by which a ball that stopped is behind the others
-        # of a stopped ball: where it is, and where it would be
-        self.ends: dict[Body, tuple[State, State]] = {}
+        self.stops: dict[Body, Stop] = {}  # of balls that static bodies stopped in this step
         self.broad_phase = BroadPhase()
         self.crowd: dict[Contact, bool] = {}  # of bodies that part_crowd separates
         self.beside_static: dict[Body, None] = {}  # balls that are near static bodies
@@ -160,8 +158,8 @@ class Detection(Effect):
         renewed: list[Contact] = []
         slow, touching_gap = self.speculative_speed, self.touching_gap
         margin, slow2 = slow * dt, slow * slow
-        back, late = self.last_dt if self.lets_none_pass else 0.0, self.late
-        gone = self.news.gone
+        back = self.last_dt if self.lets_none_pass else 0.0
+        stops, gone = self.stops, self.news.gone
         for pair in self.broad_phase.pairs:
             a, b, c = pair.a, pair.b, pair.contact
             if not (a.has_moved or b.has_moved) and (c is None or c.gap == c.found):
@@ -173,7 +171,7 @@ class Detection(Effect):
             if b.r:
                 if back:
                     reach += sqrt(dvx * dvx + dvy * dvy) * back
-                if late:
+                if stops:
                     reach += self.way_left(a) + self.way_left(b)
                 is_apart = dx * dx + dy * dy > reach * reach
             else:
@@ -317,8 +315,8 @@ class Detection(Effect):
         a, b = c.a, c.b
         has_flown = ago > 0
         nx, ny, gap = (c.nx, c.ny, 0.0) if has_flown else collide(a, b)
-        if has_flown and self.late:
-            ago -= self.late.get(a, 0.0)  # a wall stopped it so long before the others
+        if has_flown:
+            ago -= self.late_by(a)
         if b.r or is_over_face(b, nx, ny, *seen_before(a, b, ago)):
             return None
         reach = a.r + gap
@@ -338,7 +336,7 @@ class Detection(Effect):
         """
         if not b.r:
             return False
-        is_late = self.late and (a in self.late or b in self.late)
+        is_late = self.late_by(a) + self.late_by(b) > 0
         vx, vy = a.vx - b.vx, a.vy - b.vy
         seconds = self.flight_of(a, b)
         way = sqrt(vx * vx + vy * vy) * seconds
@@ -362,16 +360,24 @@ class Detection(Effect):
             return False
         return hypot(body.vx - x, body.vy - y) * self.last_dt > body.r
 
+    def late_by(self, body: Body) -> float:
+        """Return by how much (s) a ball is behind the others, as a static body stopped it."""
+        return self.stops[body].late if body in self.stops else 0.0
+
+    def may_pass(self) -> bool:
+        """Return whether any ball may fly on into the static body that stopped it."""
+        return any([stop.end for stop in self.stops.values()])
+
     def way_left(self, body: Body) -> float:
         """Return how far (px) a ball would have flown on, had no wall stopped it."""
-        return sqrt(body.vx * body.vx + body.vy * body.vy) * self.late.get(body, 0.0)
+        return sqrt(body.vx * body.vx + body.vy * body.vy) * self.late_by(body)
 
     def look_back_late(self, a: Body, b: Body) -> tuple[float, float, float]:
         """Return how long ago (s) two bodies began to touch, and the normal, if a wall stopped one.
 
         Return zeros if the wall came first. As if nothing had stopped it, it counts as further on.
         """
-        by_a, by_b = self.late.get(a, 0.0), self.late.get(b, 0.0)
+        by_a, by_b = self.late_by(a), self.late_by(b)
         since = min(a.flown + by_a, b.flown + by_b, self.last_dt)
         ax, ay, bx, by = a.x, a.y, b.x, b.y
         a.x, a.y, b.x, b.y = ax + a.vx * by_a, ay + a.vy * by_a, bx + b.vx * by_b, by + b.vy * by_b
@@ -399,13 +405,13 @@ class Detection(Effect):
             body.flown = ago + self.last_dt
         if self.flying or self.hit_ago:
             self.flying, self.hit_ago = [*self.hit_ago], {}
-        if self.stopped or self.ends or self.late:
-            self.stopped, self.ends, self.late = {}, {}, {}
+        if self.stops:
+            self.stops = {}
 
     def tell(self, h: float) -> None:
         if self.on_hit or self.on_part:
             self.news.find_gone()
-        self.last_dt, self.ends = 0.0, {}  # impacts are over; a program may change anything now
+        self.last_dt, self.stops = 0.0, {}  # impacts are over; a program may change anything now
         if self.news.hits or self.news.parted:
             self.news.tell()
 

@@ -9,6 +9,7 @@ from .cores import Place, core_of, way_out
 from .frame import Frame
 from .rods import Rods
 from .springs import Spring, share_before
+from .stop import Stop
 from .sweep import free_share
 
 DEEPEST = 2.0  # radii that a ball may fly into a wall off which it will bounce
@@ -28,8 +29,7 @@ class Flight:
         self.h = h  # s, of a substep
         self.slow = slow  # px/s, slower impacts are ignored
         self.held: set[Body] = set()  # balls at static bodies that cannot go back
-        # balls that a wall stopped: where they would be, and how much later (s)
-        self.cut_short: dict[Body, tuple[State, float]] = {}
+        self.stops: dict[Body, Stop] = {}  # of balls that a wall stopped after an impact
         self.turns: dict[Body, list[Place]] = {}  # where balls were hit, and flew straight on
         self.walls: dict[Body, list[Body]] = {}  # at which a ball is: it may fly into them
         self.rests: dict[Body, list[Contact]] = {}  # at faces on which a ball rested
@@ -40,7 +40,6 @@ class Flight:
             rods.find_frames()
             self.frame_of = rods.frame_of
             self.pivots = find_pivots(rods)
-        self.late = contacts.late
         self.springs_of: dict[Body, list[Spring]] = {}
         self.stiff: set[Body] = set()  # bodies whose springs swing too fast to follow
         if springs:
@@ -100,7 +99,7 @@ class Flight:
     def leave_behind(self) -> None:
         """Put the balls that flew with others back, and note what has changed on their flight."""
         for body, state in self.partners.items():
-            if body not in self.cut_short:
+            if body not in self.stops:
                 pairs = zip(state_of(body), self.before[body], strict=True)
                 self.changes.append((body, [now - before for now, before in pairs]))
             body.x, body.y, body.vx, body.vy = state
@@ -138,8 +137,7 @@ class Flight:
             is_plain = self.is_simple and not (self.bearing or self.pivots)
             for body in free:
                 pull = self.world.g if is_plain else self.acceleration(body)
-                time = self.own_time(body, seconds) if self.late else seconds
-                self.fly_ball(body, pull, time)
+                self.fly_ball(body, pull, self.own_time(body, seconds))
             return
         free, parts = [*free, *self.partners], self.world.substep_count
         times = [self.own_time(body, seconds) / parts for body in free]
@@ -158,27 +156,30 @@ class Flight:
 
     def own_time(self, body: Body, seconds: float) -> float:
         """Return for how long a ball flies: back for less time if a wall stopped it before."""
-        if seconds < 0:
-            return min(seconds + self.late.pop(body, 0.0), 0.0)
-        return seconds
+        stop = self.contacts.stops.get(body)
+        if stop is None or seconds > 0:
+            return seconds
+        late, stop.late = stop.late, 0.0
+        return min(seconds + late, 0.0)
 
     def fly_ball(self, body: Body, pull: tuple[float, float], seconds: float) -> float:
         """Let a ball fly on under a pull (px/s²). Return for how long (s) it could."""
         ax, ay = pull
         mean = (self.h + seconds) / 2
         x, y = (body.vx + ax * mean) * seconds, (body.vy + ay * mean) * seconds
-        if self.cut_short:
-            self.cut_short.pop(body, None)
+        if self.stops:
+            self.stops.pop(body, None)
         radius = core_of(body)
         if seconds > 0 and (body.is_bullet or x * x + y * y > radius * radius):
             known = self.walls.get(body, []) if hypot(x, y) <= DEEPEST * body.r else []
             others = [s for s in self.world.statics if s not in known]
             share = free_share(body, others, radius, (body.x, body.y), x, y)
             if share < 1:
-                vx, vy = body.vx + ax * seconds, body.vy + ay * seconds
-                end = body.x + x, body.y + y, vx, vy
-                self.cut_short[body] = end, seconds * (1 - share)
+                late = seconds * (1 - share)
+                end = body.x + x, body.y + y, body.vx + ax * seconds, body.vy + ay * seconds
                 x, y, seconds = x * share, y * share, seconds * share
+                at = body.x + x, body.y + y, body.vx + ax * seconds, body.vy + ay * seconds
+                self.stops[body] = Stop(at, end, seconds, late)
         body.x += x
         body.y += y
         body.turn += body.w * seconds

@@ -45,8 +45,7 @@ class Impacts:
         self.reach = contacts.speculative_speed * self.dt  # px, a gap that slow ones close at once
         self.slow = slow  # px/s, slower impacts are ignored
         self.queue = ImpactQueue(self.touching_gap)
-        # where walls stopped balls that `try_to_pass` let fly on
-        self.stops: dict[Body, State] = {}
+        self.passing: dict[Body, State] = {}  # balls that fly on into walls, and where they stopped
         self.beside: dict[Body, list[Contact]] = defaultdict(list)  # the contacts of each ball
         self.flight = Flight(contacts, h, slow)
         self.frame_of = self.flight.frame_of
@@ -59,7 +58,7 @@ class Impacts:
         """Find all impacts of fast bodies. For a new contact, the moment of its touch counts."""
         for c in self.contacts.statics.contacts:
             self.faces.note(c, c.gap)
-        if self.contacts.ends:
+        if self.contacts.may_pass():
             self.let_pass()
             self.queue.due.clear()
             fast = select_fast(self.touching, self.slow)
@@ -72,47 +71,45 @@ class Impacts:
         They are moved back to the touch from there, so no time is lost.
         """
         self.link(self.touching)
-        contacts = self.contacts
         stopped: dict[Frame, float] = {}
-        for body, (stop, end) in contacts.ends.items():
-            if state_of(body) == stop:
-                flown, late = body.flown, contacts.last_dt - contacts.stopped[body]
-                was_late = contacts.late.pop(body, 0.0)
-                body.flown = flown + late
-                if self.try_to_pass(body, end):
+        for body, stop in self.contacts.stops.items():
+            if stop.end and state_of(body) == stop.at:
+                flown, late = body.flown, stop.late
+                since = self.contacts.last_dt - stop.time
+                body.flown, stop.late = flown + since, 0.0
+                if self.try_to_pass(body, stop.end):
                     continue
-                body.flown = flown
+                body.flown, stop.late = flown, late
                 frame = self.frame_of.get(body)
                 if frame and not frame.hangs:
-                    stopped[frame] = max(late, stopped.get(frame, 0.0))
-                elif was_late:
-                    contacts.late[body] = was_late
-        for frame, late in stopped.items():
+                    stopped[frame] = max(since, stopped.get(frame, 0.0))
+        for frame, since in stopped.items():
             if not any([ball in self.flight.springs_of for ball in frame.balls]):
-                self.take_back(frame, late)
+                self.take_back(frame, since)
                 self.turned_back.append(frame)
 
-    def take_back(self, frame: Frame, late: float) -> None:
+    def take_back(self, frame: Frame, ago: float) -> None:
         """Let a frame fly back to a touch, as a wall stopped one of its balls so long (s) ago.
 
         Without the others, the ball would be off the lengths of its rods.
         """
-        contacts, flight = self.contacts, self.flight
-        stopped = [ball for ball in frame.balls if ball in contacts.ends]
-        walls = [c for ball in stopped for c in self.beside.get(ball, []) if c.b.is_static]
-        for ball in stopped:
-            ball.x, ball.y, ball.vx, ball.vy = contacts.ends[ball][1]
-            self.stops.pop(ball, None)
-        left = contacts.last_dt
+        walls: list[Contact] = []
+        for ball in frame.balls:
+            stop = self.contacts.stops.get(ball)
+            if stop and stop.end:
+                walls += [c for c in self.beside.get(ball, []) if c.b.is_static]
+                ball.x, ball.y, ball.vx, ball.vy = stop.end
+                self.passing.pop(ball, None)
+        left = self.contacts.last_dt
         for _ in range(ARC_PASSES):
-            flight.fly_frame(frame, -late)
-            left -= late
+            self.flight.fly_frame(frame, -ago)
+            left -= ago
             for c in walls:
                 self.faces.look(c)
             walls = [c for c in walls if c.closing_speed() > self.slow]
             if not walls:
                 break
-            late = min(max([-c.gap / c.closing_speed() for c in walls]), left)
+            ago = min(max([-c.gap / c.closing_speed() for c in walls]), left)
         for ball in frame.balls:
             for c in self.beside.get(ball, []):
                 self.faces.look(c)
@@ -129,7 +126,7 @@ class Impacts:
         known = {c for c in walls if c in self.queue.due and self.queue.due[c][0] < 0}
         sunk = [c for c in walls if self.faces.added_depth(c) > self.touching_gap]
         if known and known.issuperset(sunk):
-            self.stops[body] = stop
+            self.passing[body] = stop
             return True
         self.put(body, stop)
         return False
@@ -137,9 +134,10 @@ class Impacts:
     def put_back(self, bodies: list[Body]) -> None:
         """Put balls that walls stopped back there, as they will not bounce off them."""
         for body in bodies:
-            self.contacts.late.pop(body, None)
-            if body in self.stops:
-                self.put(body, self.stops.pop(body))
+            if body in self.contacts.stops:
+                self.contacts.stops[body].late = 0.0
+            if body in self.passing:
+                self.put(body, self.passing.pop(body))
 
     def put(self, body: Body, state: State) -> None:
         """Put a ball that nothing has hit yet elsewhere."""
@@ -214,7 +212,7 @@ class Impacts:
             self.link(self.touching)
         while self.queue.due:
             self.resolve_first()
-        self.put_back(list(self.stops))
+        self.put_back(list(self.passing))
         for c in self.times.turned:
             self.times.turn_on(c, 0.0)
         deep: dict[Body, list[Contact]] = {}
@@ -305,7 +303,7 @@ class Impacts:
         for body in balls_of(passed):
             if self.flight.can_all_go_back([body]):
                 self.flight.fly([body], -ago)
-                self.stops.pop(body, None)
+                self.passing.pop(body, None)
                 for c in self.beside[body]:
                     self.faces.look(c)
 
@@ -326,8 +324,8 @@ class Impacts:
                     wall.x -= wall.vx * ago
                     wall.y -= wall.vy * ago
         self.flight.fly(hit, -ago)
-        for body in hit if self.stops else []:
-            self.stops.pop(body, None)
+        for body in hit if self.passing else []:
+            self.passing.pop(body, None)
         for c in group:
             self.faces.look(c)
         resolve(self.uncover(group) if frames else group, frames, self.flight)
@@ -338,9 +336,9 @@ class Impacts:
 
     def note_impact(self, body: Body, ago: float) -> None:
         """Note that a ball was hit some seconds ago, and has flown since, or until a wall."""
-        cut = self.flight.cut_short
-        if cut and body in cut:
-            ago = max(ago - cut[body][1], 0.0)
+        stop = self.flight.stops.get(body)
+        if stop:
+            ago = max(ago - stop.late, 0.0)
         self.contacts.note_impact(body, ago)
 
     def look_around(self, hit: list[Body], ago: float) -> None:
@@ -387,11 +385,11 @@ class Impacts:
             return
         self.take_in(met)
         for body in hit:
-            cut = self.flight.cut_short.get(body)
-            if cut and any([c.a is body and c.b.is_static for c in met]):
+            stop = self.flight.stops.get(body)
+            if stop and stop.end and any([c.a is body and c.b.is_static for c in met]):
                 flown = body.flown
-                self.contacts.note_impact(body, flown + cut[1])
-                if not self.try_to_pass(body, cut[0]):
+                self.contacts.note_impact(body, flown + stop.late)
+                if not self.try_to_pass(body, stop.end):
                     self.contacts.note_impact(body, flown)
         for c in met:
             self.look(c, is_new=True)
@@ -407,7 +405,7 @@ class Impacts:
     def meet(self, pair: Pair, met: list[Contact]) -> None:
         """Add the contact of a near pair to those that have met, if impacts have made it touch."""
         a, b, ignored = pair.a, pair.b, self.contacts.ignored
-        if a in self.stops or b in self.stops or (ignored and pair_number(a, b) in ignored):
+        if a in self.passing or b in self.passing or (ignored and pair_number(a, b) in ignored):
             return
         if b.inv_mass:
             nx, ny, gap = collide(a, b)

@@ -1,6 +1,5 @@
 """Continuous collision detection: find where a ball's flight first hits a static body."""
 
-from collections.abc import Callable
 from math import copysign, sqrt
 
 from .body import Body
@@ -10,36 +9,6 @@ from .shapes import Segment
 NO_HIT = 1.0
 BEFORE = 0.01  # radii that are left between a ball and a wall
 GRAZING = 1e-9  # share of a distance: a ball that flies along a wall does not hit it
-
-
-def put_back(
-    body: Body,
-    way: tuple[float, float],
-    fraction: float,
-    pull: Callable[[Body], tuple[float, float]],
-    h: float,
-) -> None:
-    """Put a ball back to where it was after this fraction of its way (px) in a step.
-
-    The step counts as one straight flight. The ball keeps its velocity, less the speed gained on
-    the rest of the way by its acceleration: `pull` returns that (px/s²).
-    """
-    x, y, dx, dy = body.x, body.y, way[0] * (1 - fraction), way[1] * (1 - fraction)
-    pulls = []
-    for part in (0.0, 0.5, 1.0):
-        body.x, body.y = x - dx * part, y - dy * part
-        pulls.append(pull(body))
-    (ax, ay), (mx, my), (bx, by) = pulls
-    ux, uy = body.vx + ax * h / 2, body.vy + ay * h / 2  # velocities lag half a substep behind
-    gained = ((ax + 4 * mx + bx) * dx + (ay + 4 * my + by) * dy) / 3  # px²/s², by Simpson's rule
-    speed2 = ux * ux + uy * uy
-    share = share_left(speed2, gained)
-    body.vx, body.vy = ux * share - bx * h / 2, uy * share - by * h / 2
-
-
-def share_left(speed2: float, lost: float) -> float:
-    """Return the share that is left of a speed, if its square (px²/s²) loses so much."""
-    return sqrt(max(1 - lost / speed2, 0.0)) if speed2 else 1.0
 
 
 def moment_of_touch(a: Body, b: Body, dt: float) -> tuple[float, float, float]:

@@ -33,11 +33,11 @@ class TimeOfImpact:
         normals stay unless the two began to touch while both flew freely. Nothing flies through a
         wall.
         """
-        a, b, late = c.a, c.b, self.contacts.late
+        a, b = c.a, c.b
         since = self.contacts.flight_of(a, b)
         if since <= 0:
             return 0.0
-        is_face = is_at_face(c)
+        is_face, late = is_at_face(c), self.contacts.late_by(a)
         if a.joint_count or b.joint_count:
             frame = self.frame_of.get(a)
             if frame and not frame.hangs and is_face and self.flight.is_loose(frame, a):
@@ -47,8 +47,8 @@ class TimeOfImpact:
         if is_face:
             ago = self.time_below(c, since)
             if ago <= 0 or c.closing_speed() <= self.slow or was_at_face(c, ago):
-                return ago + late.get(a, 0.0) if ago > 0 and late else ago
-        if late and (a in late or b in late):
+                return ago + late if ago > 0 else ago
+        if late or self.contacts.late_by(b):
             ago, nx, ny = self.contacts.look_back_late(a, b)
         else:
             ago, nx, ny = self.look_back(c, since)
@@ -62,7 +62,7 @@ class TimeOfImpact:
             c.nx, c.ny = nx, ny
             c.gap = -c.closing_speed() * ago
             self.turned.append(c)
-        if ago > 0 and a not in late and not b.inv_mass and was_at_face(c, ago):
+        if ago > 0 and not (late or b.inv_mass) and was_at_face(c, ago):
             ago = self.time_below(c, since) or ago
         return ago
 
