@@ -132,17 +132,17 @@ def turn_normals(contacts: list[Contact]) -> None:
         if distance == 0:
             continue
         nx, ny, radii = dx / distance, dy / distance, a.r + b.r
-        same, inv_mass = nx * c.nx + ny * c.ny, b.inv_mass
-        if same < SAME_DIRECTION and not inv_mass:
+        same = nx * c.nx + ny * c.ny
+        if same < SAME_DIRECTION and not b.inv_mass:
             continue
         if same < 0 or distance > 2 * radii:
             c.jn = c.jt = 0.0
         c.nx, c.ny = nx, ny
         if c.mu:
-            half = (distance - radii) / 2 if inv_mass else 0.0
+            half = (distance - radii) / 2 if b.inv_mass else 0.0
             c.arm_a, c.arm_b = arm_a, arm_b = a.r + half, b.r + half
             c.spin_a, c.spin_b = spin_a, spin_b = arm_a * a.inv_inertia, arm_b * b.inv_inertia
-            c.mt = 1 / (a.inv_mass + inv_mass + (arm_a * spin_a + arm_b * spin_b))
+            c.mt = 1 / (a.inv_mass + b.inv_mass + (arm_a * spin_a + arm_b * spin_b))
 
 
 def circle_box(a: Body, b: Body) -> tuple[float, float, float]:

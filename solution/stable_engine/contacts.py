@@ -44,7 +44,7 @@ class Contacts(Detection):
     """
 
     __slots__ = (
-        *("beginnings", "has_friction", "is_mirrored", "max_push_speed", "pace", "piles", "round"),
+        *("beginnings", "has_friction", "max_push_speed", "pace", "piles", "round"),
         *("cores", "held", "push", "squeezed", "target"),
     )
     rank = 3
@@ -56,7 +56,6 @@ class Contacts(Detection):
         # those of a short step, with their impulses before: jn, jt and last
         self.held: list[tuple[Contact, float, float, float]] = []
         self.beginnings = 0.0  # in how many steps any contact has begun
-        self.is_mirrored = False  # whether contacts may have the same place in the order
         self.piles: list[Pile] = []  # with heavy bodies
         self.target = Target(0.0, 0.0, 0.0)  # of the substep, if there are piles
         self.has_friction = False  # which may hold squeezes
@@ -153,15 +152,13 @@ class Contacts(Detection):
 
         The order depends on where contacts began alone, and looks the same in a mirror.
         """
+        grain, is_mirrored = self.touching_gap, any([group.is_mirrored for group in self.groups])
         if self.begun:
             self.beginnings += 1
-            g, grain = self.world.g, self.touching_gap
-            if give_places(self.begun, g, grain, self.beginnings):
-                self.is_mirrored = True
-        was_mirrored = self.is_mirrored
-        self.is_mirrored = any(
-            [put_in_order(each, self.touching_gap, was_mirrored) for each in self.groups]
-        )
+            if give_places(self.begun, self.world.g, grain, self.beginnings):
+                is_mirrored = True
+        for group in self.groups:
+            put_in_order(group, grain, is_mirrored)
 
     def keep_forces(self, h: float) -> None:
         """Scale the kept impulses to a substep of h seconds, so that the forces stay the same."""

@@ -122,13 +122,13 @@ def give_places(
     return len(contacts) > 1 and len({c.place for c in contacts}) < len(contacts)
 
 
-def put_in_order(group: Group, grain: float, is_mirrored: bool) -> bool:
-    """Put the contacts of a group in order. Return whether any two have the same place.
+def put_in_order(group: Group, grain: float, is_mirrored: bool) -> None:
+    """Put the contacts of a group in order; is_mirrored tells whether any may have the same place.
 
-    Most were in it before, so there is little to sort. Only a mirrored scene has equal places.
+    Most were in it before, so there is little to sort.
     """
     if group.contacts == group.ordered:
-        return group.is_mirrored
+        return
     turn, group.turn = group.turn, group.turn + 1
     new = [c for c in group.contacts if c.turn != turn]
     for c in group.contacts:
@@ -144,7 +144,6 @@ def put_in_order(group: Group, grain: float, is_mirrored: bool) -> bool:
     group.is_mirrored = False
     if is_mirrored:
         find_ties(group, grain)
-    return group.is_mirrored
 
 
 def find_ties(group: Group, grain: float) -> None:
