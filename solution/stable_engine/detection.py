@@ -95,6 +95,12 @@ class Detection(Effect):
             if self.landings.speeds:
                 self.landings.end()
             self.find_contacts(dt)
+            self.group_contacts()
+            if self.unpaired:
+                self.end_unpaired()
+            if self.landings.pairs or self.landings.speeds:
+                self.landings.foresee(dt)
+            phase.add_looks(len(phase.pairs) - len(self.touching), dt)
         if self.is_idle() != was_idle:
             world.update_hooks()
 
@@ -186,7 +192,8 @@ class Detection(Effect):
                         is_apart = not self.have_passed(a, b, gap)
             if is_apart:
                 if c:
-                    self.end_contact(pair)
+                    pair.contact = None
+                    self.news.note_part(c)
                 continue
             if c is None:
                 c = pair.contact = self.make_contact(a, b, nx, ny)
@@ -205,12 +212,6 @@ class Detection(Effect):
             if b.inv_mass and (gap < -a.r or gap < -b.r):
                 self.crowd.setdefault(c, False)
         self.touching, self.renewed = touching, [*self.renewed, *renewed]
-        self.group_contacts()
-        if self.unpaired:
-            self.end_unpaired()
-        if self.landings.pairs or self.landings.speeds:
-            self.landings.foresee(dt)
-        self.broad_phase.add_looks(len(self.broad_phase.pairs) - len(touching), dt)
 
     def group_contacts(self) -> None:
         """Put contacts into their groups, and count those of balls with other balls."""
@@ -264,12 +265,6 @@ class Detection(Effect):
             c.b.touches += 1
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
         return c
-
-    def end_contact(self, pair: Pair) -> None:
-        """End the contact of two bodies that have parted."""
-        c, pair.contact = pair.contact, None
-        if c:
-            self.news.note_part(c)
 
     def drop_untouched(self, new: set[Contact]) -> None:
         """Drop new contacts of bodies that were hit by others and so did not touch.

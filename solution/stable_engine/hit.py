@@ -93,16 +93,13 @@ def law_of(c: Contact, flight: Flight) -> tuple[float, float]:
 
 def resolve_at_once(rows: Sequence[Hit], rods: list[Row], least: float) -> None:
     """Give the rows the impulses that they need together. Rods are to keep their lengths."""
+    if not rows:
+        return
     if len(rows) == 1 and not rods:
         row = rows[0]
         row.ask(row.wanted)
         row.take(max(row.low, min(row.rhs * row.m, row.high)))
-    elif rows:
-        solve_together(rows, rods, least)
-
-
-def solve_together(rows: Sequence[Hit], rods: list[Row], least: float) -> None:
-    """Solve for the impulses of all rows and rods."""
+        return
 
     def aim() -> None:
         for row in rows:

@@ -37,7 +37,6 @@ class Impacts:
     """
 
     def __init__(self, contacts: Contacts, slow: float, h: float) -> None:
-        self.touching = contacts.touching
         self.begun = set(contacts.begun)
         self.contacts = contacts
         self.touching_gap = contacts.touching_gap
@@ -61,7 +60,7 @@ class Impacts:
         if self.contacts.may_pass():
             self.let_pass()
             self.queue.due.clear()
-            fast = select_fast(self.touching, self.slow)
+            fast = select_fast(self.contacts.touching, self.slow)
         for c in fast:
             self.look(c, c in self.begun or c.a.flown < inf or c.b.flown < inf)
 
@@ -70,7 +69,7 @@ class Impacts:
 
         They are moved back to the touch from there, so no time is lost.
         """
-        self.link(self.touching)
+        self.link(self.contacts.touching)
         stopped: dict[Frame, float] = {}
         for body, stop in self.contacts.stops.items():
             if stop.end and state_of(body) == stop.at:
@@ -183,7 +182,7 @@ class Impacts:
         ago, nx, ny = moment_of_touch(a, b, self.contacts.flight_of(a, b))
         if ago > 0:
             if not self.beside:
-                self.link(self.touching)
+                self.link(self.contacts.touching)
             c = self.contacts.meet(pair, nx, ny, ((b.vx - a.vx) * nx + (b.vy - a.vy) * ny) * ago)
             self.contacts.news.note_hit(c, ago)
             self.take_in([c])
@@ -209,7 +208,7 @@ class Impacts:
     def resolve_all(self) -> None:
         """Resolve all impacts, and those that they cause, until no pair closes in fast."""
         if not self.beside:
-            self.link(self.touching)
+            self.link(self.contacts.touching)
         while self.queue.due:
             self.resolve_first()
         self.put_back(list(self.passing))
