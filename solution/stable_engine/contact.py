@@ -129,7 +129,7 @@ def turn_normals(contacts: list[Contact]) -> None:
         a, b = c.a, c.b
         dx, dy = b.x - a.x, b.y - a.y
         distance = sqrt(dx * dx + dy * dy)
-        if distance == 0:
+        if distance == 0 or not b.r:
             continue
         nx, ny, radii = dx / distance, dy / distance, a.r + b.r
         same = nx * c.nx + ny * c.ny

@@ -44,7 +44,7 @@ class Contacts(Detection):
     """
 
     __slots__ = (
-        *("beginnings", "has_friction", "max_push_speed", "pace", "piles", "round"),
+        *("beginnings", "has_friction", "max_push_speed", "pace", "piles"),
         *("cores", "held", "push", "squeezed", "target"),
     )
     rank = 3
@@ -52,7 +52,6 @@ class Contacts(Detection):
     def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:
         super().__init__(on_hit, on_part)
         self.squeezed: dict[Contact, float] = {}  # and the largest impulses they keep (kg px/s)
-        self.round: list[Contact] = []  # those of two round bodies
         # those of a short step, with their impulses before: jn, jt and last
         self.held: list[tuple[Contact, float, float, float]] = []
         self.beginnings = 0.0  # in how many steps any contact has begun
@@ -103,7 +102,6 @@ class Contacts(Detection):
         self.find_order()
         if self.begun:  # impulses may reach all others
             self.renewed = self.touching
-        self.round = [c for c in self.renewed if c.b.r]
         for c in self.renewed:
             a, b = c.a, c.b
             distance = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny
@@ -215,7 +213,7 @@ class Contacts(Detection):
 
     def relax(self, h: float) -> None:
         if self.changed:
-            turn_normals(self.round)
+            turn_normals(self.renewed)
         self.press_on(h, has_moved=True)
         if self.piles:
             self.target = Target(h, self.max_push_speed, self.touching_gap / 2)

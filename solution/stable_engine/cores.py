@@ -16,7 +16,8 @@ OVERLAP = 0.05  # radii, the overlap of a stopped bullet, so that the next step 
 SEAM = 1e-9  # a squared sine; faces that turn less are one
 CORNER_PASSES = 4  # of keeping cores out: a ball put back may meet another static body
 
-Place = tuple[float, float]  # px
+Point = tuple[float, float]  # px
+Face = tuple[float, float, float, float]  # how far (px) and how fast (px/s) into it, and its normal
 Way = tuple[float, float, float]  # how far (px) or how fast (px/s) into a face, and its normal
 HOW_FAR = itemgetter(0)
 
@@ -51,16 +52,16 @@ class Cores:
             self.stop_core(body, h)
         statics = contacts.statics.contacts
         for _ in range(CORNER_PASSES if statics else 0):
-            ways: dict[Body, tuple[list[Way], list[Way]]] = {}
+            faces: dict[Body, list[Face]] = {}
             for c in statics:
                 a, b = c.a, c.b
                 gap = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny - c.reach + c.found - c.gap
                 if gap < -CORE * a.r and c.found < a.r:  # else its way was swept
-                    self.find_way_out(c, gap, ways)
-            if not ways:
+                    self.find_way_out(c, gap, faces)
+            if not faces:
                 break
-            for body, ways_out in ways.items():
-                self.put_out(body, *ways_out)
+            for body, entered in faces.items():
+                self.put_out(body, entered)
                 self.stop_core(body, h)
 
     def stop_core(self, body: Body, h: float) -> None:
@@ -70,7 +71,7 @@ class Cores:
         if is_far and not body.is_static:
             self.sweep(body, (body.last_x, body.last_y), CORE * body.r, 0.0, h)
 
-    def stop_hit(self, body: Body, beside: list[Contact], turns: list[Place]) -> bool:
+    def stop_hit(self, body: Body, beside: list[Contact], turns: list[Point]) -> bool:
         """Stop a ball where impacts took its core through a static body. Return whether they did.
 
         Its contacts are `beside`; it flew straight from each of its turns to the next. In the next
@@ -93,7 +94,7 @@ class Cores:
         body.last_x, body.last_y = body.x, body.y
         return share < 1
 
-    def is_free(self, body: Body, turns: list[Place]) -> bool:
+    def is_free(self, body: Body, turns: list[Point]) -> bool:
         """Return whether no static body stopped the core of a ball on its way over these turns."""
         radius = core_of(body) - self.contacts.touching_gap
         x, y = body.last_x, body.last_y
@@ -103,9 +104,7 @@ class Cores:
             x, y = to_x, to_y
         return True
 
-    def find_way_out(
-        self, c: Contact, gap: float, ways: dict[Body, tuple[list[Way], list[Way]]]
-    ) -> None:
+    def find_way_out(self, c: Contact, gap: float, faces: dict[Body, list[Face]]) -> None:
         """Note what puts back and stops a ball whose core entered a static body, or went deeper.
 
         `gap` is along the normal at the start of the step; past a corner the new normal counts,
@@ -118,18 +117,16 @@ class Cores:
         back = min(c.found, -CORE * a.r) - now
         if back > self.contacts.touching_gap and not self.contacts.find_cover(c):
             closing = max((a.vx - b.vx) * nx + (a.vy - b.vy) * ny, 0.0)
-            ways_out, speeds = ways.setdefault(a, ([], []))
-            ways_out.append((back, nx, ny))
-            speeds.append((closing, nx, ny))
+            faces.setdefault(a, []).append((back, closing, nx, ny))
 
-    def put_out(self, body: Body, ways: list[Way], speeds: list[Way]) -> None:
+    def put_out(self, body: Body, faces: list[Face]) -> None:
         """Put a ball out of faces, and take its speed into them away."""
-        for back, at in way_out(ways):
-            _, nx, ny = ways[at]
-            body.x, body.y = body.x - nx * back, body.y - ny * back
-        for closing, at in way_out(speeds):
-            _, nx, ny = speeds[at]
-            body.vx, body.vy = body.vx - nx * closing, body.vy - ny * closing
+        for far, at in way_out([(back, nx, ny) for back, _, nx, ny in faces]):
+            _, _, nx, ny = faces[at]
+            body.x, body.y = body.x - nx * far, body.y - ny * far
+        for fast, at in way_out([(closing, nx, ny) for _, closing, nx, ny in faces]):
+            _, _, nx, ny = faces[at]
+            body.vx, body.vy = body.vx - nx * fast, body.vy - ny * fast
         self.contacts.broad_phase.note_leaver(body)
 
     def went_through(self, c: Contact) -> bool:

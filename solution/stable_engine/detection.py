@@ -398,10 +398,7 @@ class Detection(Effect):
             body.flown = inf
         for body, ago in self.hit_ago.items():
             body.flown = ago + self.last_dt
-        if self.flying or self.hit_ago:
-            self.flying, self.hit_ago = [*self.hit_ago], {}
-        if self.stops:
-            self.stops = {}
+        self.flying, self.hit_ago, self.stops = [*self.hit_ago], {}, {}
 
     def tell(self, h: float) -> None:
         if self.on_hit or self.on_part:

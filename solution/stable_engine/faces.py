@@ -13,36 +13,35 @@ class Faces:
 
     def __init__(self, flight: Flight) -> None:
         self.flight = flight
-        # their normals, and how far (px) along it the centres are at a touch
-        self.normals: dict[Contact, tuple[float, float, float]] = {}
-        self.depths: dict[Contact, float] = {}  # px, the gap before
+        # their normals, how far (px) along it the centres are at a touch, and the gap (px) before
+        self.normals: dict[Contact, tuple[float, float, float, float]] = {}
 
-    def note(self, c: Contact, depth: float) -> None:
-        """Note the face that a ball is at, if any, and the gap before (px) as its depth.
-
-        Also note whether the face bears the ball.
-        """
+    def note(self, c: Contact, before: float) -> None:
+        """Note the face that a ball is at, if any, the gap (px) before, and whether it bears it."""
         if c.b.inv_mass == 0 and is_at_face(c) and c.a not in self.flight.pivots:
-            self.depths[c] = depth
             if not c.a.is_bullet:
                 self.flight.walls.setdefault(c.a, []).append(c.b)
             reach = (c.b.x - c.a.x) * c.nx + (c.b.y - c.a.y) * c.ny - c.gap
-            self.normals[c] = c.nx, c.ny, reach
+            self.normals[c] = c.nx, c.ny, reach, before
             self.flight.rest(c)
 
     def look(self, c: Contact) -> None:
         """Find normal and gap of a contact anew. A ball stays on its side of a face."""
         nx, ny, gap = collide(c.a, c.b)
         if c in self.normals:
-            face_x, face_y, reach = self.normals[c]
+            face_x, face_y, reach, _ = self.normals[c]
             below = (c.b.x - c.a.x) * face_x + (c.b.y - c.a.y) * face_y - reach
             if below < 0 and nx * face_x + ny * face_y < SAME_DIRECTION:
                 nx, ny, gap = face_x, face_y, below
         c.nx, c.ny, c.gap, c.found = nx, ny, gap, gap
 
+    def depth(self, c: Contact) -> float:
+        """Return how deep (px) a ball was in a face at first, 0 if it was not."""
+        return max(-self.normals[c][3], 0.0) if c in self.normals else 0.0
+
     def added_depth(self, c: Contact) -> float:
         """Return by how much (px) a ball is deeper in a face than it was at first."""
-        return min(self.depths.get(c, 0.0), 0.0) - c.gap
+        return -c.gap - self.depth(c)
 
     def lift(self, faces: list[Contact]) -> None:
         """Put a ball onto faces that stop it, but not higher than it was at first.

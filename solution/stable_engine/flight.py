@@ -5,7 +5,7 @@ from math import cos, hypot, sin
 from .body import Body, State, state_of
 from .contact import Contact
 from .contacts import Contacts
-from .cores import Place, core_of, way_out
+from .cores import Point, core_of, way_out
 from .frame import Frame
 from .rods import Rods
 from .springs import Spring, share_before
@@ -30,7 +30,7 @@ class Flight:
         self.slow = slow  # px/s, slower impacts are ignored
         self.held: set[Body] = set()  # balls at static bodies that cannot go back
         self.stops: dict[Body, Stop] = {}  # of balls that a wall stopped after an impact
-        self.turns: dict[Body, list[Place]] = {}  # where balls were hit, and flew straight on
+        self.turns: dict[Body, list[Point]] = {}  # where balls were hit, and flew straight on
         self.walls: dict[Body, list[Body]] = {}  # at which a ball is: it may fly into them
         self.rests: dict[Body, list[Contact]] = {}  # at faces on which a ball rested
         self.bearing: dict[Body, list[Contact]] = {}  # those of them that bear it now

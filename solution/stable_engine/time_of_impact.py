@@ -117,8 +117,7 @@ class TimeOfImpact:
     def slack(self, c: Contact, since: float) -> float:
         """Return how much deeper (px) a ball may be in a face, as it fell or was under a load."""
         g, _ = self.flight.pull(c)
-        before = min(self.faces.depths.get(c, 0.0), 0.0)
-        return self.touching_gap + abs(g) * since * since - before
+        return self.touching_gap + abs(g) * since * since + self.faces.depth(c)
 
     def look_back(self, c: Contact, since: float) -> tuple[float, float, float]:
         """Return `since` (s) and the normal if two round bodies began to close in then, else zeros.
