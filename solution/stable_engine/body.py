@@ -39,7 +39,7 @@ class Body:
         *("e", "mu", "restitution_given", "friction_given"),
         *("x", "y", "vx", "vy", "turn", "w", "last_x", "last_y"),
         *("id", "world", "is_bullet", "is_kinematic", "idle", "island", "joint_count"),
-        *("still", "calm", "kept", "place", "touches", "has_moved"),
+        *("still", "calm", "kept", "kept_at", "touches", "has_moved"),
         *("lag_x", "lag_y", "is_pressed", "is_fresh", "flown"),
     )
 
@@ -94,7 +94,7 @@ class Body:
         self.touches = 0  # the contacts of a ball with other balls
         self.calm = 0.0, 0.0, 0.0  # px/s: vx, vy and the speed of its rim at the last look
         self.kept = 0.0  # s, how long it has stayed where it is
-        self.place = inf, 0.0, 0.0  # x, y and angle when that began
+        self.kept_at = inf, 0.0, 0.0  # x, y and angle when that began
         # compiled attributes are fast if they are set before any method runs
         self.weigh(mass)
         if restitution is not None:

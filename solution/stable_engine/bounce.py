@@ -42,7 +42,7 @@ class Bounce(Effect):
             return
         impacts = Impacts(contacts, slow, h)
         impacts.find(fast)
-        if impacts.queue.due or impacts.turned_back:
+        if impacts.queue.due or impacts.returned:
             impacts.resolve_all()
             for c in impacts.met:  # only the next step may push balls apart or stop them
                 if not c.b.is_static:

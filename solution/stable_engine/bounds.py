@@ -27,13 +27,13 @@ class Bounds:
     """
 
     __slots__ = (
-        *("body", "place", "near", "pairs", "margin", "extra", "left", "right", "top", "bottom"),
+        *("body", "index", "near", "pairs", "margin", "extra", "left", "right", "top", "bottom"),
         *("vx", "vy", "high", "low", "side_high", "side_low", "first_lane", "last_lane", "rank"),
     )
 
-    def __init__(self, body: Body, place: int) -> None:
+    def __init__(self, body: Body, index: int) -> None:
         self.body = body
-        self.place = place  # in the world's list
+        self.index = index  # in the world's list
         self.near = False  # whether any other body is near
         self.pairs: list[Pair] = []  # of its body and those that are near
         self.margin = ROOM * min(body.hx, body.hy)  # px, room on each side
@@ -82,4 +82,4 @@ class Bounds:
 
     def precedes(self, other: Bounds) -> bool:
         """Return whether the sweep meets this box before another."""
-        return self.low < other.low or (self.low == other.low and self.place < other.place)
+        return self.low < other.low or (self.low == other.low and self.index < other.index)

@@ -24,7 +24,7 @@ class Contact:
 
     __slots__ = (
         *("a", "b", "nx", "ny", "found", "gap", "reach", "jn", "jt", "mn", "mt", "mu", "e"),
-        *("arm_a", "arm_b", "spin_a", "spin_b", "last", "place", "turn", "ratio"),
+        *("arm_a", "arm_b", "spin_a", "spin_b", "last", "place", "sorting", "ratio"),
     )
 
     def __init__(self, a: Body, b: Body) -> None:
@@ -38,7 +38,7 @@ class Contact:
         self.jt = 0.0  # kg px/s, accumulated friction impulse
         self.last = 0.0  # kg px/s, jn after the substep before, in a pile of loads
         self.place = 0.0, 0.0, 0.0  # in the order of solving, see give_places
-        self.turn = -1  # when it was last put in order, see put_in_order
+        self.sorting = -1  # the last one that it was in, see put_in_order
         self.mn = self.ratio = 0.0  # kg, effective mass along the normal; ratio of the masses
         self.weigh()
         self.mt = 0.0  # kg, effective mass along the tangent, see set_arms
@@ -114,8 +114,8 @@ def collide(a: Body, b: Body) -> tuple[float, float, float]:
     distance = sqrt(dx * dx + dy * dy)
     if distance > 0:
         return dx / distance, dy / distance, distance - (a.r + b.r)
-    turn = (7919 * a.id + b.id) * GOLDEN_ANGLE
-    return cos(turn), sin(turn), -a.r - b.r
+    angle = (7919 * a.id + b.id) * GOLDEN_ANGLE
+    return cos(angle), sin(angle), -a.r - b.r
 
 
 def turn_normals(contacts: list[Contact]) -> None:

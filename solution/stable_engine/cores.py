@@ -71,10 +71,10 @@ class Cores:
         if is_far and not body.is_static:
             self.sweep(body, (body.last_x, body.last_y), CORE * body.r, 0.0, h)
 
-    def stop_hit(self, body: Body, beside: list[Contact], turns: list[Point]) -> bool:
+    def stop_hit(self, body: Body, beside: list[Contact], bends: list[Point]) -> bool:
         """Stop a ball where impacts took its core through a static body. Return whether they did.
 
-        Its contacts are `beside`; it flew straight from each of its turns to the next. In the next
+        Its contacts are `beside`; it flew straight from each of its bends to the next. In the next
         step it comes from where it is now.
         """
         x, y, core = body.last_x, body.last_y, CORE * body.r
@@ -83,7 +83,7 @@ class Cores:
         if is_near and not any([c.gap < -core and not c.b.inv_mass for c in beside]):
             return False
         share = free_share(body, self.world.statics, core_of(body), (x, y), dx, dy)
-        if share < 1 and turns and self.is_free(body, turns):
+        if share < 1 and bends and self.is_free(body, bends):
             share = 1.0
         if share < 1:
             body.x, body.y = x + dx * share, y + dy * share
@@ -94,11 +94,11 @@ class Cores:
         body.last_x, body.last_y = body.x, body.y
         return share < 1
 
-    def is_free(self, body: Body, turns: list[Point]) -> bool:
-        """Return whether no static body stopped the core of a ball on its way over these turns."""
+    def is_free(self, body: Body, bends: list[Point]) -> bool:
+        """Return whether no static body stopped the core of a ball on its way over these bends."""
         radius = core_of(body) - self.contacts.touching_gap
         x, y = body.last_x, body.last_y
-        for to_x, to_y in [*turns, (body.x, body.y)]:
+        for to_x, to_y in [*bends, (body.x, body.y)]:
             if first_stop(self.world.statics, radius, x, y, to_x - x, to_y - y) < NO_HIT:
                 return False
             x, y = to_x, to_y
@@ -169,11 +169,11 @@ class Cores:
         if springs and body.joint_count:
             stiff = springs.stiff_around(body, h)
             stored = springs.energy_in(stiff)
-            put_back(body, way, fraction, self.pull, h)
+            put_back(body, way, fraction, self.acceleration, h)
             self.take_along(springs.others_on(stiff, body), end[0] - body.x, end[1] - body.y, h)
             lose_energy(body, springs.energy_in(stiff) - stored)
         else:
-            put_back(body, way, fraction, self.pull, h)
+            put_back(body, way, fraction, self.acceleration, h)
         is_on_rod = contacts.rods is not None and contacts.rods.holds(body)
         earlier = contacts.stops.get(body)
         before = earlier.time if earlier else contacts.last_dt
@@ -204,15 +204,15 @@ class Cores:
             way = body.x - dx - x, body.y - dy - y
             share = free_share(body, self.world.statics, CORE * body.r, (x, y), *way)
             back = body.x - x - way[0] * share, body.y - y - way[1] * share
-            put_back(body, back, 0.0, self.pull, h)
+            put_back(body, back, 0.0, self.acceleration, h)
             contacts.broad_phase.note_leaver(body)
 
-    def pull(self, body: Body) -> tuple[float, float]:
+    def acceleration(self, body: Body) -> tuple[float, float]:
         """Return the acceleration of a body (px/s²) by gravity, forces and soft springs."""
         x, y = self.world.acceleration(body)
         springs = self.contacts.springs
         if springs and body.joint_count:
-            by_x, by_y = springs.pull(body, self.contacts.h)
+            by_x, by_y = springs.acceleration(body, self.contacts.h)
             x, y = x + by_x, y + by_y
         return x, y
 

@@ -85,7 +85,7 @@ class Faces:
         """
         g = speed = 0.0
         for far, c in ways:
-            pull, lag = self.flight.pull(c)
+            pull, lag = self.flight.closing_acceleration(c)
             closing = (vx - c.b.vx) * c.nx + (vy - c.b.vy) * c.ny
             g += far / up * pull
             speed -= far / up * (closing + lag)

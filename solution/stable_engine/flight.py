@@ -22,15 +22,15 @@ class Flight:
     With semi-implicit Euler a velocity lags half a substep behind the position.
     """
 
-    def __init__(self, contacts: Contacts, h: float, slow: float) -> None:
+    def __init__(self, contacts: Contacts, h: float, least_speed: float) -> None:
         rods, springs = contacts.rods, contacts.springs
         self.contacts = contacts
         self.world = contacts.world
         self.h = h  # s, of a substep
-        self.slow = slow  # px/s, slower impacts are ignored
+        self.least_speed = least_speed  # px/s, slower impacts are ignored
         self.held: set[Body] = set()  # balls at static bodies that cannot go back
         self.stops: dict[Body, Stop] = {}  # of balls that a wall stopped after an impact
-        self.turns: dict[Body, list[Point]] = {}  # where balls were hit, and flew straight on
+        self.bends: dict[Body, list[Point]] = {}  # where balls were hit, and flew straight on
         self.walls: dict[Body, list[Body]] = {}  # at which a ball is: it may fly into them
         self.rests: dict[Body, list[Contact]] = {}  # at faces on which a ball rested
         self.bearing: dict[Body, list[Contact]] = {}  # those of them that bear it now
@@ -48,9 +48,9 @@ class Flight:
             self.stiff = {body for spring in stiff for body in (spring.end_a, spring.end_b)}
         # of bodies on springs: mirrored impacts, resolved in turn, must not see each other's moves
         self.before = {body: state_of(body) for body in self.springs_of}
-        self.touching: set[Body] = set()
+        self.in_contact: set[Body] = set()
         if self.springs_of:
-            self.touching.update([body for c in contacts.touching for body in (c.a, c.b)])
+            self.in_contact.update([body for c in contacts.touching for body in (c.a, c.b)])
         self.moved: set[Body] = set()  # by the present impact
         self.partners: dict[Body, State] = {}  # balls on springs that fly with these
         self.changes: list[tuple[Body, list[float]]] = []  # of the states of partners
@@ -109,14 +109,14 @@ class Flight:
         """Let springs pass impacts on to other balls, when all are over: order would matter."""
         for body, (x, y, vx, vy) in self.changes:
             body.vx, body.vy = body.vx + vx, body.vy + vy
-            if body not in self.touching:  # else it might get into another body
+            if body not in self.in_contact:  # else it might get into another body
                 body.x, body.y = body.x + x, body.y + y
 
-    def note_turns(self, hit: list[Body]) -> None:
+    def note_bends(self, hit: list[Body]) -> None:
         """Note where balls that were hit fly straight on."""
         for body in [] if self.springs_of else hit:
             if body not in self.frame_of:
-                self.turns.setdefault(body, []).append((body.x, body.y))
+                self.bends.setdefault(body, []).append((body.x, body.y))
 
     def fly(self, hit: list[Body], seconds: float) -> None:
         """Let balls fly back to an impact, or on. One that flies on far stops before a wall."""
@@ -136,21 +136,21 @@ class Flight:
         if not self.springs_of:
             is_plain = self.is_simple and not (self.bearing or self.pivots)
             for body in free:
-                pull = self.world.g if is_plain else self.acceleration(body)
-                self.fly_ball(body, pull, self.own_time(body, seconds))
+                acceleration = self.world.g if is_plain else self.acceleration(body)
+                self.fly_ball(body, acceleration, self.own_time(body, seconds))
             return
         free, parts = [*free, *self.partners], self.world.substep_count
         times = [self.own_time(body, seconds) / parts for body in free]
-        for _ in range(parts):  # as the pull of springs changes on the way
+        for _ in range(parts):  # as the forces of springs change on the way
             before = [(body, self.acceleration(body)) for body in free]
             flown = [
-                self.fly_ball(body, pull, time)
-                for (body, pull), time in zip(before, times, strict=True)
+                self.fly_ball(body, acceleration, time)
+                for (body, acceleration), time in zip(before, times, strict=True)
             ]
             self.time += seconds / parts
             after = [self.acceleration(body) for body in free]  # with the same speeds for all
-            for (body, pull), now, time in zip(before, after, flown, strict=True):
-                self.adjust(body, pull, now, time)
+            for (body, acceleration), now, time in zip(before, after, flown, strict=True):
+                self.adjust(body, acceleration, now, time)
         if seconds > 0:
             self.leave_behind()
 
@@ -162,9 +162,9 @@ class Flight:
         late, stop.late = stop.late, 0.0
         return min(seconds + late, 0.0)
 
-    def fly_ball(self, body: Body, pull: tuple[float, float], seconds: float) -> float:
-        """Let a ball fly on under a pull (px/s²). Return for how long (s) it could."""
-        ax, ay = pull
+    def fly_ball(self, body: Body, acceleration: tuple[float, float], seconds: float) -> float:
+        """Let a ball fly on with an acceleration (px/s²). Return for how long (s) it could."""
+        ax, ay = acceleration
         mean = (self.h + seconds) / 2
         x, y = (body.vx + ax * mean) * seconds, (body.vy + ay * mean) * seconds
         if self.stops:
@@ -188,10 +188,10 @@ class Flight:
         return seconds
 
     def adjust(
-        self, body: Body, pull: tuple[float, float], now: tuple[float, float], seconds: float
+        self, body: Body, before: tuple[float, float], now: tuple[float, float], seconds: float
     ) -> None:
-        """Adjust a velocity to the pull (px/s²) now, after a flight with that at its start."""
-        (ax, ay), (now_x, now_y) = pull, now
+        """Adjust a velocity to the acceleration (px/s²) now, after a flight with that before."""
+        (ax, ay), (now_x, now_y) = before, now
         body.vx += (now_x - ax) * (seconds - self.h) / 2
         body.vy += (now_y - ay) * (seconds - self.h) / 2
 
@@ -200,8 +200,8 @@ class Flight:
         pivot, (ax, ay) = self.pivots[body], self.acceleration(body)
         x, y = body.x - pivot.x, body.y - pivot.y
         mean = (self.h + seconds) / 2
-        turn = (x * (body.vy + ay * mean) - y * (body.vx + ax * mean)) / (x * x + y * y or 1.0)
-        c, s = cos(turn * seconds), sin(turn * seconds)
+        spin = (x * (body.vy + ay * mean) - y * (body.vx + ax * mean)) / (x * x + y * y or 1.0)
+        c, s = cos(spin * seconds), sin(spin * seconds)
         vx, vy = body.vx + ax * seconds, body.vy + ay * seconds
         body.x, body.y = pivot.x + c * x - s * y, pivot.y + s * x + c * y
         body.vx, body.vy = c * vx - s * vy, s * vx + c * vy
@@ -258,7 +258,7 @@ class Flight:
         x, y, vx, vy = self.before[body]
         return x + vx * self.time, y + vy * self.time, vx, vy
 
-    def pull(self, c: Contact) -> tuple[float, float]:
+    def closing_acceleration(self, c: Contact) -> tuple[float, float]:
         """Return the acceleration (px/s²) with which A and B are drawn together, below 0 apart.
 
         Also return by how much (px/s) a velocity lags behind the position: with semi-implicit
@@ -289,7 +289,7 @@ class Flight:
 
     def rest(self, c: Contact) -> None:
         """Let a face bear a ball if it presses on it."""
-        if c.jn > 0 and abs(c.closing_speed()) <= self.slow:
+        if c.jn > 0 and abs(c.closing_speed()) <= self.least_speed:
             self.rests.setdefault(c.a, []).append(c)
             self.bearing[c.a] = self.rests[c.a]
 
@@ -298,7 +298,7 @@ class Flight:
 
         Only the velocity of a ball that falls lags behind.
         """
-        bearing = [c for c in self.rests[body] if abs(c.closing_speed()) <= self.slow]
+        bearing = [c for c in self.rests[body] if abs(c.closing_speed()) <= self.least_speed]
         if bearing != self.bearing[body]:
             x, y = self.acceleration(body)
             self.bearing[body] = bearing

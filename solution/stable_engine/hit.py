@@ -79,7 +79,7 @@ def law_of(c: Contact, flight: Flight) -> tuple[float, float]:
     Also return the share of the impulse without the speed gained below the surface.
     """
     closing, e = c.closing_speed(), c.e
-    g, lag = flight.pull(c)
+    g, lag = flight.closing_acceleration(c)
     lag += flight.stiff_lag(c) if flight.stiff else 0.0
     if g == lag == 0:
         return e * closing, 1.0

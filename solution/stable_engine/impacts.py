@@ -36,21 +36,21 @@ class Impacts:
     are solved together.
     """
 
-    def __init__(self, contacts: Contacts, slow: float, h: float) -> None:
+    def __init__(self, contacts: Contacts, least_speed: float, h: float) -> None:
         self.begun = set(contacts.begun)
         self.contacts = contacts
         self.touching_gap = contacts.touching_gap
         self.dt = h * contacts.world.substep_count  # s
         self.reach = contacts.speculative_speed * self.dt  # px, a gap that slow ones close at once
-        self.slow = slow  # px/s, slower impacts are ignored
+        self.least_speed = least_speed  # px/s, slower impacts are ignored
         self.queue = ImpactQueue(self.touching_gap)
         self.passing: dict[Body, State] = {}  # balls that fly on into walls, and where they stopped
         self.beside: dict[Body, list[Contact]] = defaultdict(list)  # the contacts of each ball
-        self.flight = Flight(contacts, h, slow)
+        self.flight = Flight(contacts, h, least_speed)
         self.frame_of = self.flight.frame_of
         self.faces = Faces(self.flight)
         self.times = TimeOfImpact(contacts, self.faces)
-        self.turned_back: list[Frame] = []  # frames a ball of which a wall stopped
+        self.returned: list[Frame] = []  # frames a ball of which a wall stopped
         self.met: list[Contact] = []  # contacts that began through an impact
 
     def find(self, fast: list[Contact]) -> None:
@@ -60,7 +60,7 @@ class Impacts:
         if self.contacts.may_pass():
             self.let_pass()
             self.queue.due.clear()
-            fast = select_fast(self.contacts.touching, self.slow)
+            fast = select_fast(self.contacts.touching, self.least_speed)
         for c in fast:
             self.look(c, c in self.begun or c.a.flown < inf or c.b.flown < inf)
 
@@ -85,7 +85,7 @@ class Impacts:
         for frame, since in stopped.items():
             if not any([ball in self.flight.springs_of for ball in frame.balls]):
                 self.take_back(frame, since)
-                self.turned_back.append(frame)
+                self.returned.append(frame)
 
     def take_back(self, frame: Frame, ago: float) -> None:
         """Let a frame fly back to a touch, as a wall stopped one of its balls so long (s) ago.
@@ -105,7 +105,7 @@ class Impacts:
             left -= ago
             for c in walls:
                 self.faces.look(c)
-            walls = [c for c in walls if c.closing_speed() > self.slow]
+            walls = [c for c in walls if c.closing_speed() > self.least_speed]
             if not walls:
                 break
             ago = min(max([-c.gap / c.closing_speed() for c in walls]), left)
@@ -152,12 +152,12 @@ class Impacts:
         Return whether it would be at a corner that another body covers: this is no impact.
         """
         self.queue.due.pop(c, None)
-        if not is_new and (c.closing_speed() <= self.slow or self.is_open(c)):
+        if not is_new and (c.closing_speed() <= self.least_speed or self.is_open(c)):
             return False
         now = c.nx, c.ny, c.gap
         ago = self.times.turn_back(c) if c.gap < 0 or is_new else 0.0
         speed = c.closing_speed()
-        if speed <= self.slow:
+        if speed <= self.least_speed:
             c.nx, c.ny, c.gap = now
         elif not c.b.r and self.is_covered(c, ago):
             c.nx, c.ny, c.gap = now
@@ -231,14 +231,14 @@ class Impacts:
         moved = [*contacts.hit_ago, *[body for body, _ in self.flight.changes]]
         if self.frame_of:
             frames = dict.fromkeys([self.frame_of[body] for body in moved if body in self.frame_of])
-            frames.update(dict.fromkeys(self.turned_back))
+            frames.update(dict.fromkeys(self.returned))
             moved = list(dict.fromkeys([*moved, *[b for frame in frames for b in frame.balls]]))
         for body in moved:
             if body not in contacts.hit_ago:
                 contacts.note_impact(body, 0.0)  # so the next step may stop it before a wall
-        turns, beside = self.flight.turns, self.beside
+        bends, beside = self.flight.bends, self.beside
         stopped = [
-            b for b in moved if contacts.cores.stop_hit(b, beside.get(b, []), turns.get(b, []))
+            b for b in moved if contacts.cores.stop_hit(b, beside.get(b, []), bends.get(b, []))
         ]
         if stopped:
             self.follow(stopped)
@@ -330,7 +330,7 @@ class Impacts:
         resolve(self.uncover(group) if frames else group, frames, self.flight)
         for wall, (x, y) in walls.items():
             wall.x, wall.y = x, y
-        self.flight.note_turns(hit)
+        self.flight.note_bends(hit)
         self.flight.fly(hit, ago)
 
     def note_impact(self, body: Body, ago: float) -> None:
@@ -350,7 +350,7 @@ class Impacts:
                 self.faces.look(c)
         for c in around:
             self.queue.due.pop(c, None)
-        for c in select_fast(around, self.slow):
+        for c in select_fast(around, self.least_speed):
             self.look(c, is_new=ago > 0)
 
     def link(self, contacts: list[Contact]) -> None:
@@ -419,14 +419,14 @@ class Impacts:
             met.append(c)
 
 
-def select_fast(contacts: list[Contact], slow: float) -> list[Contact]:
-    """Return the contacts whose bodies have different velocities: by more than `slow` (px/s)."""
+def select_fast(contacts: list[Contact], least_speed: float) -> list[Contact]:
+    """Return the contacts whose bodies have velocities that differ by more than this (px/s)."""
     fast: list[Contact] = []
-    slow2 = slow * slow
+    square = least_speed * least_speed
     for c in contacts:
         a, b = c.a, c.b
         vx, vy = a.vx - b.vx, a.vy - b.vy
-        if vx * vx + vy * vy > slow2:
+        if vx * vx + vy * vy > square:
             fast.append(c)
     return fast
 

@@ -63,7 +63,7 @@ class LimitedRow(Row):
             return self.at * self.rhs < -least
         return not self.low <= self.total <= self.high
 
-    def turn(self) -> None:
+    def switch(self) -> None:
         """Go to the limit that it is beyond, or leave the one it is at."""
         self.at = 0.0 if self.at else -1.0 if self.total < self.low else 1.0
 
@@ -133,7 +133,7 @@ def solve_within(
         if len(wrong) < fewest:
             fewest, patience = len(wrong), TURNS
         for row in wrong if patience > 0 else wrong[:1]:
-            row.turn()
+            row.switch()
     for one, j in taken.items():
         one.take(-j)
     for body, vx, vy, w in before:

@@ -19,7 +19,7 @@ class Group:
 
     __slots__ = (
         *("bias_rate", "contacts", "has_moved", "in_turn", "is_mirrored", "least", "mass_scale"),
-        *("max_push_speed", "moves_b", "ordered", "sorted", "ties", "turn"),
+        *("max_push_speed", "moves_b", "ordered", "sorted", "ties", "sortings"),
     )
 
     def __init__(self, moves_b: bool) -> None:
@@ -29,7 +29,7 @@ class Group:
         self.ties: list[Tie] = []  # the others
         self.ordered: list[Contact] = []  # the contacts when they were put in order
         self.sorted: list[Contact] = []  # those in order
-        self.turn = 0  # how often they were put in order
+        self.sortings = 0  # how often they were put in order
         self.is_mirrored = False  # whether any two of them had the same place then
         self.bias_rate = self.mass_scale = 0.0  # see softness
         self.has_moved = False  # whether bodies have moved in this substep
@@ -110,12 +110,12 @@ def give_places(
         middle_x += x / count
         middle_y += y / count
     gx, gy = g
-    pull, coarse = hypot(gx, gy), grain * 2.0**52  # a float so large has no digits below a grain
+    g_size, coarse = hypot(gx, gy), grain * 2.0**52  # a float so large has no digits below a grain
     for c in contacts:
         x, y, _ = c.place
         off_x, off_y = x - middle_x, y - middle_y
-        if pull:
-            up, off = -(x * gx + y * gy) / pull, abs(off_x * gy - off_y * gx) / pull
+        if g_size:
+            up, off = -(x * gx + y * gy) / g_size, abs(off_x * gy - off_y * gx) / g_size
         else:
             up, off = 0.0, hypot(off_x, off_y)
         c.place = (up + coarse) - coarse, (off + coarse) - coarse, number
@@ -129,11 +129,11 @@ def put_in_order(group: Group, grain: float, is_mirrored: bool) -> None:
     """
     if group.contacts == group.ordered:
         return
-    turn, group.turn = group.turn, group.turn + 1
-    new = [c for c in group.contacts if c.turn != turn]
+    before, group.sortings = group.sortings, group.sortings + 1
+    new = [c for c in group.contacts if c.sorting != before]
     for c in group.contacts:
-        c.turn = group.turn
-    kept = [c for c in group.sorted if c.turn == group.turn]
+        c.sorting = group.sortings
+    kept = [c for c in group.sorted if c.sorting == group.sortings]
     if len(new) <= FEW * len(kept):
         for c in new:
             insort(kept, c, key=PLACE)

@@ -105,18 +105,18 @@ def collect_piles(
         return []
     count = len(contacts)
     ends = [(c.a, c.b) for c in contacts] + [(joint.end_a, joint.end_b) for joint in joints]
-    beside: dict[Body, list[int]] = {}  # the places of each ball
-    for place, both in enumerate(ends):
+    beside: dict[Body, list[int]] = {}  # the indices of each ball
+    for index, both in enumerate(ends):
         for body in both:
             if body.inv_mass:
-                beside.setdefault(body, []).append(place)
+                beside.setdefault(body, []).append(index)
     piles: list[Pile] = []
     seen: set[int] = set()
     for first in firsts:
-        places = places_from(first, ends, beside, seen)
-        if len(places) > 1:
-            rows = [Load(contacts[at], ratios[at]) for at in places if at < count]
-            held = [joints[at - count] for at in places if at >= count]
+        indices = indices_from(first, ends, beside, seen)
+        if len(indices) > 1:
+            rows = [Load(contacts[at], ratios[at]) for at in indices if at < count]
+            held = [joints[at - count] for at in indices if at >= count]
             if not is_clamped(rows):
                 piles.append(Pile(rows, held, unit, SOFTEST))
     return piles
@@ -140,13 +140,13 @@ def find_wedged(contacts: list[Contact]) -> dict[Body, float]:
 def find_firsts(
     contacts: list[Contact], ratios: list[float], tied: set[Contact], unit: float
 ) -> list[int]:
-    """Return the places of contacts that make a pile: much presses there, and does not bounce."""
+    """Return the indices of contacts that make a pile: much presses there, and does not bounce."""
     firsts: list[int] = []
-    for place, (c, ratio) in enumerate(zip(contacts, ratios, strict=True)):
+    for index, (c, ratio) in enumerate(zip(contacts, ratios, strict=True)):
         fast = RESTING_SPEED * unit if c.e else inf
         closing = c.closing_speed()
         if closing < fast and (c in tied or (ratio > HEAVY and closing > -fast)):
-            firsts.append(place)
+            firsts.append(index)
     return firsts
 
 
@@ -200,10 +200,10 @@ def ratio_of(c: Contact, loads: dict[Body, float]) -> float:
     return max(c.ratio, most / min(c.a.m, c.b.m or c.a.m)) if most else c.ratio
 
 
-def places_from(
+def indices_from(
     first: int, ends: list[tuple[Body, Body]], beside: dict[Body, list[int]], seen: set[int]
 ) -> list[int]:
-    """Return the places of all that balls connect to the first one, and note them as seen.
+    """Return the indices of all that balls connect to the first one, and note them as seen.
 
     Return none if they are more than MOST_ROWS, or if one was seen before.
     """
@@ -211,6 +211,6 @@ def places_from(
     new = {first}
     while new and len(found) <= MOST_ROWS and new.isdisjoint(seen):
         found |= new
-        new = {at for place in new for body in ends[place] for at in beside.get(body, [])} - found
+        new = {at for index in new for body in ends[index] for at in beside.get(body, [])} - found
     seen.update(found)
     return [] if new or len(found) > MOST_ROWS else sorted(found)

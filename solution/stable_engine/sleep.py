@@ -102,11 +102,11 @@ class Sleep(Effect):
             body.still = 0.0
         elif hypot(vx, vy) < slow and abs(rim) < slow:
             body.still += dt
-        x, y, angle = body.place
+        x, y, angle = body.kept_at
         if hypot(body.x - x, body.y - y) < near and abs(body.turn - angle) * body.r < near:
             body.kept += dt
         else:
-            body.kept, body.place = 0.0, (body.x, body.y, body.turn)
+            body.kept, body.kept_at = 0.0, (body.x, body.y, body.turn)
 
     def put_to_sleep(self) -> None:
         """Put islands to sleep that lie still."""

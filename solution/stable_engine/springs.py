@@ -168,7 +168,7 @@ class Springs(Joints[Spring]):
         self.find_networks()
         return [spring for spring in self.awake if spring.is_stiff(h)]
 
-    def pull(self, body: Body, h: float) -> tuple[float, float]:
+    def acceleration(self, body: Body, h: float) -> tuple[float, float]:
         """Return the acceleration (px/s²) of a body by its springs that are not stiff."""
         x = y = 0.0
         for spring in self.springs_of.get(body, []):

@@ -22,20 +22,20 @@ def put_back(
     body: Body,
     way: tuple[float, float],
     fraction: float,
-    pull: Callable[[Body], tuple[float, float]],
+    acceleration: Callable[[Body], tuple[float, float]],
     h: float,
 ) -> None:
     """Put a ball back to where it was after this fraction of its way (px) in a step.
 
     The step counts as one straight flight. The ball keeps its velocity, less the speed gained on
-    the rest of the way by its acceleration: `pull` returns that (px/s²).
+    the rest of the way by its `acceleration` (px/s²).
     """
     x, y, dx, dy = body.x, body.y, way[0] * (1 - fraction), way[1] * (1 - fraction)
-    pulls = []
+    found = []
     for part in (0.0, 0.5, 1.0):
         body.x, body.y = x - dx * part, y - dy * part
-        pulls.append(pull(body))
-    (ax, ay), (mx, my), (bx, by) = pulls
+        found.append(acceleration(body))
+    (ax, ay), (mx, my), (bx, by) = found
     ux, uy = body.vx + ax * h / 2, body.vy + ay * h / 2  # velocities lag half a substep behind
     gained = ((ax + 4 * mx + bx) * dx + (ay + 4 * my + by) * dy) / 3  # px²/s², by Simpson's rule
     speed2 = ux * ux + uy * uy

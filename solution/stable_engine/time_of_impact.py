@@ -22,7 +22,7 @@ class TimeOfImpact:
         self.faces = faces
         self.flight = faces.flight
         self.frame_of = faces.flight.frame_of
-        self.slow = faces.flight.slow  # px/s, slower impacts are ignored
+        self.least_speed = faces.flight.least_speed  # px/s, slower impacts are ignored
         self.touching_gap = contacts.touching_gap
         self.turned: list[Contact] = []  # contacts with the normal of their touch
 
@@ -46,7 +46,7 @@ class TimeOfImpact:
                 return 0.0
         if is_face:
             ago = self.time_below(c, since)
-            if ago <= 0 or c.closing_speed() <= self.slow or was_at_face(c, ago):
+            if ago <= 0 or c.closing_speed() <= self.least_speed or was_at_face(c, ago):
                 return ago + late if ago > 0 else ago
         if late or self.contacts.late_by(b):
             ago, nx, ny = self.contacts.look_back_late(a, b)
@@ -86,7 +86,7 @@ class TimeOfImpact:
 
         In that time it may have been hit, so this has slack for a fall; a load overlaps before it.
         """
-        g, lag = self.flight.pull(c)
+        g, lag = self.flight.closing_acceleration(c)
         closing = c.closing_speed()
         speed = (speed_at_touch(c, closing, g, lag) + closing + lag) / 2
         deeper = -c.gap - speed * since
@@ -103,7 +103,7 @@ class TimeOfImpact:
         x, y = a.x, a.y
         for _ in range(ARC_PASSES):
             speed = c.closing_speed()
-            if speed <= self.slow or abs(gap) <= self.touching_gap:
+            if speed <= self.least_speed or abs(gap) <= self.touching_gap:
                 break
             more = min(-gap / speed, since - ago)
             ago += more
@@ -116,7 +116,7 @@ class TimeOfImpact:
 
     def slack(self, c: Contact, since: float) -> float:
         """Return how much deeper (px) a ball may be in a face, as it fell or was under a load."""
-        g, _ = self.flight.pull(c)
+        g, _ = self.flight.closing_acceleration(c)
         return self.touching_gap + abs(g) * since * since + self.faces.depth(c)
 
     def look_back(self, c: Contact, since: float) -> tuple[float, float, float]:
@@ -139,6 +139,9 @@ class TimeOfImpact:
 
 
 def speed_at_touch(c: Contact, closing: float, g: float, lag: float) -> float:
-    """Return how fast (px/s) a pair came together when it touched; g and lag: see Flight.pull."""
+    """Return how fast (px/s) a pair came together when it touched.
+
+    For g and lag, see Flight.closing_acceleration.
+    """
     speed = closing + lag
     return sqrt(max(speed * abs(speed) + 2 * g * c.gap, 0.0)) if g else speed
