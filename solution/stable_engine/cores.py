@@ -8,7 +8,7 @@ from .contact import Contact, collide, leave_as_entered
 from .detection import Detection, pair_number
 from .soft import SAME_DIRECTION
 from .stop import Stop, lose_energy, put_back
-from .sweep import NO_HIT, drop_covered, first_hit, first_stop, free_share
+from .sweep import NO_HIT, drop_covered, first_hit, first_stop, free_share, has_entered
 
 CORE = 0.5  # radii
 SWEEP_FROM = 0.5  # radii, a bullet that moves further in one step is swept
@@ -112,7 +112,7 @@ class Cores:
         """
         a, b = c.a, c.b
         nx, ny, now = leave_as_entered(c, *collide(a, b))
-        if nx * c.nx + ny * c.ny < SAME_DIRECTION and self.went_through(c):
+        if nx * c.nx + ny * c.ny < SAME_DIRECTION and (c.found < -a.r or has_entered(a, b)):
             nx, ny, now = c.nx, c.ny, gap
         back = min(c.found, -CORE * a.r) - now
         if back > self.contacts.touching_gap and not self.contacts.find_cover(c):
@@ -128,14 +128,6 @@ class Cores:
             _, _, nx, ny = faces[at]
             body.vx, body.vy = body.vx - nx * fast, body.vy - ny * fast
         self.contacts.broad_phase.note_leaver(body)
-
-    def went_through(self, c: Contact) -> bool:
-        """Return whether the centre of a ball was in a static body at any time in this step."""
-        if c.found < -c.a.r:
-            return True
-        a = c.a
-        way = a.x - a.last_x, a.y - a.last_y
-        return first_hit([c.b], 0.0, a.last_x, a.last_y, *way) < NO_HIT
 
     def sweep(
         self, body: Body, start: tuple[float, float], radius: float, overlap: float, h: float

@@ -14,7 +14,7 @@ from .frame import Frame
 from .hit import resolve
 from .impact_queue import ImpactQueue
 from .order import balls_of
-from .sweep import NO_HIT, first_hit, moment_of_touch, was_at_face
+from .sweep import has_entered, moment_of_touch, was_at_face
 from .time_of_impact import ARC_PASSES, TimeOfImpact
 
 MOVED = 0.01  # radii; a ball that was hit and moved by less meets nothing new
@@ -448,5 +448,4 @@ def seen_from_start(a: Body, b: Body, since: float) -> tuple[float, float, float
         if was_at_face(before, ago):
             return seen
         return nx, ny, ((b.vx - a.vx) * nx + (b.vy - a.vy) * ny) * ago
-    way = x - a.last_x, y - a.last_y
-    return seen if first_hit([b], 0.0, a.last_x, a.last_y, *way) < NO_HIT else now
+    return seen if has_entered(a, b) else now

@@ -33,17 +33,8 @@ class Coupling:
 
 
 Fill = tuple[Coupling, Coupling, Coupling]
-
-
-class Elimination:
-    """The elimination of a row: its couplings to later rows, and the changes it makes to those."""
-
-    __slots__ = ("couplings", "fills", "row")
-
-    def __init__(self, row: Row, couplings: list[Coupling], fills: list[Fill]) -> None:
-        self.row = row
-        self.couplings = couplings
-        self.fills = fills
+# a row that is eliminated, its couplings to later rows, and the changes that it makes to those
+Elimination = tuple[Row, list[Coupling], list[Fill]]
 
 
 class Network(Generic[AnyRow]):
@@ -78,7 +69,7 @@ class Network(Generic[AnyRow]):
                     self.filled.append(there)
                 fills.append((before, c, there))
             couplings.append(c)
-        return Elimination(row, couplings, fills)
+        return row, couplings, fills
 
     def solve(self) -> None:
         """Find the impulses that together give each row its speed.
@@ -91,21 +82,19 @@ class Network(Generic[AnyRow]):
             c.value = c.weight * (one.nx * other.nx + one.ny * other.ny) + c.spin
         for c in self.filled:
             c.value = 0.0
-        for step in self.eliminations:
-            if step.couplings:
-                row = step.row
+        for row, couplings, fills in self.eliminations:
+            if couplings:
                 pivot, rhs = row.pivot, row.rhs
-                for c in step.couplings:
+                for c in couplings:
                     share = c.share = c.value / pivot
                     other = c.other
                     other.pivot -= share * c.value
                     other.rhs -= share * rhs
-                for c, d, filled in step.fills:
+                for c, d, filled in fills:
                     filled.value -= c.share * d.value
-        for step in self.backwards:
-            row = step.row
+        for row, couplings, _ in self.backwards:
             rhs = row.rhs / row.pivot
-            for c in step.couplings:
+            for c in couplings:
                 rhs -= c.share * c.other.rhs
             row.rhs = rhs
 

@@ -54,6 +54,12 @@ def first_hit(
     return fraction
 
 
+def has_entered(a: Body, b: Body) -> bool:
+    """Return whether the centre of a ball entered a static body on its straight way in the step."""
+    x, y = a.last_x - b.x, a.last_y - b.y
+    return hit_body(b, 0.0, x, y, a.x - a.last_x, a.y - a.last_y) < NO_HIT
+
+
 def drop_covered(
     statics: list[Body], radius: float, x: float, y: float, dx: float, dy: float, edge: float
 ) -> list[Body]:
