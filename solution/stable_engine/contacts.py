@@ -121,9 +121,9 @@ class Contacts(Detection):
         tilted = [c for c in self.statics.contacts if not c.b.r and c.nx and c.ny]
         for c in [c for c in tilted if not is_at_face(c)]:
             pair = self.find_cover(c)
-            cover = pair.contact if pair else None
-            if cover:
-                cover.jn, cover.jt = cover.jn + c.jn, cover.jt + c.jt
+            if pair and pair.contact:
+                pair.contact.jn += c.jn
+                pair.contact.jt += c.jt
                 c.jn = c.jt = 0.0
                 c.gap = FAR_APART * c.a.r
                 self.renewed = [*self.renewed, c]

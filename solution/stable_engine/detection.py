@@ -37,7 +37,7 @@ class Detection(Effect):
         *("lets_none_pass", "last_dt", "flying", "hit_ago", "stops"),
         *("broad_phase", "crowd", "beside_static", "landings", "rods", "balls", "statics"),
         *("groups", "unpaired", "ignored", "h", "touching_gap", "speculative_speed", "springs"),
-        *("all_part", "begin_contact_hooks", "is_resting"),
+        *("all_part", "is_resting"),
     )
 
     def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:
@@ -70,7 +70,6 @@ class Detection(Effect):
     def attach(self) -> None:
         self.touching_gap = TOUCHING * self.world.unit  # px
         self.speculative_speed = SPECULATIVE_SPEED * self.world.unit  # px/s
-        self.begin_contact_hooks = self.world.hooks["begin_contact"]
         self.landings = Landings(self)
         self.rods, self.springs = self.world.find(Rods), self.world.find(Springs)
 
@@ -243,7 +242,7 @@ class Detection(Effect):
         """Return a new contact with this normal, filled in by the other effects."""
         c = Contact(a, b)
         c.nx, c.ny = nx, ny
-        for begin_contact in self.begin_contact_hooks:
+        for begin_contact in self.world.hooks["begin_contact"]:
             begin_contact(c)
         self.begun.append(c)
         is_fresh = a.is_fresh or (b.inv_mass > 0 and b.is_fresh)
@@ -435,7 +434,7 @@ class Detection(Effect):
         """Fill in the body's contacts anew, and wake whatever touches it."""
         for c in self.of_body(body):
             c.weigh()
-            for begin_contact in self.begin_contact_hooks:
+            for begin_contact in self.world.hooks["begin_contact"]:
                 begin_contact(c)
         self.wake_beside(body)
         self.broad_phase.bounds = []

@@ -86,15 +86,9 @@ class Flight:
                 body.x, body.y, body.vx, body.vy = self.before[body]
         self.moved = {*hit, *self.partners}
 
-    def frames_of(self, contacts: list[Contact]) -> list[Frame]:
-        """Return each frame of rods that a ball of these contacts is in."""
-        found: dict[Frame, None] = {}
-        for c in contacts if self.frame_of else []:
-            for body in (c.a, c.b):
-                frame = self.frame_of.get(body)
-                if frame:
-                    found[frame] = None
-        return list(found)
+    def frames_of(self, balls: list[Body]) -> list[Frame]:
+        """Return each frame of rods that any of these balls is in."""
+        return list(dict.fromkeys([self.frame_of[b] for b in balls if b in self.frame_of]))
 
     def leave_behind(self) -> None:
         """Put the balls that flew with others back, and note what has changed on their flight."""
@@ -125,13 +119,9 @@ class Flight:
         free = hit
         if self.frame_of:
             free = [body for body in hit if body not in self.frame_of]
-            flying: dict[Frame, None] = {}
-            for body in hit:
-                if body in self.pivots:
-                    self.swing(body, seconds)
-                elif body in self.frame_of:
-                    flying[self.frame_of[body]] = None
-            for frame in flying:
+            for body in [body for body in hit if body in self.pivots]:
+                self.swing(body, seconds)
+            for frame in self.frames_of([body for body in hit if body not in self.pivots]):
                 self.fly_frame(frame, seconds)
         if not self.springs_of:
             is_plain = self.is_simple and not (self.bearing or self.pivots)

@@ -157,14 +157,12 @@ class Impacts:
         now = c.nx, c.ny, c.gap
         ago = self.times.turn_back(c) if c.gap < 0 or is_new else 0.0
         speed = c.closing_speed()
-        if speed <= self.least_speed:
+        is_covered = speed > self.least_speed and not c.b.r and self.is_covered(c, ago)
+        if is_covered or speed <= self.least_speed:
             c.nx, c.ny, c.gap = now
-        elif not c.b.r and self.is_covered(c, ago):
-            c.nx, c.ny, c.gap = now
-            return True
         elif ago > 0 or not self.is_open(c):
             self.queue.add(c, ago, speed)
-        return False
+        return is_covered
 
     def is_covered(self, c: Contact, ago: float = 0.0) -> bool:
         """Return whether a ball was at a corner some seconds ago that another body covers.
@@ -193,10 +191,10 @@ class Impacts:
         found: dict[Contact, None] = {}
         for c in group:
             pair = None if c.b.r else self.contacts.find_cover(c)
-            cover = pair.contact if pair else None
-            if cover:
-                self.faces.look(cover)
-            found[cover or c] = None
+            if pair and pair.contact:
+                c = pair.contact
+                self.faces.look(c)
+            found[c] = None
         return list(found)
 
     def is_open(self, c: Contact) -> bool:
@@ -229,19 +227,14 @@ class Impacts:
         """Stop balls before walls, if an impact took them through: on them, or by a joint."""
         contacts = self.contacts
         moved = [*contacts.hit_ago, *[body for body, _ in self.flight.changes]]
-        if self.frame_of:
-            frames = dict.fromkeys([self.frame_of[body] for body in moved if body in self.frame_of])
-            frames.update(dict.fromkeys(self.returned))
-            moved = list(dict.fromkeys([*moved, *[b for frame in frames for b in frame.balls]]))
+        frames = [*self.flight.frames_of(moved), *self.returned]
+        moved = list(dict.fromkeys([*moved, *[ball for frame in frames for ball in frame.balls]]))
         for body in moved:
             if body not in contacts.hit_ago:
                 contacts.note_impact(body, 0.0)  # so the next step may stop it before a wall
         bends, beside = self.flight.bends, self.beside
-        stopped = [
-            b for b in moved if contacts.cores.stop_hit(b, beside.get(b, []), bends.get(b, []))
-        ]
-        if stopped:
-            self.follow(stopped)
+        stop = contacts.cores.stop_hit
+        self.follow([b for b in moved if stop(b, beside.get(b, []), bends.get(b, []))])
 
     def is_alone(self, c: Contact) -> bool:
         """Return whether an impact affects no other contact."""
@@ -281,7 +274,7 @@ class Impacts:
             if ago == 0:
                 self.put_back(hit)
                 self.times.see_from_here(group)
-            frames = self.flight.frames_of(group)
+            frames = self.flight.frames_of(hit)
             for frame in frames:
                 others = [ball for ball in frame.balls if ball in self.beside or ball.is_bullet]
                 hit += [ball for ball in others if ball not in hit]
