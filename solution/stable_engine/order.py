@@ -3,6 +3,7 @@
 from bisect import insort
 from collections import Counter
 from collections.abc import Callable
+from itertools import groupby
 from math import hypot
 from operator import attrgetter
 
@@ -159,13 +160,7 @@ def find_ties(group: Group, grain: float) -> None:
 
 def in_same_place(contacts: list[Contact]) -> list[list[Contact]]:
     """Return contacts that are in order, as lists of those in the same place."""
-    lists: list[list[Contact]] = []
-    for c in contacts:
-        if lists and lists[-1][0].place == c.place:
-            lists[-1].append(c)
-        else:
-            lists.append([c])
-    return lists
+    return [list(same) for _, same in groupby(contacts, PLACE)]
 
 
 def share_of_each(contacts: list[Contact]) -> float:
