@@ -3,7 +3,7 @@
 Read in this order: shapes, body, effect, world (lags, check), contact, detection, order, contacts,
 friction, bounce, then any other effect. Effects with more than one file:
 
-- Contacts finds in detection, by broad_phase (bounds), contact and landings, and tells news. It
+- Contacts finds in detection, by broad_phase (bounds), contact and landings, and tells events. It
   solves in contacts, by order and piles (pile, unload). It keeps balls out of walls in cores
   (sweep, stop), and parts bodies that a program puts into each other in crowd.
 - Bounce: bounce, impacts, impact_queue, time_of_impact, flight, faces, hit.

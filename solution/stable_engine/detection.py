@@ -8,8 +8,8 @@ from .bounds import Pair
 from .broad_phase import BroadPhase
 from .contact import Contact, collide, is_over_face, leave_as_entered
 from .effect import Effect
+from .events import Events
 from .landings import Landings
-from .news import News
 from .order import Group
 from .rods import Rods
 from .soft import SAME_DIRECTION
@@ -33,7 +33,7 @@ class Detection(Effect):
     """The part of Contacts that finds them, once per step, and tells the program of new ones."""
 
     __slots__ = (
-        *("on_hit", "on_part", "news", "touching", "begun", "renewed", "changed"),
+        *("on_hit", "on_part", "events", "touching", "begun", "renewed", "changed"),
         *("lets_none_pass", "last_dt", "flying", "hit_ago", "stops"),
         *("broad_phase", "crowd", "beside_static", "landings", "rods", "balls", "statics"),
         *("groups", "unpaired", "ignored", "h", "touching_gap", "speculative_speed", "springs"),
@@ -46,7 +46,7 @@ class Detection(Effect):
         if on_part is not None and not callable(on_part):
             refuse("Contacts.on_part", on_part, "a function of two bodies, or None")
         self.on_hit, self.on_part = on_hit, on_part
-        self.news = News(self)
+        self.events = Events(self)
         self.touching: list[Contact] = []
         self.begun: list[Contact] = []  # contacts that are new in this step
         self.changed = False  # whether any contact was found anew, began or ended
@@ -164,7 +164,7 @@ class Detection(Effect):
         slow, touching_gap = self.speculative_speed, self.touching_gap
         margin, slow2 = slow * dt, slow * slow
         back = self.last_dt if self.lets_none_pass else 0.0
-        stops, gone = self.stops, self.news.gone
+        stops, gone = self.stops, self.events.gone
         for pair in self.broad_phase.pairs:
             a, b, c = pair.a, pair.b, pair.contact
             if not (a.has_moved or b.has_moved) and (c is None or c.gap == c.found):
@@ -192,15 +192,15 @@ class Detection(Effect):
             if is_apart:
                 if c:
                     pair.contact = None
-                    self.news.note_part(c)
+                    self.events.note_part(c)
                 continue
             if c is None:
                 c = pair.contact = self.make_contact(a, b, nx, ny)
-                self.news.note_hit(c)
+                self.events.note_hit(c)
                 if gap < -touching_gap and self.last_dt == 0:  # a program has put them there
                     self.crowd[c] = True
             elif gone and c in gone:
-                self.news.note_again(c)
+                self.events.note_again(c)
             if not b.r:
                 nx, ny, gap = leave_as_entered(c, nx, ny, gap)
             if nx * c.nx + ny * c.ny < SAME_DIRECTION:
@@ -281,7 +281,7 @@ class Detection(Effect):
         for pair in self.broad_phase.pairs:
             if pair.contact in missed:
                 pair.contact = None
-        self.news.hits = {c: hit for c, hit in self.news.hits.items() if c not in missed}
+        self.events.hits = {c: hit for c, hit in self.events.hits.items() if c not in missed}
         self.touching = [c for c in self.touching if c not in missed]
         self.begun = [c for c in self.begun if c not in missed]
         self.group_contacts()
@@ -297,7 +297,7 @@ class Detection(Effect):
             if c.a.asleep and c.b.idle:
                 self.unpaired[number] = c
             else:
-                self.news.note_part(c)
+                self.events.note_part(c)
 
     def find_cover(self, c: Contact, ago: float = 0.0) -> Pair | None:
         """Return the pair of a ball and the static body that covers a corner, or None.
@@ -401,10 +401,10 @@ class Detection(Effect):
 
     def tell(self, h: float) -> None:
         if self.on_hit or self.on_part:
-            self.news.find_gone()
+            self.events.find_gone()
         self.last_dt, self.stops = 0.0, {}  # impacts are over; a program may change anything now
-        if self.news.hits or self.news.parted:
-            self.news.tell()
+        if self.events.hits or self.events.parted:
+            self.events.tell()
 
     def let_touch(self, a: Body, b: Body, may: bool) -> None:
         if may:
@@ -413,7 +413,7 @@ class Detection(Effect):
         else:
             self.ignored.add(pair_number(a, b))
             for c in [c for c in self.of_body(a) if b in (c.a, c.b)]:
-                self.news.note_part(c)
+                self.events.note_part(c)
             self.drop(a, b)
 
     def all_contacts(self) -> list[Contact]:

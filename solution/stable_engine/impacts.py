@@ -182,7 +182,7 @@ class Impacts:
             if not self.beside:
                 self.link(self.contacts.touching)
             c = self.contacts.meet(pair, nx, ny, ((b.vx - a.vx) * nx + (b.vy - a.vy) * ny) * ago)
-            self.contacts.news.note_hit(c, ago)
+            self.contacts.events.note_hit(c, ago)
             self.take_in([c])
             self.look(c, is_new=True)
 
@@ -258,12 +258,12 @@ class Impacts:
     def resolve_first(self) -> None:
         """Resolve the first impacts, and find those that they cause."""
         group, ago = self.queue.take_first()
-        news = self.contacts.news
+        events = self.contacts.events
         for c in group:
-            is_new = c in self.begun or c in news.again
-            if is_new and c in news.hits and self.queue.counts[c] == 1:
-                news.note_hit(c, ago)
-            news.again.pop(c, None)
+            is_new = c in self.begun or c in events.again
+            if is_new and c in events.hits and self.queue.counts[c] == 1:
+                events.note_hit(c, ago)
+            events.again.pop(c, None)
         if len(group) == 1 and self.is_alone(group[0]):
             hit = self.resolve_alone(group[0], ago)
         else:
@@ -408,7 +408,7 @@ class Impacts:
             return
         if gap < 0 or self.contacts.have_passed(a, b, gap):
             c = self.contacts.meet(pair, nx, ny, gap)
-            self.contacts.news.note_hit(c)
+            self.contacts.events.note_hit(c)
             met.append(c)
 
 

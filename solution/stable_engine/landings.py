@@ -59,4 +59,4 @@ class Landings:
             speed = self.speeds.pop(c)
             if self.contacts.on_hit:
                 ago = self.contacts.last_dt - c.found / speed if speed else 0.0
-                self.contacts.news.hits[c] = max(ago, 0.0), speed
+                self.contacts.events.hits[c] = max(ago, 0.0), speed

@@ -1,4 +1,4 @@
-"""News of a step for the program: which pairs met, and which parted."""
+"""Events of a step for the program: which pairs met, and which parted."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from .detection import Detection
 
 
-class News:
-    """Whom on_hit and on_part of Contacts will be called for, and when in the step it happened."""
+class Events:
+    """The pairs for which Contacts will call on_hit and on_part, and when in the step."""
 
     __slots__ = ("again", "contacts", "gone", "hits", "parted")
 
@@ -87,13 +87,13 @@ class News:
         """Call on_hit and on_part, in order, for bodies that are still in the world."""
         contacts = self.contacts
         parted = [(ago, c, None) for c, ago in self.parted.items()]
-        news: list[tuple[float, Contact, float | None]] = [
+        events: list[tuple[float, Contact, float | None]] = [
             *[part for part in parted if part[1] not in self.hits],  # before hits of that moment
             *[(ago, c, speed) for c, (ago, speed) in self.hits.items()],
             *[part for part in parted if part[1] in self.hits],
         ]
         self.hits, self.parted = {}, {}
-        for _, c, speed in sorted(news, key=itemgetter(0), reverse=True):
+        for _, c, speed in sorted(events, key=itemgetter(0), reverse=True):
             if c.a.world is c.b.world is contacts.world:
                 if speed is not None and contacts.on_hit:
                     contacts.on_hit(c.a, c.b, speed)
