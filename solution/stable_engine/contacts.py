@@ -204,7 +204,7 @@ class Contacts(Detection):
 
     def solve(self, h: float) -> None:
         for pile in self.piles:
-            pile.look(h)
+            pile.note_lengths(h)
         self.press_on(h, has_moved=False)
         if self.piles:
             rates = self.balls.bias_rate, self.statics.bias_rate

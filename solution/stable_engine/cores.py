@@ -7,7 +7,7 @@ from .body import Body, State, state_of
 from .contact import Contact, collide, leave_as_entered
 from .detection import Detection, pair_number
 from .soft import SAME_DIRECTION
-from .stop import Stop, lose_energy, put_back
+from .stop import Stop, lose_energy, rewind
 from .sweep import NO_HIT, drop_covered, first_hit, first_stop, free_share, has_entered
 
 CORE = 0.5  # radii
@@ -161,11 +161,11 @@ class Cores:
         if springs and body.joint_count:
             stiff = springs.stiff_around(body, h)
             stored = springs.energy_in(stiff)
-            put_back(body, way, fraction, self.acceleration, h)
+            rewind(body, way, fraction, self.acceleration, h)
             self.take_along(springs.others_on(stiff, body), end[0] - body.x, end[1] - body.y, h)
             lose_energy(body, springs.energy_in(stiff) - stored)
         else:
-            put_back(body, way, fraction, self.acceleration, h)
+            rewind(body, way, fraction, self.acceleration, h)
         is_on_rod = contacts.rods is not None and contacts.rods.holds(body)
         earlier = contacts.stops.get(body)
         before = earlier.time if earlier else contacts.last_dt
@@ -196,7 +196,7 @@ class Cores:
             way = body.x - dx - x, body.y - dy - y
             share = free_share(body, self.world.statics, CORE * body.r, (x, y), *way)
             back = body.x - x - way[0] * share, body.y - y - way[1] * share
-            put_back(body, back, 0.0, self.acceleration, h)
+            rewind(body, back, 0.0, self.acceleration, h)
             contacts.broad_phase.note_leaver(body)
 
     def acceleration(self, body: Body) -> tuple[float, float]:

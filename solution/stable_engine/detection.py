@@ -130,14 +130,14 @@ class Detection(Effect):
                 self.unpaired[pair_number(c.a, c.b)] = c
             phase.is_free = self.world.is_falling() and not held
         found = phase.renew(g, held, dt, back, self.speculative_speed * dt)
-        self.take_in(found)
+        self.add_pairs(found)
         touched = {c.a for c in self.unpaired.values()}
         for pair in found if touched else []:
             if pair.a in touched:
                 pair.contact = self.unpaired.pop(pair_number(pair.a, pair.b), None)
         return found
 
-    def take_in(self, found: list[Pair]) -> None:
+    def add_pairs(self, found: list[Pair]) -> None:
         """Note new near pairs, and drop those to ignore."""
         phase = self.broad_phase
         if self.ignored:

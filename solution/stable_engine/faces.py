@@ -25,7 +25,7 @@ class Faces:
             self.normals[c] = c.nx, c.ny, reach, before
             self.flight.rest(c)
 
-    def look(self, c: Contact) -> None:
+    def measure(self, c: Contact) -> None:
         """Find normal and gap of a contact anew. A ball stays on its side of a face."""
         nx, ny, gap = collide(c.a, c.b)
         if c in self.normals:
@@ -74,7 +74,7 @@ class Faces:
             ball.x -= nx * up
             ball.y -= ny * up
         for c in faces:
-            self.look(c)
+            self.measure(c)
 
     def leave(
         self, ways: list[tuple[float, Contact]], up: float, vx: float, vy: float

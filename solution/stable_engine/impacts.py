@@ -62,7 +62,7 @@ class Impacts:
             self.queue.due.clear()
             fast = select_fast(self.contacts.touching, self.least_speed)
         for c in fast:
-            self.look(c, c in self.begun or c.a.flown < inf or c.b.flown < inf)
+            self.find_impact(c, c in self.begun or c.a.flown < inf or c.b.flown < inf)
 
     def let_pass(self) -> None:
         """Let balls that a face stopped fly on to the end of the step, if they will bounce off it.
@@ -84,10 +84,10 @@ class Impacts:
                     stopped[frame] = max(since, stopped.get(frame, 0.0))
         for frame, since in stopped.items():
             if not any([ball in self.flight.springs_of for ball in frame.balls]):
-                self.take_back(frame, since)
+                self.rewind_frame(frame, since)
                 self.returned.append(frame)
 
-    def take_back(self, frame: Frame, ago: float) -> None:
+    def rewind_frame(self, frame: Frame, ago: float) -> None:
         """Let a frame fly back to a touch, as a wall stopped one of its balls so long (s) ago.
 
         Without the others, the ball would be off the lengths of its rods.
@@ -104,14 +104,14 @@ class Impacts:
             self.flight.fly_frame(frame, -ago)
             left -= ago
             for c in walls:
-                self.faces.look(c)
+                self.faces.measure(c)
             walls = [c for c in walls if c.closing_speed() > self.least_speed]
             if not walls:
                 break
             ago = min(max([-c.gap / c.closing_speed() for c in walls]), left)
         for ball in frame.balls:
             for c in self.beside.get(ball, []):
-                self.faces.look(c)
+                self.faces.measure(c)
 
     def try_to_pass(self, body: Body, end: State) -> bool:
         """Put a ball that a wall stopped where it would be, if it will bounce off from there."""
@@ -121,7 +121,7 @@ class Impacts:
             return False
         walls = [c for c in self.beside.get(body, []) if c.b.is_static]
         self.put(body, end)
-        walls = [c for c in walls if not self.look(c, c in self.begun)]
+        walls = [c for c in walls if not self.find_impact(c, c in self.begun)]
         known = {c for c in walls if c in self.queue.due and self.queue.due[c][0] < 0}
         sunk = [c for c in walls if self.faces.added_depth(c) > self.touching_gap]
         if known and known.issuperset(sunk):
@@ -130,7 +130,7 @@ class Impacts:
         self.put(body, stop)
         return False
 
-    def put_back(self, bodies: list[Body]) -> None:
+    def return_to_stops(self, bodies: list[Body]) -> None:
         """Put balls that walls stopped back there, as they will not bounce off them."""
         for body in bodies:
             if body in self.contacts.stops:
@@ -144,9 +144,9 @@ class Impacts:
         if body in self.flight.before:
             self.flight.before[body] = state
         for c in self.beside.get(body, []):
-            self.faces.look(c)
+            self.faces.measure(c)
 
-    def look(self, c: Contact, is_new: bool = False) -> bool:
+    def find_impact(self, c: Contact, is_new: bool = False) -> bool:
         """Note an impact if the pair closes in fast, or did before it passed each other.
 
         Return whether it would be at a corner that another body covers: this is no impact.
@@ -171,10 +171,10 @@ class Impacts:
         """
         pair = self.contacts.find_cover(c, ago)
         if pair and pair.contact is None:
-            self.meet_before(pair)
+            self.meet_cover(pair)
         return pair is not None
 
-    def meet_before(self, pair: Pair) -> None:
+    def meet_cover(self, pair: Pair) -> None:
         """Add the contact of a ball and a static body that it touched, and then flew past."""
         a, b = pair.a, pair.b
         ago, nx, ny = moment_of_touch(a, b, self.contacts.flight_of(a, b))
@@ -183,8 +183,8 @@ class Impacts:
                 self.link(self.contacts.touching)
             c = self.contacts.meet(pair, nx, ny, ((b.vx - a.vx) * nx + (b.vy - a.vy) * ny) * ago)
             self.contacts.events.note_hit(c, ago)
-            self.take_in([c])
-            self.look(c, is_new=True)
+            self.add_contacts([c])
+            self.find_impact(c, is_new=True)
 
     def uncover(self, group: list[Contact]) -> list[Contact]:
         """Return contacts, those of other bodies instead where these cover their corners now."""
@@ -193,7 +193,7 @@ class Impacts:
             pair = None if c.b.r else self.contacts.find_cover(c)
             if pair and pair.contact:
                 c = pair.contact
-                self.faces.look(c)
+                self.faces.measure(c)
             found[c] = None
         return list(found)
 
@@ -209,12 +209,12 @@ class Impacts:
             self.link(self.contacts.touching)
         while self.queue.due:
             self.resolve_first()
-        self.put_back(list(self.passing))
+        self.return_to_stops(list(self.passing))
         for c in self.times.turned:
             self.times.turn_on(c, 0.0)
         deep: dict[Body, list[Contact]] = {}
         for c in self.faces.normals:
-            self.faces.look(c)
+            self.faces.measure(c)
             if c.gap < 0:
                 deep.setdefault(c.a, []).append(c)
         for faces in deep.values():
@@ -234,7 +234,7 @@ class Impacts:
                 contacts.note_impact(body, 0.0)  # so the next step may stop it before a wall
         bends, beside = self.flight.bends, self.beside
         stop = contacts.cores.stop_hit
-        self.follow([b for b in moved if stop(b, beside.get(b, []), bends.get(b, []))])
+        self.find_pairs([b for b in moved if stop(b, beside.get(b, []), bends.get(b, []))])
 
     def is_alone(self, c: Contact) -> bool:
         """Return whether an impact affects no other contact."""
@@ -247,11 +247,11 @@ class Impacts:
         hit = [c.a, c.b] if c.b.inv_mass else [c.a]
         if ago > 0 and self.flight.can_all_go_back(hit):
             self.resolve_at_touch([c], hit, ago, [])
-            self.faces.look(c)
+            self.faces.measure(c)
             for body in hit:
                 self.note_impact(body, ago)
         else:
-            self.put_back(hit)
+            self.return_to_stops(hit)
             resolve([c], [], self.flight)
         return hit
 
@@ -272,7 +272,7 @@ class Impacts:
                 self.return_passed(group, ago)
                 ago = 0.0
             if ago == 0:
-                self.put_back(hit)
+                self.return_to_stops(hit)
                 self.times.see_from_here(group)
             frames = self.flight.frames_of(hit)
             for frame in frames:
@@ -297,7 +297,7 @@ class Impacts:
                 self.flight.fly([body], -ago)
                 self.passing.pop(body, None)
                 for c in self.beside[body]:
-                    self.faces.look(c)
+                    self.faces.measure(c)
 
     def resolve_at_touch(
         self, group: list[Contact], hit: list[Body], ago: float, frames: list[Frame]
@@ -319,7 +319,7 @@ class Impacts:
         for body in hit if self.passing else []:
             self.passing.pop(body, None)
         for c in group:
-            self.faces.look(c)
+            self.faces.measure(c)
         resolve(self.uncover(group) if frames else group, frames, self.flight)
         for wall, (x, y) in walls.items():
             wall.x, wall.y = x, y
@@ -340,11 +340,11 @@ class Impacts:
         around = list(dict.fromkeys([c for body in hit for c in self.beside[body]]))
         if ago > 0:
             for c in around:
-                self.faces.look(c)
+                self.faces.measure(c)
         for c in around:
             self.queue.due.pop(c, None)
         for c in select_fast(around, self.least_speed):
-            self.look(c, is_new=ago > 0)
+            self.find_impact(c, is_new=ago > 0)
 
     def link(self, contacts: list[Contact]) -> None:
         """Add to the contacts of each ball, and to the balls that static bodies hold."""
@@ -355,27 +355,27 @@ class Impacts:
             elif not (c in self.faces.normals or c in self.begun or self.is_covered(c)):
                 self.flight.held.add(c.a)
 
-    def follow(self, moved: list[Body]) -> None:
+    def find_pairs(self, moved: list[Body]) -> None:
         """Find the near pairs of bodies that impacts have moved, if out of their rooms."""
         rooms = self.contacts.broad_phase.rooms
         thrown = [body for body in moved if not rooms[body].holds()]
         if thrown:
             found = self.contacts.broad_phase.follow(thrown, self.dt, self.reach)
-            self.contacts.take_in(found)
+            self.contacts.add_pairs(found)
 
     def meet_others(self, hit: list[Body]) -> None:
         """Find impacts of balls that were hit with bodies which they did not touch before."""
         met: list[Contact] = []
-        self.follow(hit)
+        self.find_pairs(hit)
         for body in hit:
             x, y, far = body.x - body.last_x, body.y - body.last_y, MOVED * body.r
             if x * x + y * y > far * far:
                 for pair in self.contacts.broad_phase.rooms[body].pairs:
                     if pair.contact is None:
-                        self.meet(pair, met)
+                        self.add_if_touching(pair, met)
         if not met:
             return
-        self.take_in(met)
+        self.add_contacts(met)
         for body in hit:
             stop = self.flight.stops.get(body)
             if stop and stop.end and any([c.a is body and c.b.is_static for c in met]):
@@ -384,9 +384,9 @@ class Impacts:
                 if not self.try_to_pass(body, stop.end):
                     self.contacts.note_impact(body, flown)
         for c in met:
-            self.look(c, is_new=True)
+            self.find_impact(c, is_new=True)
 
-    def take_in(self, met: list[Contact]) -> None:
+    def add_contacts(self, met: list[Contact]) -> None:
         """Take in contacts that began through impacts."""
         self.met += met
         self.begun.update(met)
@@ -394,7 +394,7 @@ class Impacts:
             self.faces.note(c, 0.0)
         self.link(met)
 
-    def meet(self, pair: Pair, met: list[Contact]) -> None:
+    def add_if_touching(self, pair: Pair, met: list[Contact]) -> None:
         """Add the contact of a near pair to those that have met, if impacts have made it touch."""
         a, b, ignored = pair.a, pair.b, self.contacts.ignored
         if a in self.passing or b in self.passing or (ignored and pair_number(a, b) in ignored):

@@ -29,12 +29,12 @@ class LimitedRow(Row):
             a, b = b, a
         super().__init__(a, b, 0.0, 0.0)
         self.c = c
-        self.follow()
+        self.update_normal()
         self.low, self.high = 0.0, inf  # kg px/s
         self.total = 0.0  # kg px/s, its impulse so far
         self.at = 0.0  # -1 at the lower limit, 1 at the upper one, 0 between them
 
-    def follow(self) -> None:
+    def update_normal(self) -> None:
         """Take over the normal of the contact."""
         sign = 1.0 if self.end_a is self.c.a else -1.0
         self.nx, self.ny = sign * self.c.nx, sign * self.c.ny

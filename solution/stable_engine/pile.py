@@ -95,7 +95,7 @@ class Pile:
         self.is_wild = False  # whether they move far in this substep
         self.network: Network[Row] | None = None  # of all rows, once it was needed
 
-    def look(self, h: float) -> None:
+    def note_lengths(self, h: float) -> None:
         """Note the lengths that rods will have after the move, before contacts change them."""
         self.lengths = [length_after(rod, h) for rod in self.rods]
         self.is_wild = any(
@@ -125,7 +125,7 @@ class Pile:
             return
         self.target = target
         for load in self.loads:
-            load.follow()
+            load.update_normal()
         lack = self.lack()
         if lack > self.calm:
             self.press(lack)

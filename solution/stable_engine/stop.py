@@ -18,14 +18,14 @@ class Stop:
         self.late = late  # s, by which it is behind the others; 0 once it has flown on
 
 
-def put_back(
+def rewind(
     body: Body,
     way: tuple[float, float],
     fraction: float,
     acceleration: Callable[[Body], tuple[float, float]],
     h: float,
 ) -> None:
-    """Put a ball back to where it was after this fraction of its way (px) in a step.
+    """Rewind a ball to where it was after this fraction of its way (px) in a step.
 
     The step counts as one straight flight. The ball keeps its velocity, less the speed gained on
     the rest of the way by its `acceleration` (px/s²).

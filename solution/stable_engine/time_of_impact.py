@@ -21,8 +21,6 @@ class TimeOfImpact:
         self.contacts = contacts
         self.faces = faces
         self.flight = faces.flight
-        self.frame_of = faces.flight.frame_of
-        self.least_speed = faces.flight.least_speed  # px/s, slower impacts are ignored
         self.touching_gap = contacts.touching_gap
         self.turned: list[Contact] = []  # contacts with the normal of their touch
 
@@ -39,21 +37,21 @@ class TimeOfImpact:
             return 0.0
         is_face, late = is_at_face(c), self.contacts.late_by(a)
         if a.joint_count or b.joint_count:
-            frame = self.frame_of.get(a)
+            frame = self.flight.frame_of.get(a)
             if frame and not frame.hangs and is_face and self.flight.is_loose(frame, a):
                 return self.time_on_arc(c, frame, since)
             if self.contacts.is_led_far(a) or self.contacts.is_led_far(b):
                 return 0.0
         if is_face:
             ago = self.time_below(c, since)
-            if ago <= 0 or c.closing_speed() <= self.least_speed or was_at_face(c, ago):
+            if ago <= 0 or c.closing_speed() <= self.flight.least_speed or was_at_face(c, ago):
                 return ago + late if ago > 0 else ago
         if late or self.contacts.late_by(b):
             ago, nx, ny = self.contacts.look_back_late(a, b)
         else:
             ago, nx, ny = self.look_back(c, since)
             if ago == 0:
-                is_arc = a in self.frame_of or b in self.frame_of
+                is_arc = a in self.flight.frame_of or b in self.flight.frame_of
                 ago, nx, ny = moment_of_touch(a, b, since * ARC if is_arc else since)
                 ago = min(ago, since)
         if not b.inv_mass and nx * c.nx + ny * c.ny <= 0:
@@ -103,7 +101,7 @@ class TimeOfImpact:
         x, y = a.x, a.y
         for _ in range(ARC_PASSES):
             speed = c.closing_speed()
-            if speed <= self.least_speed or abs(gap) <= self.touching_gap:
+            if speed <= self.flight.least_speed or abs(gap) <= self.touching_gap:
                 break
             more = min(-gap / speed, since - ago)
             ago += more
