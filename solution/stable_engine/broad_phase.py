@@ -14,6 +14,7 @@ LANE = 6.0  # width of a lane, in half widths of a ball
 FEW = 4  # boxes in a lane; up to so many, ended ones may stay
 ROUNDING = 1e-3  # steps
 MANY = 30  # bodies that leave their rooms at once: a sweep costs less than a search for each
+SOON = 8  # steps; if two balls meet sooner, all pairs are looked at until then
 SHARE = 0.25  # of the bodies that can move: without gravity, at least so many
 
 LOW = attrgetter("low")
@@ -77,7 +78,7 @@ class BroadPhase:
         The next detect makes room for them.
         """
         self.age += dt
-        late, doubtful = self.age > self.end, self.moving
+        late, doubtful = self.age > self.end + ROUNDING * dt, self.moving
         if not (late or self.falls):
             self.list_near()
             # of bodies with nobody near, only those can leave whose velocity has changed
@@ -96,8 +97,8 @@ class BroadPhase:
                 leavers.append(one)
         count = len(leavers)
         are_many = count > MANY and (self.falls or count > SHARE * len(self.moving))
-        is_pushed = not self.is_free if self.falls else len(doubtful) > 0
-        if (leavers and (late or are_many)) or (is_pushed and self.is_quiet):
+        is_over = late or not self.is_free
+        if (leavers and (late or are_many)) or (is_over and self.is_quiet):
             self.is_stale = True
         return leavers
 
@@ -120,8 +121,7 @@ class BroadPhase:
             self.set_ahead(dt)
             self.leavers = self.moving
             self.is_quiet, self.falls = False, g != (0.0, 0.0)
-            steady = self.is_free if self.falls else self.is_steady()
-            self.end, self.pairs, self.spare = self.ahead + ROUNDING * dt, [], self.pairs
+            self.end, self.pairs, self.spare = self.ahead, [], self.pairs
         count, ahead = len(self.pairs), max(self.ahead - self.age, dt)
         fall_x, fall_y = g[0] * ahead * ahead / 2, g[1] * ahead * ahead / 2
         for one in self.leavers:
@@ -131,8 +131,8 @@ class BroadPhase:
                 one.make_room_to_fall(fall_x, fall_y)
         if self.is_stale:
             self.sweep(margin)
-            if steady:
-                self.skip_pairs(ahead + 2 * dt, margin)
+            if self.is_free:
+                self.skip_pairs(dt, margin)
         else:
             self.search(self.leavers, margin)
         self.leavers, self.is_stale = [], False
@@ -158,29 +158,30 @@ class BroadPhase:
 
     def set_ahead(self, dt: float) -> None:
         """Choose the length of new rooms by how the last ones did."""
-        if self.is_crowded() or self.age <= self.end:
+        if self.is_crowded() or self.age <= self.end + ROUNDING * dt:
             self.ahead = max(self.ahead / 2, dt)
         elif 4 * self.looks < SWEEP * len(self.moving):
             self.ahead = min(2 * self.ahead, LONGEST)
         self.age, self.looks = 0.0, 0
 
-    def is_steady(self) -> bool:
-        """Return whether no velocity has changed since the last sweep."""
-        return all([one.body.vx == one.vx and one.body.vy == one.vy for one in self.moving])
-
-    def skip_pairs(self, seconds: float, margin: float) -> None:
-        """Look at no pair while nothing pushes, unless two balls then come within margin px.
+    def skip_pairs(self, dt: float, margin: float) -> None:
+        """Look at no pair until two balls come within margin px, if nothing pushes.
 
         All fly straight on, or fall alike. A static body counts as if a ball came near it.
         """
         self.looks += len(self.pairs)
+        seconds, first = self.ahead + 2 * dt, NO_HIT
         for pair in self.pairs:
             a, b = pair.a, pair.b
             x, y, reach = a.x - b.x, a.y - b.y, a.r + b.r + margin
             dx, dy = (a.vx - b.vx) * seconds, (a.vy - b.vy) * seconds
             if b.is_static or x * x + y * y <= reach * reach:
                 return
-            if hit_point(reach, x, y, dx, dy) < NO_HIT:
+            first = min(first, hit_point(reach, x, y, dx, dy))
+        if first < NO_HIT:
+            self.end = first * seconds - 2 * dt
+            if self.end < SOON * dt:
+                self.end = self.ahead
                 return
         self.is_quiet = True
         self.is_listed = False

@@ -247,7 +247,7 @@ class Contacts(Detection):
         phase, world = self.broad_phase, self.world
         phase.is_free = phase.is_free and not self.groups and world.is_falling()
         age = phase.age + h * world.substep_count
-        stay = phase.is_free and age + h <= phase.ahead and h == self.h
+        stay = phase.is_free and age + h <= phase.end and h == self.h
         if self.is_resting and stay:
             phase.age = age
             return
@@ -264,8 +264,7 @@ class Contacts(Detection):
                 self.crowd = {}
         self.cores.keep_out(h)
         if stay and not (phase.near or phase.is_stale or self.crowd or self.cores.starts):
-            # other effects must not change what moves after this
-            self.is_resting = self.pace.h == h and len(world.hooks["finish"]) == 1
+            self.is_resting = self.pace.h == h
             if self.is_resting:
                 self.last_dt = 0.0
                 world.update_hooks()

@@ -128,7 +128,7 @@ class Detection(Effect):
             self.beside_static, self.landings.pairs = {}, []
             for c in self.touching:
                 self.unpaired[pair_number(c.a, c.b)] = c
-            phase.is_free = self.world.is_falling() and not held
+            phase.is_free = self.world.is_falling() and not self.touching
         found = phase.renew(g, held, dt, back, self.speculative_speed * dt)
         self.add_pairs(found)
         touched = {c.a for c in self.unpaired.values()}

@@ -14,6 +14,7 @@ SHAKEN_TIME, SHAKEN_SPEED = 5.0, 3.0  # s; 1/s, of a ball that is shaken where i
 SHAKEN_DISTANCE = 1.0  # within which it stays
 FIRST_LOOK = 7  # steps between checks: a check of all awake balls costs as much as moving them
 TWO_LOOKS = 16  # steps; 7 and 9 in turns, so that no swing is at the same point at every look
+SELDOM = 32  # steps, while no ball is slow
 
 
 class Sleep(Effect):
@@ -77,16 +78,19 @@ class Sleep(Effect):
         self.steps += 1
         if self.steps < self.wait:
             return
-        dt, self.since, self.steps, self.wait = self.since, 0.0, 0, TWO_LOOKS - self.wait
-        ready, slow = False, SHAKEN_SPEED * self.world.unit
+        dt, self.since, self.steps = self.since, 0.0, 0
+        any_slow, ready, slow = False, False, SHAKEN_SPEED * self.world.unit
         slow2 = slow * slow
         for body in self.world.awake:
             vx, vy = body.vx, body.vy
             if vx * vx + vy * vy < slow2 and abs(body.w) * body.r < slow:
+                any_slow = True
                 self.look_at(body, dt)
                 ready = ready or body.still > STILL_TIME or body.kept > SHAKEN_TIME
             else:
                 body.still = 0.0
+        second = TWO_LOOKS - FIRST_LOOK
+        self.wait = SELDOM if not any_slow else second if self.wait == FIRST_LOOK else FIRST_LOOK
         if ready:
             self.put_to_sleep()
 

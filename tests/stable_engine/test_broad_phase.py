@@ -5,7 +5,7 @@ from itertools import combinations
 
 import pytest
 
-from stable_engine import Body, Box, Circle, Contacts, World
+from stable_engine import Body, Bounce, Box, Circle, Contacts, World
 from stable_engine.broad_phase import BroadPhase
 
 MARGIN = 0.5
@@ -113,3 +113,31 @@ def test_a_pair_that_flies_past_is_skipped_until_one_of_the_two_is_pushed(push, 
     for _ in range(STEPS):
         world.step(DT)
     assert [(a, b) for a, b, _ in hits] == [(high, low)]
+
+
+def hits_of_a_swarm(gravity, seed):
+    """Return who hits whom, in order, in a sparse swarm without walls."""
+    rng, hits = random.Random(seed), []
+    contacts = Contacts(on_hit=lambda a, b, speed: hits.append((a.id, b.id, speed)))
+    world = World((0, gravity), effects=[contacts, Bounce()])
+    for i in range(49):
+        place = 150 * (i % 7) + rng.uniform(-60, 60), 150 * (i // 7) + rng.uniform(-60, 60)
+        ball = world.add(Body(Circle(rng.uniform(5, 15)), place, 1.0, restitution=0.9))
+        ball.vel = (rng.uniform(-150, 150), rng.uniform(-150, 150))
+    skipped = 0
+    for _ in range(240):
+        world.step(DT)
+        skipped += contacts.broad_phase.is_quiet
+    return hits, skipped
+
+
+@pytest.mark.parametrize("gravity", [0, 980])
+@pytest.mark.parametrize("seed", range(4))
+def test_pairs_that_are_skipped_hit_nobody(gravity, seed, monkeypatch):
+    hits, skipped = hits_of_a_swarm(gravity, seed)
+    monkeypatch.setattr(BroadPhase, "skip_pairs", lambda *_: None)
+    all_hits, _ = hits_of_a_swarm(gravity, seed)
+    assert len(hits) > 1
+    assert skipped > 40
+    assert [hit[:2] for hit in hits] == [hit[:2] for hit in all_hits]
+    assert [hit[2] for hit in hits] == pytest.approx([hit[2] for hit in all_hits], rel=1e-6)

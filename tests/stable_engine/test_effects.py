@@ -1,6 +1,7 @@
 """Test by tracing that a scene pays only for the effects it declares."""
 
 import os
+import random
 import subprocess
 import sys
 from dataclasses import replace
@@ -150,6 +151,26 @@ def test_contacts_cost_little_between_distant_bodies(speed, gravity):
         world = build(Scene(balls, effects, gravity=(0, gravity)))
         run(world, 3 * DT)
         return sum(count_opcodes(lambda: run(world, 300 * DT)).values())
+
+    contacts = price("Contacts")
+    assert contacts < 1.2 * price()
+    if speed:
+        assert price("Contacts", "Sleep") < 1.02 * contacts, "nothing sleeps"
+
+
+@pytest.mark.parametrize("speed", [50, 400])
+def test_contacts_cost_little_between_balls_that_do_not_meet(speed):
+    """They fly at random, and no two come near each other in half a second."""
+    rng = random.Random(5)
+    balls = [
+        Ball((1000 * i, 1000 * j), vel=(rng.uniform(-speed, speed), rng.uniform(-speed, speed)))
+        for i, j in product(range(10), repeat=2)
+    ]
+
+    def price(*effects):
+        world = build(Scene(balls, effects, gravity=(0, 0)))
+        run(world, 3 * DT)
+        return sum(count_opcodes(lambda: run(world, 60 * DT)).values())
 
     assert price("Contacts") < 1.2 * price()
 
