@@ -26,7 +26,7 @@ class Bounce(Effect):
         self.contacts.lets_none_pass = True
 
     def is_used(self) -> bool:
-        return any(body.e > 0 for body in self.world.bodies)
+        return any(body.e > 0 for body in self.world.members)
 
     def begin_contact(self, c: Contact) -> None:
         c.e = min(c.a.e, c.b.e)

@@ -29,7 +29,7 @@ def missing(world: World, looked_at: list[Body]) -> dict[str, str]:
     balls that fly at each other, and a static body that no joint is tied to. A ball that is too
     fast for Contacts needs Bullets. If no body can move, nothing is needed.
     """
-    bodies = looked_at if len(world.bodies) > len(world.statics) else []
+    bodies = looked_at if len(world.members) > len(world.statics) else []
     reasons: dict[str, str] = {}
     for body in bodies:
         if body.friction_given and body.mu > 0:
@@ -68,7 +68,7 @@ def meetings(world: World, bodies: list[Body]) -> list[tuple[Body, Body]]:
     are left out.
     """
     new = set(bodies)
-    free = [body for body in world.bodies if not (body.is_static or body.joint_count)][:MOST]
+    free = [body for body in world.members if not (body.is_static or body.joint_count)][:MOST]
     pairs = [(a, b) for a, b in combinations(free, 2) if a in new or b in new]
     return [(a, b) for a, b in pairs if will_meet(a, b)]
 

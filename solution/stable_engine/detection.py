@@ -33,7 +33,7 @@ class Detection(Effect):
     """The part of Contacts that finds them, once per step, and tells the program of new ones."""
 
     __slots__ = (
-        *("on_hit", "on_part", "events", "touching", "begun", "renewed", "changed"),
+        *("tells_hit", "tells_part", "events", "touching", "begun", "renewed", "changed"),
         *("lets_none_pass", "last_dt", "flying", "hit_ago", "stops"),
         *("broad_phase", "crowd", "beside_static", "landings", "rods", "balls", "statics"),
         *("groups", "unpaired", "ignored", "h", "touching_gap", "speculative_speed", "springs"),
@@ -41,10 +41,6 @@ class Detection(Effect):
     )
 
     def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:
-        if on_hit is not None and not callable(on_hit):
-            refuse("Contacts.on_hit", on_hit, "a function of two bodies and a speed, or None")
-        if on_part is not None and not callable(on_part):
-            refuse("Contacts.on_part", on_part, "a function of two bodies, or None")
         self.on_hit, self.on_part = on_hit, on_part
         self.events = Events(self)
         self.touching: list[Contact] = []
@@ -67,6 +63,28 @@ class Detection(Effect):
         self.is_resting = False  # while nobody is near, see Contacts.finish
         self.all_part = False  # whether in this step no contact can press, as all bodies part
 
+    @property
+    def on_hit(self) -> OnHit | None:
+        """Return the function that is told of pairs that begin to touch. Set it at any time."""
+        return self.tells_hit
+
+    @on_hit.setter
+    def on_hit(self, value: OnHit | None) -> None:
+        if value is not None and not callable(value):
+            refuse("Contacts.on_hit", value, "a function of two bodies and a speed, or None")
+        self.tells_hit = value
+
+    @property
+    def on_part(self) -> OnPart | None:
+        """Return the function that is told of pairs that part. Set it at any time."""
+        return self.tells_part
+
+    @on_part.setter
+    def on_part(self, value: OnPart | None) -> None:
+        if value is not None and not callable(value):
+            refuse("Contacts.on_part", value, "a function of two bodies, or None")
+        self.tells_part = value
+
     def attach(self) -> None:
         self.touching_gap = TOUCHING * self.world.unit  # px
         self.speculative_speed = SPECULATIVE_SPEED * self.world.unit  # px/s
@@ -79,8 +97,8 @@ class Detection(Effect):
         self.is_resting = self.all_part = False
         if self.last_dt == 0:  # a program may have changed velocities
             phase.is_free = False
-        if len(phase.bounds) != len(world.bodies):
-            phase.take(world.bodies)
+        if len(phase.bounds) != len(world.members):
+            phase.take(world.members)
             rods = self.rods
             phase.tied = [one for one in phase.moving if rods.holds(one.body)] if rods else []
         renews = phase.is_stale or len(phase.leavers) > 0
@@ -400,7 +418,7 @@ class Detection(Effect):
         self.flying, self.hit_ago, self.stops = [*self.hit_ago], {}, {}
 
     def tell(self, h: float) -> None:
-        if self.on_hit or self.on_part:
+        if self.tells_hit or self.tells_part:
             self.events.find_gone()
         self.last_dt, self.stops = 0.0, {}  # impacts are over; a program may change anything now
         if self.events.hits or self.events.parted:
@@ -450,9 +468,9 @@ class Detection(Effect):
     def static_moved(self, body: Body) -> None:
         """Wake the bodies that sleep on a static body or touch it now."""
         world = self.world
-        if len(world.awake) + len(world.statics) < len(world.bodies):
+        if len(world.awake) + len(world.statics) < len(world.members):
             self.wake_beside(body)
-            for other in world.bodies:
+            for other in world.members:
                 dx, dy = abs(other.x - body.x), abs(other.y - body.y)
                 if other.asleep and dx < other.hx + body.hx and dy < other.hy + body.hy:
                     other.wake()
@@ -480,7 +498,7 @@ class Detection(Effect):
         return self.all_part or not self.groups
 
     def is_used(self) -> bool:
-        return len(self.world.bodies) > 1
+        return len(self.world.members) > 1
 
     def links(self) -> list[tuple[Body, Body]]:
         return [(c.a, c.b) for c in self.touching]

@@ -29,7 +29,7 @@ class Friction(Effect):
         self.contacts.push = push_and_rub
 
     def is_used(self) -> bool:
-        return any(body.mu > 0 for body in self.world.bodies)
+        return any(body.mu > 0 for body in self.world.members)
 
     def is_idle(self) -> bool:
         return self.contacts.is_idle()

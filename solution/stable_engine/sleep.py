@@ -46,7 +46,7 @@ class Sleep(Effect):
     def detect(self, h: float) -> None:
         """Wake islands that an awake ball touches or may reach through others in this step."""
         world = self.world
-        if len(world.awake) + len(world.statics) == len(world.bodies):
+        if len(world.awake) + len(world.statics) == len(world.members):
             return
         contacts = self.contacts
         while contacts and (touched := self.find_sleepers(contacts)):
@@ -63,7 +63,7 @@ class Sleep(Effect):
         speeds = [hypot(c.a.vx - c.b.vx, c.a.vy - c.b.vy) for c, _ in touched]
         far = 2 * max(speeds, default=0.0) * contacts.last_dt
         ahead = list(found) if far > contacts.touching_gap else []
-        asleep = [body for body in self.world.bodies if body.asleep] if ahead else []
+        asleep = [body for body in self.world.members if body.asleep] if ahead else []
         while ahead:
             ball = ahead.pop()
             for other in asleep:
@@ -170,6 +170,6 @@ class Sleep(Effect):
 
     def update_awake(self) -> None:
         """Update the world's list of awake bodies, and tell the effects."""
-        self.world.awake = [body for body in self.world.bodies if not body.idle]
+        self.world.awake = [body for body in self.world.members if not body.idle]
         self.world.has_changed = True
         self.world.call("awake_changed")

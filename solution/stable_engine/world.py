@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from types import MappingProxyType
 from typing import Any, TypeVar
 
 from .body import Body
@@ -30,13 +31,12 @@ class World:
 
     `gravity` is in px/s²; `substeps` make up a step. Both can be set later on; effects cannot.
     unit is the length of a pixel in the lengths of the scene: 0.01 for metres at 100 px each. It
-    sets which speeds and gaps count as small. bodies lists all bodies in the order of adding: read
-    it, and change it by add and remove. Raises ValueError when a value makes no sense, or an
+    sets which speeds and gaps count as small. Raises ValueError when a value makes no sense, or an
     effect needs another one that is not declared.
     """
 
     __slots__ = (
-        *("lengths", "substep_count", "g", "bodies", "awake", "statics", "added", "declared"),
+        *("lengths", "substep_count", "g", "members", "awake", "statics", "added", "declared"),
         *("ranked", "hooks", "hooks_in", "is_pushed", "has_changed", "lags", "unchecked"),
         *("warned", "forces"),
     )
@@ -51,7 +51,7 @@ class World:
         self.lengths = positive("World.unit", unit)
         self.substep_count = whole("World.substeps", substeps)
         self.g = pair("World.gravity", gravity)  # px/s²
-        self.bodies: list[Body] = []
+        self.members: list[Body] = []
         self.awake: list[Body] = []  # the balls that can move now
         self.statics: list[Body] = []
         self.added = 0  # bodies added so far
@@ -113,13 +113,18 @@ class World:
 
     def __repr__(self) -> str:
         names = ", ".join(f"{name}()" for name in self.declared)
-        moving = len(self.bodies) - len(self.statics)
+        moving = len(self.members) - len(self.statics)
         return f"World({moving} moving, {len(self.statics)} static, effects=[{names}])"
 
     @property
-    def effects(self) -> dict[str, Effect]:
+    def bodies(self) -> list[Body]:
+        """Return all bodies in a new list, in the order of adding. add and remove change them."""
+        return list(self.members)
+
+    @property
+    def effects(self) -> Mapping[str, Effect]:
         """Return the declared effects by name, which stay the same: `world.effects["Contacts"]`."""
-        return self.declared
+        return MappingProxyType(self.declared)
 
     @property
     def gravity(self) -> tuple[float, float]:
@@ -133,8 +138,8 @@ class World:
         lost = gx - self.g[0], gy - self.g[1]
         if lost != (0.0, 0.0):
             size = math.hypot(*lost)
-            self.call("unload", {body: body.m * size for body in self.bodies if body.m}, lost)
-            for body in self.bodies:
+            self.call("unload", {body: body.m * size for body in self.members if body.m}, lost)
+            for body in self.members:
                 body.wake()
 
     @property
@@ -172,7 +177,7 @@ class World:
             self.need("Bullets", body).add(body)
         if body.is_kinematic:
             self.need("Kinematics", body).add(body)
-        self.bodies.append(body)
+        self.members.append(body)
         self.added += 1
         body.world, body.id = self, -self.added if body.is_static else self.added
         (self.statics if body.is_static else self.awake).append(body)
@@ -220,8 +225,8 @@ class World:
         self.forces.pop(body, None)
         self.relieve({body: math.inf})
         self.call("forget", body)
-        # new lists, so that a program may remove bodies while it loops over world.bodies
-        self.bodies = [other for other in self.bodies if other is not body]
+        # new lists, so that a hook may remove bodies while it loops over them
+        self.members = [other for other in self.members if other is not body]
         self.awake = [other for other in self.awake if other is not body]
         self.statics = [other for other in self.statics if other is not body]
         body.world, body.id = None, 0
@@ -240,7 +245,7 @@ class World:
     def bodies_at(self, point: Iterable[float]) -> list[Body]:
         """Return the bodies that a point (px) is in or on the edge of, in the order of adding."""
         at = pair("World.bodies_at's point", point)
-        return [body for body in self.bodies if body.contains(at)]
+        return [body for body in self.members if body.contains(at)]
 
     def ray_cast(self, start: Iterable[float], end: Iterable[float]) -> RayHit | None:
         """Return where the straight line from start to end (px) first meets a body, or None.
@@ -249,7 +254,7 @@ class World:
         Edges belong to bodies. The ray leaves a body that it starts in without a hit.
         """
         way = pair("World.ray_cast's start", start), pair("World.ray_cast's end", end)
-        return cast_ray(self.bodies, *way)
+        return cast_ray(self.members, *way)
 
     def acceleration(self, body: Body) -> tuple[float, float]:
         """Return the acceleration (px/s²) of a ball by gravity and by forces on it alone."""
@@ -274,7 +279,7 @@ class World:
         Other sentences name a gravity too weak for the unit, and rods that shake. Without this
         call, a step warns of undeclared effects after bodies were added or changed.
         """
-        lacking = missing(self, self.bodies)
+        lacking = missing(self, self.members)
         self.unchecked, self.warned = [], self.warned | lacking.keys()
         return [*lacking.values(), *unused(self), *odd_gravity(self), *overloaded_rods(self)]
 

@@ -159,7 +159,7 @@ SETTABLE = {
 FIXED = [
     *("Body.shape", "Body.radius", "Body.asleep", "Body.is_static", "Body.kinematic"),
     *("Rod.a", "Rod.b", "Rod.impulse", "Spring.a", "Spring.b", "Spring.impulse"),
-    *("World.unit", "World.effects", "Circle.radius", "Box.half"),
+    *("World.bodies", "World.unit", "World.effects", "Circle.radius", "Box.half"),
     *("Segment.start", "Segment.end", "Segment.radius"),
 ]
 SHAPES = ["Circle", "Box", "Segment"]
@@ -204,6 +204,30 @@ def test_other_attributes_cannot_be_set(name):
     thing = things()[kind]
     with pytest.raises(AttributeError):
         setattr(thing, field, getattr(thing, field))
+
+
+def test_lists_of_a_world_cannot_be_changed_behind_its_back():
+    world = things()["World"]
+    before = world.bodies
+    world.bodies.clear()
+    assert world.bodies == before
+    with pytest.raises(TypeError):
+        world.effects["Damping"] = Damping()
+
+
+@pytest.mark.parametrize("name", ["on_hit", "on_part"])
+def test_what_a_world_tells_can_be_set_later(name):
+    told, world = [], World(effects=[Contacts()])
+    ball = world.add(Body(Circle(10), (0, -10.5), mass=1))
+    world.add(Body(Box((50, 50)), (0, 50)))
+    run(world, 0.1)
+    setattr(world.effects["Contacts"], name, lambda *pair: told.append(pair[:2]))
+    for height in (-100, -10.1):
+        ball.pos = (0, height)
+        run(world, 0.1)
+    assert told == [(ball, world.bodies[1])]
+    with pytest.raises(ValueError, match=f"Contacts.{name} is 5, but it must be a function"):
+        setattr(world.effects["Contacts"], name, 5)
 
 
 @pytest.mark.parametrize("name", ["damping", "iterations", "gravty"])
