@@ -37,7 +37,7 @@ class Detection(Effect):
         *("lets_none_pass", "last_dt", "flying", "hit_ago", "stops"),
         *("broad_phase", "crowd", "beside_static", "landings", "rods", "balls", "statics"),
         *("groups", "unpaired", "ignored", "h", "touching_gap", "speculative_speed", "springs"),
-        *("all_part", "is_resting"),
+        *("all_part", "struck", "is_resting"),
     )
 
     def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:
@@ -54,6 +54,7 @@ class Detection(Effect):
         self.hit_ago: dict[Body, float] = {}  # s, since the last impact of a ball in this step
         self.stops: dict[Body, Stop] = {}  # of balls that static bodies stopped in this step
         self.broad_phase = BroadPhase()
+        self.struck: dict[Contact, float] = {}  # by fast hits, without Bounce: see find_struck
         self.crowd: dict[Contact, bool] = {}  # of bodies that part_crowd separates
         self.beside_static: dict[Body, None] = {}  # balls that are near static bodies
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)

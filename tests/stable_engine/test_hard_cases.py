@@ -146,7 +146,7 @@ def test_no_scene_gains_energy_by_the_rest_of_a_frame(scene):
 def test_a_pile_rests_while_frames_are_cut_into_steps(rest):
     """Its forces stay the same: its speed changes by less than gravity's in a substep."""
     world = build(pile(8, 80.0))
-    run(world, 3)
+    run(world, 5)
     for dt in lasting(1, remainders(rest=rest)):
         world.step(dt)
         assert max(speed(ball) for ball in bearing_balls(world)) < G * H

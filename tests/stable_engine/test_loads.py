@@ -56,6 +56,34 @@ def test_a_heavy_ball_that_falls_on_light_ones_stays_there(count, mass):
     assert abs(heavy.vel.y) < 0.1
 
 
+@pytest.mark.parametrize("count", [0, 1, 2, 5])
+@pytest.mark.parametrize("speed", [20, 150, 500, 1000])
+@pytest.mark.parametrize("substeps", [1, 4, 8])
+def test_without_bounce_nothing_springs_back_from_balls_at_a_wall(count, speed, substeps):
+    """Each ball hands on the hit and the wall takes it: at most 2 % of the speed is left.
+
+    Passes may leave another 0.5 px/s at each contact.
+    """
+    world = World((0, 0), substeps, make(["Contacts"]))
+    world.add(Body(Box((20, 200)), (20, 0)))
+    row = [add_ball(world, -RADIUS * (2 * i + 1), 0, 1) for i in range(count)]
+    ball = add_ball(world, -2 * RADIUS * count - 100, 0, 1)
+    ball.vel, most = (speed, 0), 0.0
+    for _ in steps(world, 100 / speed + 0.5):
+        most = max(most, *[-b.vel.x for b in (*row, ball)])
+    assert most < 0.02 * speed + 0.5 * count
+
+
+@pytest.mark.parametrize("height", [50, 200, 400])
+def test_without_bounce_a_ball_that_falls_on_an_equal_one_stays_there(height):
+    world, most = world_with_floor(), 0.0
+    add_ball(world, 0, -RADIUS, 1)
+    ball = add_ball(world, 0, -3 * RADIUS - height, 1)
+    for _ in steps(world, 1.5):
+        most = max(most, -ball.vel.y)
+    assert most < 0.01 * math.sqrt(2 * G * height)
+
+
 @pytest.mark.parametrize("mass", [10.0, 100.0])
 def test_a_stick_of_a_light_and_a_heavy_ball_stands(mass):
     """It starts touching and at rest: energy is not created."""
