@@ -127,9 +127,11 @@ def turn_normals(contacts: list[Contact]) -> None:
     """
     for c in contacts:
         a, b = c.a, c.b
+        if not b.r:
+            continue
         dx, dy = b.x - a.x, b.y - a.y
         distance = sqrt(dx * dx + dy * dy)
-        if distance == 0 or not b.r:
+        if distance == 0:
             continue
         nx, ny, radii = dx / distance, dy / distance, a.r + b.r
         same = nx * c.nx + ny * c.ny

@@ -127,7 +127,8 @@ class Flight:
             is_plain = self.is_simple and not (self.bearing or self.pivots)
             for body in free:
                 acceleration = self.world.g if is_plain else self.acceleration(body)
-                self.fly_ball(body, acceleration, self.own_time(body, seconds))
+                time = self.own_time(body, seconds) if self.contacts.stops else seconds
+                self.fly_ball(body, acceleration, time)
             return
         free, parts = [*free, *self.partners], self.world.substep_count
         times = [self.own_time(body, seconds) / parts for body in free]

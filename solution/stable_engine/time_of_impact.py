@@ -35,7 +35,8 @@ class TimeOfImpact:
         since = self.contacts.flight_of(a, b)
         if since <= 0:
             return 0.0
-        is_face, late = is_at_face(c), self.contacts.late_by(a)
+        is_face, stops = is_at_face(c), self.contacts.stops
+        late = self.contacts.late_by(a) if stops else 0.0
         if a.joint_count or b.joint_count:
             frame = self.flight.frame_of.get(a)
             if frame and not frame.hangs and is_face and self.flight.is_loose(frame, a):
@@ -46,7 +47,7 @@ class TimeOfImpact:
             ago = self.time_below(c, since)
             if ago <= 0 or c.closing_speed() <= self.flight.least_speed or was_at_face(c, ago):
                 return ago + late if ago > 0 else ago
-        if late or self.contacts.late_by(b):
+        if stops and (late or self.contacts.late_by(b)):
             ago, nx, ny = self.contacts.look_back_late(a, b)
         else:
             ago, nx, ny = self.look_back(c, since)
