@@ -9,7 +9,7 @@ from .crowd import gather_crowd, part_crowd
 from .detection import REDETECT_DISTANCE, Detection, OnHit, OnPart
 from .effect import Direction
 from .order import Group, Stage, give_places, put_in_order
-from .pile import Pile, Target, lower
+from .pile import Pile, lower
 from .piles import BEARING, find_piles
 from .soft import Pace, softness
 from .unload import take_off
@@ -45,7 +45,7 @@ class Contacts(Detection):
 
     __slots__ = (
         *("beginnings", "has_friction", "max_push_speed", "pace", "piles"),
-        *("cores", "held", "push", "squeezed", "target"),
+        *("cores", "held", "push", "squeezed"),
     )
     rank = 3
 
@@ -56,7 +56,6 @@ class Contacts(Detection):
         self.held: list[tuple[Contact, float, float, float]] = []
         self.beginnings = 0.0  # in how many steps any contact has begun
         self.piles: list[Pile] = []  # with heavy bodies
-        self.target = Target(0.0, 0.0, 0.0)  # of the substep, if there are piles
         self.has_friction = False  # which may hold squeezes
         self.push: Stage = push  # of passes, unless there are piles: see Friction
         self.pace = Pace(STIFFENING)
@@ -206,20 +205,15 @@ class Contacts(Detection):
         for pile in self.piles:
             pile.note_lengths(h)
         self.press_on(h, has_moved=False)
-        if self.piles:
-            rates = self.balls.bias_rate, self.statics.bias_rate
-            self.target = Target(h, self.max_push_speed, self.touching_gap / 2, rates)
-            self.settle()
+        self.settle(h)
 
     def relax(self, h: float) -> None:
         if self.changed:
             turn_normals(self.renewed)
         self.press_on(h, has_moved=True)
-        if self.piles:
-            self.target = Target(h, self.max_push_speed, self.touching_gap / 2)
-            for pile in self.piles:
-                if pile.rods or not self.has_friction:  # else friction settles it
-                    pile.settle(self.target)
+        for pile in self.piles:
+            if pile.rods or not self.has_friction:  # else friction settles it
+                pile.settle(self.balls, self.statics, h)
 
     def press_on(self, h: float, has_moved: bool) -> None:
         """Push bodies in a pass over contacts, before the move or after it."""
@@ -233,10 +227,10 @@ class Contacts(Detection):
             for tie in group.ties:
                 tie.solve(stage, group, h)
 
-    def settle(self) -> None:
+    def settle(self, h: float) -> None:
         """Solve piles for what passes have left, of contacts or of friction."""
         for pile in self.piles:
-            pile.settle(self.target)
+            pile.settle(self.balls, self.statics, h)
 
     def finish(self, h: float) -> None:
         """Part crowds, and put balls back that got into static bodies.

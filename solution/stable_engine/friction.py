@@ -42,7 +42,7 @@ class Friction(Effect):
     def solve(self, h: float) -> None:
         if self.contacts.piles:
             self.contacts.go_over(rub, h)
-            self.contacts.settle()
+            self.contacts.settle(h)
 
     def relax(self, h: float) -> None:
         self.solve(h)

@@ -6,6 +6,7 @@ from .contact import Contact, is_at_face
 from .joint import Joint
 from .limits import FREE, LimitedRow, solve_within
 from .network import Network, bodies_of
+from .order import Group
 from .row import Row
 from .springs import Spring
 
@@ -19,21 +20,6 @@ HARDEST = 1e-6  # the least of both, and all in a tower, where firm ones do have
 RELAXED = 1e-3  # of that share, what is left after the move
 
 
-class Target:
-    """The target of contacts: before the move to part at the rates of their bias, then to stop."""
-
-    __slots__ = ("ball_rate", "h", "has_moved", "least", "most", "static_rate")
-
-    def __init__(
-        self, h: float, most: float, least: float, rates: tuple[float, float] | None = None
-    ) -> None:
-        self.h = h  # s
-        self.most = most  # px/s, overlap is pushed out no faster
-        self.least = least  # px, a larger gap may be closed
-        self.has_moved = rates is None
-        self.ball_rate, self.static_rate = rates or (0.0, 0.0)  # 1/s, before the move
-
-
 class Load(LimitedRow):
     """A contact in a pile."""
 
@@ -45,19 +31,19 @@ class Load(LimitedRow):
         self.give = 0.0  # the share that it gives way
         self.pressed = -1.0  # kg px/s, beside rods its impulse before the move
 
-    def aim(self, target: Target) -> None:
+    def aim(self, group: Group, h: float) -> None:
         """Set rhs to the speed (px/s) that the bodies lack, and the pivot."""
         c, a, b = self.c, self.end_a, self.end_b
         speed = (b.vx - a.vx) * self.nx + (b.vy - a.vy) * self.ny
         gap = (b.x - a.x) * self.nx + (b.y - a.y) * self.ny - c.reach
-        rate = target.ball_rate if b.inv_mass else target.static_rate
-        give = self.give * RELAXED if target.has_moved else self.give
+        rate = 0.0 if group.has_moved else group.bias_rate
+        give = self.give * RELAXED if group.has_moved else self.give
         self.pivot = (1 + give) / c.mn
         presses = c.jn > 0 if self.pressed < 0 else self.pressed > 0
-        if gap > target.least and not (target.has_moved and presses):
-            self.rhs = -speed - gap / target.h
+        if gap > group.least and not (group.has_moved and presses):
+            self.rhs = -speed - gap / h
         else:
-            push = max(rate * gap, -target.most)
+            push = max(rate * gap, -group.max_push_speed)
             self.rhs = -speed - push - give * c.jn / c.mn
 
     def take(self, j: float) -> None:
@@ -73,8 +59,8 @@ class Pile:
     """
 
     __slots__ = (
-        *("bodies", "calm", "is_wild", "lengths", "loads", "network", "rods", "rows", "springs"),
-        *("target", "turning"),
+        *("balls", "bodies", "calm", "h", "is_wild", "lengths", "loads", "network", "rods", "rows"),
+        *("springs", "statics", "turning"),
     )
 
     def __init__(self, loads: list[Load], joints: list[Joint], unit: float, softest: float) -> None:
@@ -119,17 +105,17 @@ class Pile:
         for load in self.loads if self.rods else []:
             lower(load.c, min(load.c.last, load.pressed))
 
-    def settle(self, target: Target) -> None:
-        """Solve for all impulses, if a pass has left more than a calm speed."""
+    def settle(self, balls: Group, statics: Group, h: float) -> None:
+        """Solve for all impulses, if a pass over these groups has left more than a calm speed."""
         if self.is_wild:
             return
-        self.target = target
+        self.balls, self.statics, self.h = balls, statics, h
         for load in self.loads:
             load.update_normal()
         lack = self.lack()
         if lack > self.calm:
             self.press(lack)
-        for load in self.loads if self.rods and not target.has_moved else []:
+        for load in self.loads if self.rods and not balls.has_moved else []:
             load.pressed = load.c.jn
 
     def lack(self) -> float:
@@ -147,15 +133,15 @@ class Pile:
             self.network = Network(self.rows)
         for load in self.loads:
             load.total = load.c.jn
-        is_sure = self.target.has_moved or not self.rods
+        is_sure = self.balls.has_moved or not self.rods
         accepts = None if is_sure else lambda: self.lack() <= lack
         solve_within(self.network, self.loads, self.aim, self.calm, accepts)
 
     def aim(self) -> None:
         """Set each row's pivot and rhs."""
-        h, has_moved = self.target.h, self.target.has_moved
+        h, has_moved = self.h, self.balls.has_moved
         for load in self.loads:
-            load.aim(self.target)
+            load.aim(self.balls if load.end_b.inv_mass else self.statics, h)
         for rod, length in zip(self.rods, self.lengths, strict=True):
             rod.ask(0.0 if has_moved else rod.speed() + (length - length_after(rod, h)) / h)
         for spring in self.springs:
