@@ -75,7 +75,7 @@ class Flight:
         odd = self.held, self.springs_of, self.bearing, self.world.forces
         return not any([ball in some for ball in frame.balls for some in odd])
 
-    def take_along(self, hit: list[Body]) -> None:
+    def add_partners(self, hit: list[Body]) -> None:
         """Let the balls on springs of those hit fly with them, as if nothing had hit these."""
         free = [body for body in hit if body not in self.stiff]
         springs = [spring for body in free for spring in self.springs_of.get(body, [])]
@@ -90,7 +90,7 @@ class Flight:
         """Return each frame of rods that any of these balls is in."""
         return list(dict.fromkeys([self.frame_of[b] for b in balls if b in self.frame_of]))
 
-    def leave_behind(self) -> None:
+    def end_partners(self) -> None:
         """Put the balls that flew with others back, and note what has changed on their flight."""
         for body, state in self.partners.items():
             if body not in self.stops:
@@ -115,7 +115,7 @@ class Flight:
     def fly(self, hit: list[Body], seconds: float) -> None:
         """Let balls fly back to an impact, or on. One that flies on far stops before a wall."""
         if self.springs_of and seconds < 0:
-            self.take_along(hit)
+            self.add_partners(hit)
         free = hit
         if self.frame_of:
             free = [body for body in hit if body not in self.frame_of]
@@ -143,7 +143,7 @@ class Flight:
             for (body, acceleration), now, time in zip(before, after, flown, strict=True):
                 self.adjust(body, acceleration, now, time)
         if seconds > 0:
-            self.leave_behind()
+            self.end_partners()
 
     def own_time(self, body: Body, seconds: float) -> float:
         """Return for how long a ball flies: back for less time if a wall stopped it before."""

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from pygame import Vector2
 
 from .body import Body
-from .sweep import NO_HIT, hit_body, stay_in_box
+from .sweep import NO_HIT, hit_body, seen_from_nearest, stay_in_box
 
 ROUNDING = 1e-12  # share of the way, and of a box, by which a ray may miss an edge
 
@@ -57,15 +57,13 @@ def meet_body(body: Body, x: float, y: float, dx: float, dy: float) -> float:
 def normal_at(body: Body, x: float, y: float, dx: float, dy: float) -> tuple[float, float]:
     """Return the unit normal of a body where a ray enters it, at (x, y) from its centre."""
     wall = body.segment
-    if wall is not None:
-        if wall.rim == 0:
-            side = copysign(1.0, dx * wall.uy - dy * wall.ux)
-            return -wall.uy * side, wall.ux * side
-        near_x, near_y = wall.nearest(x, y)
-        x, y = x - near_x, y - near_y
-    elif not body.r:
+    if wall is not None and wall.rim == 0:
+        side = copysign(1.0, dx * wall.uy - dy * wall.ux)
+        return -wall.uy * side, wall.ux * side
+    if wall is None and not body.r:
         if dy == 0 or (dx != 0 and body.hx - abs(x) < body.hy - abs(y)):
             return copysign(1.0, x), 0.0
         return 0.0, copysign(1.0, y)
+    x, y = seen_from_nearest(body, x, y)
     distance = hypot(x, y)
     return x / distance, y / distance

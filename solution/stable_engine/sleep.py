@@ -134,19 +134,19 @@ class Sleep(Effect):
 
     def is_still(self, island: list[Body]) -> bool:
         """Return whether all balls of an island lie still, and nothing sets them in motion."""
-        if not all([self.lies_still(body) and not self.is_driven(body) for body in island]):
+        if not all([self.lies_still(body) for body in island]):
             return False
         moves = any([body.vx or body.vy or body.w for body in island])
         return any([body in self.supported for body in island]) or not (moves or any(self.world.g))
 
     def lies_still(self, body: Body) -> bool:
-        """Return whether a ball has kept its velocity or, in a pile, its position long enough."""
-        return body.still > STILL_TIME or (body.kept > SHAKEN_TIME and body in self.shaken)
+        """Return whether a ball has kept its velocity or, in a pile, its position long enough.
 
-    def is_driven(self, body: Body) -> bool:
-        """Return whether a force moves a ball against drag, so that its velocity stays the same."""
-        most = LEAST_PULL * self.world.unit  # px/s²
-        return self.rates.get(body, 0.0) * hypot(body.vx, body.vy) > most
+        One that a force moves against drag keeps its velocity, but does not lie still.
+        """
+        is_shaken = body.kept > SHAKEN_TIME and body in self.shaken
+        drag = self.rates.get(body, 0.0) * hypot(body.vx, body.vy)  # px/s²
+        return (body.still > STILL_TIME or is_shaken) and drag <= LEAST_PULL * self.world.unit
 
     def find_islands(self) -> list[list[Body]]:
         """Return the awake balls in groups of those that are connected.
