@@ -43,11 +43,10 @@ class Cores:
             if hypot(bullet.x - x, bullet.y - y) > SWEEP_FROM * bullet.r:
                 self.sweep(bullet, (x, y), bullet.r, OVERLAP * bullet.r, h)
         leavers = contacts.broad_phase.find_leavers(contacts.last_dt)
-        for one in [*leavers]:  # as to stop one may make others leave
-            if self.world.statics:
-                if not one.near:
-                    one.find_start(contacts.last_dt)
-                self.stop_core(one.body, h)
+        for one in [*leavers] if self.world.statics else []:  # to stop one may make others leave
+            if not one.near:
+                one.find_start(contacts.last_dt)
+            self.stop_core(one.body, h)
         for body in contacts.beside_static:
             self.stop_core(body, h)
         statics = contacts.statics.contacts

@@ -52,7 +52,6 @@ class Network(Generic[AnyRow]):
         while beside:
             row = min(beside, key=lambda one: len(beside[one]))
             self.eliminations.append(self.eliminate(row, beside))
-        self.backwards = self.eliminations[::-1]
 
     def eliminate(self, row: Row, beside: dict[Row, dict[Row, Coupling]]) -> Elimination:
         """Remove a row from those left, and couple its neighbours to each other."""
@@ -92,7 +91,7 @@ class Network(Generic[AnyRow]):
                     other.rhs -= share * rhs
                 for c, d, filled in fills:
                     filled.value -= c.share * d.value
-        for row, couplings, _ in self.backwards:
+        for row, couplings, _ in reversed(self.eliminations):
             rhs = row.rhs / row.pivot
             for c in couplings:
                 rhs -= c.share * c.other.rhs
