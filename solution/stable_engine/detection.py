@@ -349,7 +349,7 @@ class Detection(Effect):
         """
         if not b.r:
             return False
-        is_late = self.stops and (self.late_by(a) or self.late_by(b))
+        is_late = len(self.stops) > 0 and self.late_by(a) + self.late_by(b) > 0
         vx, vy = a.vx - b.vx, a.vy - b.vy
         seconds = self.flight_of(a, b)
         way = sqrt(vx * vx + vy * vy) * seconds

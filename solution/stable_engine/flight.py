@@ -88,6 +88,8 @@ class Flight:
 
     def frames_of(self, balls: list[Body]) -> list[Frame]:
         """Return each frame of rods that any of these balls is in."""
+        if not self.frame_of:
+            return []
         return list(dict.fromkeys([self.frame_of[b] for b in balls if b in self.frame_of]))
 
     def end_partners(self) -> None:

@@ -228,13 +228,18 @@ class Impacts:
         contacts = self.contacts
         moved = [*contacts.hit_ago, *[body for body, _ in self.flight.changes]]
         frames = [*self.flight.frames_of(moved), *self.returned]
-        moved = list(dict.fromkeys([*moved, *[ball for frame in frames for ball in frame.balls]]))
+        if frames:
+            moved = [*moved, *[ball for frame in frames for ball in frame.balls]]
+            moved = list(dict.fromkeys(moved))
         for body in moved:
             if body not in contacts.hit_ago:
                 contacts.note_impact(body, 0.0)  # so the next step may stop it before a wall
         bends, beside = self.flight.bends, self.beside
-        stop = contacts.cores.stop_hit
-        self.find_pairs([b for b in moved if stop(b, beside.get(b, []), bends.get(b, []))])
+        stopped = [
+            b for b in moved if contacts.cores.stop_hit(b, beside.get(b, []), bends.get(b, []))
+        ]
+        if stopped:
+            self.find_pairs(stopped)
 
     def is_alone(self, c: Contact) -> bool:
         """Return whether an impact affects no other contact."""
