@@ -270,6 +270,7 @@ ENGINES = {  # an engine has the same color in every figure
     "planck": GREY,
 }
 BARS = {"at equal substeps": (0, 1.0), "at equal time": (17, 0.4)}  # px down, and how opaque
+LEFT, FULL = 284, 380  # px, where bars begin, and how long one of all rows is
 
 
 def leaderboard():
@@ -284,24 +285,24 @@ def leaderboard():
     names.sort(key=lambda name: -share(name, "at equal substeps"))
     svg = Svg(760, 74 + 48 * len(names), "How many rows of physics each engine holds")
     for i, (words, (_, opacity)) in enumerate(BARS.items()):
-        svg.add("rect", x=250 + 170 * i, y=14, width=26, height=14, fill=INK, opacity=opacity)
-        svg.text(284 + 170 * i, 26, words)
+        svg.add("rect", x=LEFT + 190 * i, y=14, width=26, height=14, fill=INK, opacity=opacity)
+        svg.text(LEFT + 34 + 190 * i, 26, words)
     bottom = svg.size[1] - 26
-    svg.line((250, 38), (250, bottom), color=GREY, width=1)
-    svg.line((650, 38), (650, bottom), color=GREY, width=1, dash="3 4")
-    svg.text(650, bottom + 18, "all rows", GREY, 13, "middle")
+    svg.line((LEFT, 38), (LEFT, bottom), color=GREY, width=1)
+    svg.line((LEFT + FULL, 38), (LEFT + FULL, bottom), color=GREY, width=1, dash="3 4")
+    svg.text(LEFT + FULL, bottom + 18, "all rows", GREY, 13, "middle")
     for i, name in enumerate(names):
         top = 44 + 48 * i
-        svg.text(238, top + 22, lines[f"{name}: name"], INK, 14, "end")
+        svg.text(LEFT - 12, top + 22, lines[f"{name}: name"], INK, 14, "end")
         for words, (down, opacity) in BARS.items():
             asked = lines[f"{name}: rows {words}"]
             if not asked:
                 continue
-            size = {"width": 400 * share(name, words), "height": 15}
-            svg.add("rect", x=250, y=top + down, **size, fill=ENGINES[name], opacity=opacity)
+            size = {"width": FULL * share(name, words), "height": 15}
+            svg.add("rect", x=LEFT, y=top + down, **size, fill=ENGINES[name], opacity=opacity)
             told = f"{lines[f'{name}: rows held {words}']} of {asked}"
-            svg.rect(254 + size["width"], top + down, 72, 15, "white")
-            svg.text(258 + size["width"], top + down + 12, told, INK, 13)
+            svg.rect(LEFT + 4 + size["width"], top + down, 72, 15, "white")
+            svg.text(LEFT + 8 + size["width"], top + down + 12, told, INK, 13)
     svg.save("hard-cases-leaderboard.svg")
 
 

@@ -177,7 +177,7 @@ def find_lost(rows, found):
 
 
 def make_tables(subjects, found, contestants):
-    """Return three tables: rows held by each engine, rows that the stable one loses, subjects."""
+    """Return tables: rows held by each engine, rows that the stable one loses, if any, subjects."""
     rows = [row for some in subjects.values() for row in some]
     words = {one.name: one.words for one in contestants}
     ranked = sorted(words, key=lambda name: -share_held(rows, found, name))
@@ -188,13 +188,12 @@ def make_tables(subjects, found, contestants):
         for subject, some in subjects.items()
         if some
     ]
+    heads = ["why, and the row", "off by", "may be", "best other"]
+    losses = list_losses(rows, found)
+    lost = [Table("Rows that the stable engine loses at equal substeps", heads, losses)]
     return [
         Table("Rows held", ["engine", *MODES.values()], held),
-        Table(
-            "Rows that the stable engine loses at equal substeps",
-            ["why, and the row", "off by", "may be", "best other"],
-            list_losses(rows, found),
-        ),
+        *(lost if losses else []),
         Table("Rows held at equal substeps, by subject", ["subject", *ranked], by_subject),
     ]
 
