@@ -12,7 +12,7 @@ from .sweep import NO_HIT, drop_covered, first_hit, first_stop, free_share, has_
 
 CORE = 0.5  # radii
 SWEEP_FROM = 0.5  # radii, a bullet that moves further in one step is swept
-OVERLAP = 0.05  # radii, the overlap of a stopped bullet, so that the next step finds the contact
+OVERLAP = 1e-6  # radii, the overlap of a stopped bullet, so that the next step finds the contact
 SEAM = 1e-9  # a squared sine; faces that turn less are one
 CORNER_PASSES = 4  # of keeping cores out: a ball put back may meet another static body
 

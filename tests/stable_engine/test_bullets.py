@@ -46,6 +46,19 @@ def test_a_bullet_that_meets_a_wall_and_a_ball_in_one_step_keeps_its_energy():
         assert whole_energy(world) == pytest.approx(before, rel=ROUNDING)
 
 
+@pytest.mark.parametrize("speed", [3000, 20_000, 200_000])
+@pytest.mark.parametrize("substeps", [1, 4])
+def test_a_bullet_stops_where_it_first_touches_a_wall(speed, substeps):
+    world = World((0, 0), substeps, [Contacts(), Bullets()])
+    world.add(Body(Box((0.5, 500)), (1000.5, 0)))
+    bullet = world.add(Body(Circle(10), (0, 0), mass=1, bullet=True))
+    bullet.vel = (speed, 0)
+    for _ in range(60):
+        world.step(1 / 60)
+        assert bullet.x < 990 + 1e-4
+    assert bullet.x == pytest.approx(990, abs=1e-4)
+
+
 @pytest.mark.parametrize("bullet", [False, True])
 @pytest.mark.parametrize("steps", [1, 2, 64])
 def test_a_ball_squeezed_between_a_corner_and_another_keeps_the_energy(steps, bullet):
