@@ -33,7 +33,7 @@ class Molecule:
             if turned < TURNED:
                 return
             for frame in self.frames:
-                if frame.has_loop:  # else springs would be asked for what taut rods call for
+                if frame.has_loop and not frame.is_uneven:  # taut rods may call for any impulse
                     frame.soften()
             for spring in self.springs:
                 spring.aim()
