@@ -221,7 +221,18 @@ class Impacts:
             self.faces.lift(faces)
         self.flight.pass_on()
         self.contacts.drop_untouched(self.begun - self.queue.counts.keys())
+        self.leave_crowd()
         self.keep_inside()
+
+    def leave_crowd(self) -> None:
+        """Take pairs out of the crowd that impacts have moved apart: they only seemed deep.
+
+        They would be pushed apart when they next meet, before their impact.
+        """
+        contacts = self.contacts
+        if contacts.crowd:
+            crowd = contacts.crowd.items()
+            contacts.crowd = {c: put for c, put in crowd if c.found <= -self.touching_gap}
 
     def keep_inside(self) -> None:
         """Stop balls before walls, if an impact took them through: on them, or by a joint."""

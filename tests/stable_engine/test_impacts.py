@@ -189,6 +189,26 @@ def test_what_meets_nothing_static_keeps_its_angular_momentum(effects, throw, fa
         assert momentum == pytest.approx(before, abs=1e-6 * 80 * fast)
 
 
+@pytest.mark.parametrize("restitution", [1.0, 0.5])
+@pytest.mark.parametrize("fast", [600.0, 2000.0])
+def test_a_cloud_of_fast_balls_keeps_its_angular_momentum(fast, restitution):
+    """Also where one step took a ball deep into another one, and they met again in the next."""
+    for seed in range(40):
+        rng = random.Random(seed)
+        cloud = []
+        for at in range(16):
+            x, y = (at % 4 - 1.5) * 32, (at // 4 - 1.5) * 32
+            inwards = -rng.uniform(0, fast) / math.hypot(x, y)
+            vel = inwards * x + rng.uniform(-100, 100), inwards * y + rng.uniform(-100, 100)
+            surface = {"restitution": restitution, "friction": 0.0}
+            cloud.append(Ball((x, y), rng.uniform(4, 14), rng.uniform(0.2, 5), vel=vel, **surface))
+        engine = Stable(Scene(cloud, SMOOTH, gravity=(0, 0)))
+        _, *before = read_sums(engine)
+        scale = sum(b.mass * math.hypot(*b.pos) * math.hypot(*b.vel) for b in cloud)
+        for _, *momentum in watch(engine, 1 / 3, lambda: read_sums(engine)):  # noqa: B023
+            assert momentum == pytest.approx(before, abs=1e-9 * scale)
+
+
 # ---------------------------------------------------------------- rows of balls
 
 
