@@ -200,13 +200,15 @@ class Detection(Effect):
                 is_apart = dx * dx + dy * dy > reach * reach
             else:
                 is_apart = abs(dx) > b.hx + reach or abs(dy) > b.hy + reach
+                if is_apart and back and c is None:
+                    is_apart = was_apart(a, b, reach, back)
             if not is_apart:
                 nx, ny, gap = collide(a, b)
                 if gap > touching_gap:
                     closing = dvx * nx + dvy * ny
                     is_fast = abs(closing) > slow if c else dvx * dvx + dvy * dvy > slow2
                     is_apart = gap > margin or is_fast
-                    if is_apart and back and b.r:
+                    if is_apart and back and (b.r or c is None):
                         is_apart = not self.have_passed(a, b, gap)
             if is_apart:
                 if c:
@@ -343,14 +345,12 @@ class Detection(Effect):
         return None
 
     def have_passed(self, a: Body, b: Body, gap: float) -> bool:
-        """Return whether two balls have touched on their way here and passed each other.
+        """Return whether two bodies have touched on their way here and passed each other.
 
         That is known of balls that flew straight, or almost so with joints.
         """
-        if not b.r:
-            return False
         is_late = len(self.stops) > 0 and self.late_by(a) + self.late_by(b) > 0
-        vx, vy = a.vx - b.vx, a.vy - b.vy
+        vx, vy = (a.vx - b.vx, a.vy - b.vy) if b.r or b.is_kinematic else (a.vx, a.vy)
         seconds = self.flight_of(a, b)
         way = sqrt(vx * vx + vy * vy) * seconds
         if not is_late and (way <= gap or way <= FAR * (a.r + b.r)):
@@ -506,6 +506,21 @@ class Detection(Effect):
 
     def awake_changed(self) -> None:
         self.broad_phase.bounds = []
+
+
+def was_apart(a: Body, b: Body, reach: float, back: float) -> bool:
+    """Return whether the boxes of a ball and a static body, at this reach (px), were always apart.
+
+    That is since `back` seconds ago, if both flew straight.
+    """
+    x, y, vx, vy = a.x - b.x, a.y - b.y, a.vx, a.vy
+    if b.is_kinematic:
+        vx, vy = vx - b.vx, vy - b.vy
+    out, away = (x, vx) if x > 0 else (-x, -vx)
+    if out > b.hx + reach and (away <= 0 or out - away * back > b.hx + reach):
+        return True
+    out, away = (y, vy) if y > 0 else (-y, -vy)
+    return out > b.hy + reach and (away <= 0 or out - away * back > b.hy + reach)
 
 
 def pair_number(a: Body, b: Body) -> int:

@@ -324,13 +324,13 @@ class Impacts:
             wall = c.b
             if not wall.inv_mass and (wall.vx or wall.vy) and wall not in walls:
                 walls[wall] = wall.x, wall.y
-                if c in self.faces.normals:
+                if wall.is_kinematic:
+                    wall.x -= wall.vx * ago
+                    wall.y -= wall.vy * ago
+                elif c in self.faces.normals:
                     back = (wall.vx * c.nx + wall.vy * c.ny) * ago  # a belt does not move
                     wall.x -= c.nx * back
                     wall.y -= c.ny * back
-                elif wall.is_kinematic:
-                    wall.x -= wall.vx * ago
-                    wall.y -= wall.vy * ago
         self.flight.fly(hit, -ago)
         for body in hit if self.passing else []:
             self.passing.pop(body, None)

@@ -3,12 +3,12 @@
 from math import sqrt
 
 from .body import state_of
-from .contact import Contact, collide, is_at_face
+from .contact import Contact, collide, is_at_face, is_over_face
 from .contacts import Contacts
 from .faces import Faces
 from .frame import Frame
 from .soft import SAME_DIRECTION
-from .sweep import moment_of_touch, was_at_face
+from .sweep import moment_of_touch, seen_before, was_at_face
 
 ARC = 1.1  # ratio by which the touch may lie further back for flights on an arc
 ARC_PASSES = 4  # of Newton's method, to find the touch of a ball on an arc
@@ -45,8 +45,8 @@ class TimeOfImpact:
                 return 0.0
         if is_face:
             ago = self.time_below(c, since)
-            if ago <= 0 or c.closing_speed() <= self.flight.least_speed or was_at_face(c, ago):
-                return ago + late if ago > 0 else ago
+            if ago > 0 and was_at_face(c, ago):
+                return ago + late
         if stops and (late or self.contacts.late_by(b)):
             ago, nx, ny = self.contacts.look_back_late(a, b)
         else:
@@ -55,12 +55,17 @@ class TimeOfImpact:
                 is_arc = a in self.flight.frame_of or b in self.flight.frame_of
                 ago, nx, ny = moment_of_touch(a, b, since * ARC if is_arc else since)
                 ago = min(ago, since)
-        if not b.inv_mass and nx * c.nx + ny * c.ny <= 0:
-            return 0.0
+        turn = nx * c.nx + ny * c.ny  # a cosine
+        if turn <= 0 and not b.inv_mass:
+            is_through = turn < 0 and is_face and is_over_face(b, nx, ny, *seen_before(a, b, ago))
+            if is_through or a.joint_count:  # with joints it did not fly straight
+                return 0.0
         if ago > 0 and (nx, ny) != (c.nx, c.ny):
             c.nx, c.ny = nx, ny
             c.gap = -c.closing_speed() * ago
             self.turned.append(c)
+            if is_face and (turn <= 0 or not was_at_face(c, ago)):
+                self.faces.normals.pop(c, None)
         if ago > 0 and not (late or b.inv_mass) and was_at_face(c, ago):
             ago = self.time_below(c, since) or ago
         return ago

@@ -548,3 +548,41 @@ def test_a_ball_loses_no_time_at_a_corner(shape, frame, share):
     x, y = ball.x - frame[0] / 60, ball.y - frame[1] / 60
     assert (x, y) == pytest.approx((nx * reach + out_x * rest, ny * reach + out_y * rest))
     assert (ball.vx - frame[0], ball.vy - frame[1]) == pytest.approx((out_x, out_y))
+
+
+@pytest.mark.parametrize("shape", [Box((40, 40)), Segment((0, 0), (40, 0), 0), Circle(5)])
+@pytest.mark.parametrize("frame", [(0, 0), (300, -500)])
+@pytest.mark.parametrize("fast", [400, 1000, 1500])
+@pytest.mark.parametrize("degrees", [0, 30, 45])
+@pytest.mark.parametrize("depth", [0.1, 0.5, 2.0])
+def test_a_fast_ball_bounces_off_a_corner_even_if_it_passes_that_in_a_step(
+    shape, frame, fast, degrees, depth
+):
+    """It would get so deep into the corner, and leave it, or get over a face of the body.
+
+    By the law of reflection, v' = v - 2 (v n) n, with the normal n at the touch.
+    """
+    tip = {"Box": (40, 40), "Segment": (20, 0), "Circle": (0, 0)}[type(shape).__name__]
+    moving = {"kinematic": True} if any(frame) else {}
+    reach = 15 if isinstance(shape, Circle) else 10
+    ahead_x, ahead_y = math.cos(math.radians(degrees)), -math.sin(math.radians(degrees))
+    beside = reach - depth  # of the corner at (0, 0)
+    back = math.sqrt(reach * reach - beside * beside)
+    touch_x, touch_y = beside * ahead_y - back * ahead_x, -beside * ahead_x - back * ahead_y
+    nx, ny = -touch_x / reach, -touch_y / reach
+    vx, vy = fast * ahead_x, fast * ahead_y
+    closing = vx * nx + vy * ny
+    out_x, out_y = vx - 2 * closing * nx, vy - 2 * closing * ny
+    for share in (0.1, 0.3, 0.5, 0.7, 0.9):
+        world = World((0, 0), effects=[Contacts(), Bounce(), *([Kinematics()] if moving else [])])
+        wall = world.add(Body(shape, tip, **IDEAL, **moving))
+        wall.vel = frame
+        before, after = (1 + share) / 120, (2 - share) / 120
+        at = touch_x - vx * before, touch_y - vy * before
+        ball = world.add(Body(Circle(10), at, 1.0, **IDEAL))
+        ball.vel = vx + frame[0], vy + frame[1]
+        for _ in range(3):
+            world.step(1 / 120)
+        x, y = ball.x - frame[0] / 40, ball.y - frame[1] / 40
+        assert (x, y) == pytest.approx((touch_x + out_x * after, touch_y + out_y * after))
+        assert (ball.vx - frame[0], ball.vy - frame[1]) == pytest.approx((out_x, out_y))
