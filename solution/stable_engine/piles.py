@@ -57,7 +57,7 @@ def find_tied(contacts: Detection, h: float) -> set[Contact]:
         c = pair.contact
         if c:
             ahead = c.gap - max(c.closing_speed(), 0.0) * h * contacts.world.substep_count
-            if ahead < -TIED * (c.a.r + c.b.r):
+            if c in contacts.landings.speeds or ahead < -TIED * (c.a.r + c.b.r):
                 tied.add(c)
     return tied
 

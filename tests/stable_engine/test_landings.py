@@ -150,3 +150,49 @@ def test_a_landing_that_does_not_come_off_is_not_told():
     for _ in range(round(3 / DT)):
         world.step(DT)
     assert not calls
+
+
+# ---------------------------------------------------------------- along rods, at any moment
+
+
+def thrown(count, length, effects, share):
+    """Return balls on rods in a row along x that fly to x = 0, and the world, without gravity.
+
+    In their last step they fly on for this share of it.
+    """
+    world = World((0, 0), SUBSTEPS, make(effects))
+    start = -RADIUS - 200 * (20 + share) * DT
+    balls = add_balls(world, [(start - length * i, 0) for i in range(count)])
+    for a, b in pairwise(balls):
+        world.add(Rod(a, b))
+    for ball in balls:
+        ball.vel = 200, 0
+    return world, balls
+
+
+@pytest.mark.parametrize("effects", [BOUNCE, ROUGH])
+@pytest.mark.parametrize("count", [1, 2, 3, 5])
+@pytest.mark.parametrize("share", [0.0, 0.05, 0.3, 0.5, 0.75, 0.95, 0.999])
+def test_what_hits_the_end_of_rods_without_restitution_stays_there(effects, count, share):
+    """With e = 0 all go on at v m / M. Of the speed 1 % may be off: 0.01 % of the energy."""
+    world, thrown_balls = thrown(count, 40, effects, share)
+    hit = add_balls(world, [(RADIUS + 40 * i, 0) for i in range(3)])
+    for a, b in pairwise(hit):
+        world.add(Rod(a, b))
+    for _ in range(60):
+        world.step(DT)
+    for ball in (*thrown_balls, *hit):
+        assert ball.vel.x == pytest.approx(200 * count / (count + 3), abs=0.01 * 200)
+
+
+@pytest.mark.parametrize("effects", [BOUNCE, ROUGH])
+@pytest.mark.parametrize("count", [2, 3, 5])
+@pytest.mark.parametrize("share", [0.0, 0.05, 0.3, 0.5, 0.75, 0.95, 0.999])
+def test_rods_that_hit_a_wall_without_restitution_stop(effects, count, share):
+    """With e = 0 nothing springs back, but for 1 % of the speed: 0.01 % of the energy."""
+    world, balls = thrown(count, 40, effects, share)
+    world.add(Body(Box((20, 200)), (20, 0), restitution=0))
+    for _ in range(60):
+        world.step(DT)
+    for ball in balls:
+        assert ball.vel.x == pytest.approx(0, abs=0.01 * 200)
