@@ -175,6 +175,17 @@ def test_contacts_cost_little_between_balls_that_do_not_meet(speed):
     assert price("Contacts") < 1.2 * price()
 
 
+def test_a_fall_has_no_substeps():
+    def price(substeps):
+        world = World((0, 980), substeps, [Contacts()])
+        for i in range(10):
+            world.add(Body(Circle(10), (100 * i, 0), 1.0))
+        run(world, 3 * DT)
+        return opcodes_of_a_step(world)
+
+    assert price(1) == price(8)
+
+
 def test_a_tall_silo_costs_no_more_than_a_wide_bin():
     def price(across, down):
         """Return the broad phase's opcodes in the first step of 60 balls, one diameter apart."""
