@@ -44,7 +44,9 @@ def find_piles(contacts: Detection, before: list[Pile], h: float) -> list[Pile]:
         pile.end()
     tied = find_tied(contacts, h) if contacts.landings.pairs else set()
     springs = contacts.springs.find_stiff(h) if contacts.springs else []
-    piles = find_heavy(contacts, is_heavy, tied, springs, h * world.substep_count)
+    dt = h * world.substep_count
+    contacts.struck = {} if contacts.lets_none_pass else find_struck(contacts, dt)
+    piles = find_heavy(contacts, is_heavy, tied, springs)
     if is_tall:
         piles += find_towers(contacts.touching, piles, tall, weight, world.unit)
     return piles
@@ -63,7 +65,7 @@ def find_tied(contacts: Detection, h: float) -> set[Contact]:
 
 
 def find_heavy(
-    contacts: Detection, is_heavy: bool, tied: set[Contact], springs: list[Spring], dt: float
+    contacts: Detection, is_heavy: bool, tied: set[Contact], springs: list[Spring]
 ) -> list[Pile]:
     """Return the piles where much presses on little, if there are any.
 
@@ -76,7 +78,6 @@ def find_heavy(
     for body, (fx, fy, _) in world.forces.items() if pull else []:
         if hypot(fx, fy) > HEAVY * body.m * pull:
             loads[body] = hypot(fx, fy) / pull
-    contacts.struck = {} if contacts.lets_none_pass else find_struck(contacts, dt)
     held = {body for spring in springs for body in (spring.end_a, spring.end_b) if body.inv_mass}
     pulled = {c for c in contacts.touching if c.a in held or c.b in held} if held else set()
     is_heavy = is_heavy or bool(loads or tied or pulled or contacts.struck)
