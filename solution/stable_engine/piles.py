@@ -148,7 +148,8 @@ def find_struck(contacts: Detection, dt: float) -> dict[Contact, float]:
     """
     struck: dict[Contact, float] = {}
     fast, deep = contacts.speculative_speed, STRUCK * contacts.world.unit
-    for c in contacts.touching:
+    before = [c for c in contacts.touching if c in contacts.struck] if contacts.struck else []
+    for c in [*before, *contacts.begun]:
         left = contacts.struck.get(c, 0.0) - dt
         if c.closing_speed() > fast and not (c.a.joint_count or c.b.joint_count):
             struck[c] = STRUCK_TIME
