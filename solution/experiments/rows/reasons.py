@@ -2,8 +2,6 @@
 
 REASONS = {
     "fast balls: 20 thrown at 20": "Without Bounce, balls do not meet on their way.",
-    "rained pile: 100 balls, late speed": "A last ball still rolls: nothing brakes rolling, so "
-    "chance decides when it stops.",
 }
 
 
