@@ -199,9 +199,11 @@ class Detection(Effect):
                     reach += self.way_left(a) + self.way_left(b)
                 is_apart = dx * dx + dy * dy > reach * reach
             else:
-                is_apart = abs(dx) > b.hx + reach or abs(dy) > b.hy + reach
+                out_x, out_y = abs(dx) - b.hx - reach, abs(dy) - b.hy - reach
+                is_apart = out_x > 0 or out_y > 0
                 if is_apart and back and c is None:
-                    is_apart = was_apart(a, b, reach, back)
+                    way = (abs(a.vx) + abs(a.vy) + abs(b.vx) + abs(b.vy)) * back
+                    is_apart = out_x > way or out_y > way or was_apart(a, b, reach, back)
             if not is_apart:
                 nx, ny, gap = collide(a, b)
                 if gap > touching_gap:

@@ -45,14 +45,16 @@ class Sleep(Effect):
 
     def detect(self, h: float) -> None:
         """Wake islands that an awake ball touches or may reach through others in this step."""
-        world = self.world
-        if len(world.awake) + len(world.statics) == len(world.members):
-            return
         contacts = self.contacts
         while contacts and (touched := self.find_sleepers(contacts)):
             for body in touched:
                 body.wake()
             contacts.detect(h)
+
+    def is_at_rest(self) -> bool:
+        """Return whether nobody sleeps."""
+        world = self.world
+        return len(world.awake) + len(world.statics) == len(world.members)
 
     def find_sleepers(self, contacts: Contacts) -> list[Body]:
         """Return the sleeping balls in contacts, and those against which these may be thrown."""
@@ -80,10 +82,8 @@ class Sleep(Effect):
             return
         dt, self.since, self.steps = self.since, 0.0, 0
         any_slow, ready, slow = False, False, SHAKEN_SPEED * self.world.unit
-        slow2 = slow * slow
         for body in self.world.awake:
-            vx, vy = body.vx, body.vy
-            if vx * vx + vy * vy < slow2 and abs(body.w) * body.r < slow:
+            if -slow < body.vx < slow and self.is_slow(body, slow):
                 any_slow = True
                 self.look_at(body, dt)
                 ready = ready or body.still > STILL_TIME or body.kept > SHAKEN_TIME
@@ -93,6 +93,10 @@ class Sleep(Effect):
         self.wait = SELDOM if not any_slow else second if self.wait == FIRST_LOOK else FIRST_LOOK
         if ready:
             self.put_to_sleep()
+
+    def is_slow(self, body: Body, slow: float) -> bool:
+        """Return whether the centre and the rim of a ball are slower than `slow` (px/s)."""
+        return hypot(body.vx, body.vy) < slow and abs(body.w) * body.r < slow
 
     def look_at(self, body: Body, dt: float) -> None:
         """Measure how long a ball has kept its velocity, and how long its position."""

@@ -385,6 +385,9 @@ class World:
         """
         n, (gx, gy) = self.substep_count, self.g
         dt, mean = n * h, h * (n + 1) / 2
+        if not (gx or gy):
+            self.move(dt)
+            return
         mean_x, mean_y, gx, gy = gx * mean, gy * mean, gx * dt, gy * dt
         for body in self.awake:
             body.x += (body.vx + mean_x) * dt
