@@ -27,7 +27,7 @@ class Events:
 
     def note_hit(self, c: Contact, at: float = 0.0) -> None:
         """Note that two bodies began to touch, `at` seconds ago or as they have flown."""
-        if self.contacts.on_hit:
+        if self.contacts.tells_hit:
             self.hits.pop(c, None)  # hits of one moment are in the order of impacts
             ago, speed = self.meeting_of(c)
             self.hits[c] = at or ago, speed
@@ -36,7 +36,7 @@ class Events:
         """Note that two bodies parted, before other pairs met."""
         if c in self.gone:
             del self.gone[c]
-        elif self.contacts.on_part and c not in self.contacts.landings.speeds:
+        elif self.contacts.tells_part and c not in self.contacts.landings.speeds:
             self.parted[c] = inf
             if c in self.hits:
                 self.hits[c] = inf, self.hits[c][1]
@@ -67,7 +67,7 @@ class Events:
                     continue
                 if c in self.again:
                     self.hits.pop(c, None)
-                elif contacts.on_part:
+                elif contacts.tells_part:
                     self.parted[c] = self.hits[c][0] if c in self.hits else inf
             self.gone[c] = None
         self.again = {}
@@ -95,7 +95,7 @@ class Events:
         self.hits, self.parted = {}, {}
         for _, c, speed in sorted(events, key=itemgetter(0), reverse=True):
             if c.a.world is c.b.world is contacts.world:
-                if speed is not None and contacts.on_hit:
-                    contacts.on_hit(c.a, c.b, speed)
-                elif speed is None and contacts.on_part:
-                    contacts.on_part(c.a, c.b)
+                if speed is not None and contacts.tells_hit:
+                    contacts.tells_hit(c.a, c.b, speed)
+                elif speed is None and contacts.tells_part:
+                    contacts.tells_part(c.a, c.b)

@@ -57,6 +57,6 @@ class Landings:
         """Note the hits of contacts that were foreseen, once their bodies press each other."""
         for c in [c for c in self.speeds if c.jn > 0 or c.last > 0]:
             speed = self.speeds.pop(c)
-            if self.contacts.on_hit:
+            if self.contacts.tells_hit:
                 ago = self.contacts.last_dt - c.found / speed if speed else 0.0
                 self.contacts.events.hits[c] = max(ago, 0.0), speed

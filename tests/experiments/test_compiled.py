@@ -20,7 +20,7 @@ from experiments.scenes import on_floor
 NO_COMPILER = not (shutil.which("cc") or shutil.which("gcc"))
 
 WIND = """
-from stable_compiled import Body, Circle, Effect, World, world
+from stable_compiled import Body, Bounce, Circle, Contacts, Effect, World, world
 class Wind(Effect):
     rank = 1
     def force(self, h):
@@ -31,6 +31,15 @@ ball = made.add(Body(Circle(10), (0, 0), 1.0))
 for _ in range(120):
     made.step(1 / 120)
 print(world.__file__, round(ball.vel.x, 6), made.check())
+told = []
+contacts = Contacts(on_hit=lambda a, b, speed: told.append(speed))
+made = World(gravity=(0, 0), effects=[contacts, Bounce()])
+contacts.on_part = lambda a, b: told.append("part")
+for place, speed in ((0, 100), (50, 0)):
+    made.add(Body(Circle(10), (place, 0), 1.0, restitution=1)).vel = (speed, 0)
+for _ in range(120):
+    made.step(1 / 120)
+print(*told)
 """
 
 
@@ -49,9 +58,10 @@ def test_what_make_compiled_makes_has_the_same_bits_and_runs_plain_effects(
     done = subprocess.run(
         [sys.executable, "-c", WIND], cwd=tmp_path / "out", capture_output=True, text=True
     )
-    where, speed, told = done.stdout.split()
+    where, speed, checked, *told = done.stdout.split()
     assert not where.endswith(".py")
-    assert (speed, told) == ("100.0", "[]")
+    assert (speed, checked) == ("100.0", "[]")
+    assert told == ["100.0", "part"]
 
 
 def test_the_project_of_a_wheel_names_every_module_that_is_compiled(tmp_path):
