@@ -78,7 +78,7 @@ class BroadPhase:
         The next detect makes room for them.
         """
         self.age += dt
-        late, doubtful = self.age > self.end + ROUNDING * dt, self.moving
+        late, doubtful = self.is_late(dt), self.moving
         if not (late or self.falls):
             self.list_near()
             # of bodies with nobody near, only those can leave whose velocity has changed
@@ -158,11 +158,15 @@ class BroadPhase:
 
     def set_ahead(self, dt: float) -> None:
         """Choose the length of new rooms by how the last ones did."""
-        if self.is_crowded() or self.age <= self.end + ROUNDING * dt:
+        if self.is_crowded() or not self.is_late(dt):
             self.ahead = max(self.ahead / 2, dt)
         elif 4 * self.looks < SWEEP * len(self.moving):
             self.ahead = min(2 * self.ahead, LONGEST)
         self.age, self.looks = 0.0, 0
+
+    def is_late(self, dt: float) -> bool:
+        """Return whether rooms have lasted as long as they should, in steps of dt seconds."""
+        return self.age > self.end + ROUNDING * dt
 
     def skip_pairs(self, dt: float, margin: float) -> None:
         """Look at no pair until two balls come within margin px, if nothing pushes.
@@ -179,10 +183,10 @@ class BroadPhase:
                 return
             first = min(first, hit_point(reach, x, y, dx, dy))
         if first < NO_HIT:
-            self.end = first * seconds - 2 * dt
-            if self.end < SOON * dt:
-                self.end = self.ahead
+            end = first * seconds - 2 * dt
+            if end < SOON * dt:
                 return
+            self.end = end
         self.is_quiet = True
         self.is_listed = False
         for one in self.moving:

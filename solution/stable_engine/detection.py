@@ -16,7 +16,7 @@ from .soft import SAME_DIRECTION
 from .springs import Springs, any_stiff
 from .stop import Stop
 from .sweep import covers, moment_of_touch, seen_before
-from .validate import refuse
+from .validate import function
 
 # lengths are in units of the world, see World.unit
 SPECULATIVE_SPEED = 10.0  # 1/s, slower pairs get a contact before they touch
@@ -71,9 +71,7 @@ class Detection(Effect):
 
     @on_hit.setter
     def on_hit(self, value: OnHit | None) -> None:
-        if value is not None and not callable(value):
-            refuse("Contacts.on_hit", value, "a function of two bodies and a speed, or None")
-        self.tells_hit = value
+        self.tells_hit = function("Contacts.on_hit", value, "two bodies and a speed")
 
     @property
     def on_part(self) -> OnPart | None:
@@ -82,9 +80,7 @@ class Detection(Effect):
 
     @on_part.setter
     def on_part(self, value: OnPart | None) -> None:
-        if value is not None and not callable(value):
-            refuse("Contacts.on_part", value, "a function of two bodies, or None")
-        self.tells_part = value
+        self.tells_part = function("Contacts.on_part", value, "two bodies")
 
     def attach(self) -> None:
         self.touching_gap = TOUCHING * self.world.unit  # px
@@ -471,7 +467,7 @@ class Detection(Effect):
     def static_moved(self, body: Body) -> None:
         """Wake the bodies that sleep on a static body or touch it now."""
         world = self.world
-        if len(world.awake) + len(world.statics) < len(world.members):
+        if world.anybody_sleeps():
             self.wake_beside(body)
             for other in world.members:
                 dx, dy = abs(other.x - body.x), abs(other.y - body.y)

@@ -17,7 +17,7 @@ class Kinematics(Users):
     def detect(self, h: float) -> None:
         """Wake sleepers near moving kinematic bodies."""
         world = self.world
-        if len(world.awake) + len(world.statics) < len(world.members):
+        if world.anybody_sleeps():
             for body in self.bodies:
                 if body.vx or body.vy:
                     world.call("static_moved", body)

@@ -52,9 +52,7 @@ class Sleep(Effect):
             contacts.detect(h)
 
     def is_at_rest(self) -> bool:
-        """Return whether nobody sleeps."""
-        world = self.world
-        return len(world.awake) + len(world.statics) == len(world.members)
+        return not self.world.anybody_sleeps()
 
     def find_sleepers(self, contacts: Contacts) -> list[Body]:
         """Return the sleeping balls in contacts, and those against which these may be thrown."""
@@ -89,8 +87,10 @@ class Sleep(Effect):
                 ready = ready or body.still > STILL_TIME or body.kept > SHAKEN_TIME
             else:
                 body.still = 0.0
-        second = TWO_LOOKS - FIRST_LOOK
-        self.wait = SELDOM if not any_slow else second if self.wait == FIRST_LOOK else FIRST_LOOK
+        if not any_slow:
+            self.wait = SELDOM
+        else:
+            self.wait = TWO_LOOKS - FIRST_LOOK if self.wait == FIRST_LOOK else FIRST_LOOK
         if ready:
             self.put_to_sleep()
 

@@ -2,8 +2,10 @@
 
 import math
 import operator
-from collections.abc import Iterable
-from typing import NoReturn
+from collections.abc import Callable, Iterable
+from typing import NoReturn, TypeVar
+
+Function = TypeVar("Function", bound=Callable[..., object])
 
 
 class WrongType(TypeError, ValueError):
@@ -67,3 +69,10 @@ def pair(field: str, value: Iterable[float]) -> tuple[float, float]:
         refuse(field, value, rule)
     require(ok, field, value, rule)
     return float(numbers[0]), float(numbers[1])
+
+
+def function(field: str, value: Function | None, arguments: str) -> Function | None:
+    """Return value. Raises ValueError when it is neither a function, of these, nor None."""
+    if value is not None and not callable(value):
+        refuse(field, value, f"a function of {arguments}, or None")
+    return value

@@ -264,6 +264,10 @@ class World:
             x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
         return x, y
 
+    def anybody_sleeps(self) -> bool:
+        """Return whether any body is asleep."""
+        return len(self.awake) + len(self.statics) < len(self.members)
+
     def is_falling(self) -> bool:
         """Return whether gravity alone changes velocities in the substeps of this step."""
         return not (self.is_pushed or self.forces)
