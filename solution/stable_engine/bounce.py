@@ -48,6 +48,7 @@ class Bounce(Effect):
                 if not c.b.is_static:
                     c.gap = FAR_APART * c.a.r
         contacts.changed, contacts.renewed = True, contacts.touching
+        parting = []
         for c in select_fast(contacts.touching, slow):
             closing = c.closing_speed()
             if c.gap < 0 and closing < -slow:
@@ -56,6 +57,9 @@ class Bounce(Effect):
                 c.gap = 0.0
             elif closing > slow and impacts.is_open(c) and not contacts.landings.lands(c.a, c.b):
                 c.gap = FAR_APART * c.a.r
+            if closing < -slow:
+                parting.append(c)
+        contacts.end_contacts(parting)
 
     def slow_speed(self, dt: float) -> float:
         """Return the speed (px/s) up to which contacts do not bounce in steps of dt seconds.

@@ -108,9 +108,6 @@ class Contacts(Detection):
             if c.mu:
                 c.set_arms(distance - a.r - b.r)
         self.piles = find_piles(self, self.piles, h)
-        if not (self.piles or self.crowd or self.can_press(h * self.world.substep_count)):
-            self.all_part = True
-            self.world.update_hooks()
 
     def leave_covered(self) -> None:
         """Let contacts at corners that other bodies cover do nothing, as at a seam of flush boxes.

@@ -37,7 +37,7 @@ class Detection(Effect):
         *("lets_none_pass", "last_dt", "flying", "hit_ago", "stops"),
         *("broad_phase", "crowd", "beside_static", "landings", "rods", "balls", "statics"),
         *("groups", "unpaired", "ignored", "h", "touching_gap", "speculative_speed", "springs"),
-        *("all_part", "struck", "is_resting"),
+        *("struck", "is_resting"),
     )
 
     def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:
@@ -62,7 +62,6 @@ class Detection(Effect):
         self.unpaired: dict[int, Contact] = {}  # of sleeping bodies, by their pair's number
         self.ignored: set[int] = set()  # numbers of pairs
         self.is_resting = False  # while nobody is near, see Contacts.finish
-        self.all_part = False  # whether in this step no contact can press, as all bodies part
 
     @property
     def on_hit(self) -> OnHit | None:
@@ -91,7 +90,7 @@ class Detection(Effect):
     def detect(self, h: float) -> None:
         world, phase, dt = self.world, self.broad_phase, h * self.world.substep_count
         was_idle = self.is_idle()
-        self.is_resting = self.all_part = False
+        self.is_resting = False
         if self.last_dt == 0:  # a program may have changed velocities
             phase.is_free = False
         if len(phase.bounds) != len(world.members):
@@ -247,16 +246,6 @@ class Detection(Effect):
         self.balls.contacts, self.statics.contacts = balls, statics
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
 
-    def can_press(self, dt: float) -> bool:
-        """Return whether any contact may press within dt seconds: not if all bodies part fast."""
-        least = self.touching_gap + hypot(*self.world.g) * dt  # px/s
-        for c in self.touching:
-            b = c.b
-            is_led = c.a.joint_count or b.joint_count or (b.is_static and (b.vx or b.vy))
-            if is_led or c.jn or c.jt or c.gap < 0 or c.closing_speed() > -least:
-                return True
-        return bool(self.world.forces)
-
     def make_contact(self, a: Body, b: Body, nx: float, ny: float) -> Contact:
         """Return a new contact with this normal, filled in by the other effects."""
         c = Contact(a, b)
@@ -284,6 +273,34 @@ class Detection(Effect):
         self.groups = [group for group in (self.balls, self.statics) if group.contacts]
         return c
 
+    def end_contacts(self, parting: list[Contact]) -> None:
+        """End contacts of bodies that an impact has thrown apart: nothing brings them back."""
+        world = self.world
+        least = self.speculative_speed + hypot(*world.g) * self.last_dt  # px/s
+        ended: set[Contact] = set()
+        for c in parting:
+            b = c.b
+            is_led = c.a.joint_count or b.joint_count or (b.is_static and (b.vx or b.vy))
+            if is_led or c.jn or c.jt or c.closing_speed() > -least:
+                continue
+            if collide(c.a, b)[2] > self.touching_gap:
+                ended.add(c)
+        if ended:
+            self.broad_phase.is_free = False
+            for c in ended:
+                self.events.note_gone(c)
+            self.drop_contacts(ended)
+
+    def drop_contacts(self, ended: set[Contact]) -> None:
+        """Drop contacts of bodies that are near each other, without a call of on_part."""
+        for pair in self.broad_phase.pairs:
+            if pair.contact in ended:
+                pair.contact = None
+        self.touching = [c for c in self.touching if c not in ended]
+        self.begun = [c for c in self.begun if c not in ended]
+        self.group_contacts()
+        self.world.update_hooks()
+
     def drop_untouched(self, new: set[Contact]) -> None:
         """Drop new contacts of bodies that were hit by others and so did not touch.
 
@@ -295,16 +312,9 @@ class Detection(Effect):
             touch = gap <= self.touching_gap or self.have_passed(c.a, c.b, gap)
             if was_hit and not touch and c not in self.landings.speeds:
                 missed.add(c)
-        if not missed:
-            return
-        for pair in self.broad_phase.pairs:
-            if pair.contact in missed:
-                pair.contact = None
-        self.events.hits = {c: hit for c, hit in self.events.hits.items() if c not in missed}
-        self.touching = [c for c in self.touching if c not in missed]
-        self.begun = [c for c in self.begun if c not in missed]
-        self.group_contacts()
-        self.world.update_hooks()
+        if missed:
+            self.events.hits = {c: hit for c, hit in self.events.hits.items() if c not in missed}
+            self.drop_contacts(missed)
 
     def end_unpaired(self) -> None:
         """End the contacts of bodies that are no longer near each other, except sleeping ones.
@@ -494,7 +504,7 @@ class Detection(Effect):
         self.broad_phase.bounds = []
 
     def is_idle(self) -> bool:
-        return self.all_part or not self.groups
+        return not self.groups
 
     def is_used(self) -> bool:
         return len(self.world.members) > 1

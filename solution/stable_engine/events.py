@@ -47,6 +47,20 @@ class Events:
         self.again[c] = None
         self.note_hit(c)
 
+    def note_gone(self, c: Contact) -> None:
+        """Note that a contact ends, as its bodies are apart at the end of the step."""
+        if c in self.gone:
+            del self.gone[c]
+        else:
+            self.note_parted(c)
+
+    def note_parted(self, c: Contact) -> None:
+        """Note that two bodies are apart at the end of the step, after their last hit."""
+        if c in self.again:
+            self.hits.pop(c, None)
+        elif self.contacts.tells_part:
+            self.parted[c] = self.hits[c][0] if c in self.hits else inf
+
     def find_gone(self) -> None:
         """Find the pairs that are apart at the end of the step though their contacts last.
 
@@ -65,10 +79,7 @@ class Events:
                     or collide(c.a, c.b)[2] <= contacts.touching_gap
                 ):
                     continue
-                if c in self.again:
-                    self.hits.pop(c, None)
-                elif contacts.tells_part:
-                    self.parted[c] = self.hits[c][0] if c in self.hits else inf
+                self.note_parted(c)
             self.gone[c] = None
         self.again = {}
 
