@@ -294,6 +294,8 @@ class Body:
         require(not self.is_static, "Body.mass", 0, "above 0 for a force to move it")
         if self.world is None:
             refuse("Body.world", None, "a World: add the body before you push it")
+        if not self.world.forces:
+            self.world.update_hooks()
         before_x, before_y, before = self.world.forces.get(self, (0.0, 0.0, 0.0))
         self.world.forces[self] = before_x + fx, before_y + fy, before + torque
         self.still = self.kept = 0.0

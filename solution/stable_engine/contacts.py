@@ -229,23 +229,34 @@ class Contacts(Detection):
         for pile in self.piles:
             pile.settle(self.balls, self.statics, h)
 
+    def rest(self, h: float) -> None:
+        """Count the time, and begin again in the last step before bodies may leave their rooms.
+
+        The end of a room is left out, as velocities lag behind positions when rooms are made.
+        """
+        if self.stays(h):
+            self.broad_phase.age += h * self.world.substep_count
+            return
+        self.is_resting = False
+        self.world.update_hooks()
+        self.prepare(h)
+        self.finish(h)
+
+    def stays(self, h: float) -> bool:
+        """Return whether all bodies fall freely in their rooms in this step, and in equal ones."""
+        phase, world = self.broad_phase, self.world
+        phase.is_free = phase.is_free and not self.groups and world.is_falling()
+        return (
+            phase.is_free and phase.age + h * (world.substep_count + 1) <= phase.end and h == self.h
+        )
+
     def finish(self, h: float) -> None:
         """Part crowds, and put balls back that got into static bodies.
 
-        Contacts rest while all bodies fall freely in the rooms made for that, with nobody near. The
-        end of that is left out, as velocities lag behind positions when rooms are made.
+        Contacts rest while all bodies fall freely in the rooms made for that, with nobody near.
         """
-        phase, world = self.broad_phase, self.world
-        phase.is_free = phase.is_free and not self.groups and world.is_falling()
-        age = phase.age + h * world.substep_count
-        stay = phase.is_free and age + h <= phase.end and h == self.h
-        if self.is_resting and stay:
-            phase.age = age
-            return
-        if self.is_resting:
-            self.is_resting = False
-            world.update_hooks()
-            self.prepare(h)
+        phase = self.broad_phase
+        stays = self.stays(h)
         if self.held:
             self.steady_forces(h)
         super().finish(h)
@@ -254,11 +265,11 @@ class Contacts(Detection):
             if deepest < REDETECT_DISTANCE * self.world.unit:
                 self.crowd = {}
         self.cores.keep_out(h)
-        if stay and not (phase.near or phase.is_stale or self.crowd or self.cores.starts):
+        if stays and not (phase.near or phase.is_stale or self.crowd or self.cores.starts):
             self.is_resting = self.pace.h == h
             if self.is_resting:
                 self.last_dt = 0.0
-                world.update_hooks()
+                self.world.update_hooks()
 
     def press(self, h: float) -> None:
         """Mark bodies that contacts hold: by more than rounding, or the weight of a falling pair.

@@ -52,7 +52,7 @@ class Effect:
         return False
 
     def is_at_rest(self) -> bool:
-        """Return whether the hooks of the step have nothing to do now either, but for `finish`."""
+        """Return whether the hooks of the step have nothing to do now either, but for `rest`."""
         return False
 
     # once per step
@@ -71,6 +71,9 @@ class Effect:
 
     def finish(self, h: float) -> None:
         """Correct or note the result of the step."""
+
+    def rest(self, h: float) -> None:
+        """Take the place of `finish` while the effect is at rest."""
 
     def coast(self, dt: float) -> None:
         """Advance by a step of dt seconds in which no ball is awake: no other hook is called."""

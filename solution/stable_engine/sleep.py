@@ -33,26 +33,27 @@ class Sleep(Effect):
     its balls or joints, a static body that it touches or hangs on, or the gravity.
     """
 
-    __slots__ = ("contacts", "rates", "shaken", "since", "steps", "supported", "wait")
+    __slots__ = ("contacts", "left", "rates", "resting", "shaken", "since", "supported", "wait")
     rank = 4
 
     def __init__(self) -> None:
-        self.since, self.steps = 0.0, 0  # s and steps since the last check
-        self.wait = FIRST_LOOK  # steps from there to the next one
+        self.since = 0.0  # s, of a substep of each step since the last check
+        self.resting = -1  # which change of the world's hooks it made to rest
+        self.wait = self.left = FIRST_LOOK  # steps from there to the next one, and from now
 
     def attach(self) -> None:
         self.contacts = self.world.find(Contacts)
 
     def detect(self, h: float) -> None:
         """Wake islands that an awake ball touches or may reach through others in this step."""
-        contacts = self.contacts
+        contacts = self.contacts if self.world.anybody_sleeps() else None
         while contacts and (touched := self.find_sleepers(contacts)):
             for body in touched:
                 body.wake()
             contacts.detect(h)
 
     def is_at_rest(self) -> bool:
-        return not self.world.anybody_sleeps()
+        return self.resting == self.world.changes
 
     def find_sleepers(self, contacts: Contacts) -> list[Body]:
         """Return the sleeping balls in contacts, and those against which these may be thrown."""
@@ -74,11 +75,11 @@ class Sleep(Effect):
         return list(found)
 
     def finish(self, h: float) -> None:
-        self.since += h * self.world.substep_count
-        self.steps += 1
-        if self.steps < self.wait:
+        self.since += h
+        self.left -= 1
+        if self.left:
             return
-        dt, self.since, self.steps = self.since, 0.0, 0
+        dt, self.since = self.since * self.world.substep_count, 0.0
         any_slow, ready, slow = False, False, SHAKEN_SPEED * self.world.unit
         for body in self.world.awake:
             if -slow < body.vx < slow and self.is_slow(body, slow):
@@ -89,10 +90,20 @@ class Sleep(Effect):
                 body.still = 0.0
         if not any_slow:
             self.wait = SELDOM
+            self.rest_while_free()
         else:
             self.wait = TWO_LOOKS - FIRST_LOOK if self.wait == FIRST_LOOK else FIRST_LOOK
+        self.left = self.wait
         if ready:
             self.put_to_sleep()
+
+    def rest_while_free(self) -> None:
+        """Rest while nothing changes velocities, and so no ball gets slow, if nobody sleeps."""
+        world, contacts = self.world, self.contacts
+        is_free = contacts is None or contacts.is_at_rest()
+        if is_free and world.is_falling() and not world.anybody_sleeps():
+            self.resting = world.changes + 1
+            world.update_hooks()
 
     def is_slow(self, body: Body, slow: float) -> bool:
         """Return whether the centre and the rim of a ball are slower than `slow` (px/s)."""

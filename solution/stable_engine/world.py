@@ -18,7 +18,7 @@ from .validate import pair, positive, refuse, require, whole
 
 HOOKS = [name for name, hook in vars(Effect).items() if callable(hook) and name[0] != "_"]
 SUBSTEP = ("force", "warm_start", "solve", "press", "lag", "relax")  # hooks that idle effects skip
-STEP = ("detect", "prepare", "tell")  # hooks that resting effects skip
+STEP = ("detect", "prepare", "finish", "tell")  # hooks that resting effects skip
 
 Thing = TypeVar("Thing", bound=Body | Joint)
 Kind = TypeVar("Kind", bound=Effect)
@@ -38,7 +38,7 @@ class World:
     __slots__ = (
         *("lengths", "substep_count", "g", "members", "awake", "statics", "added", "declared"),
         *("ranked", "hooks", "hooks_in", "is_pushed", "has_changed", "lags", "unchecked"),
-        *("warned", "forces"),
+        *("warned", "forces", "changes"),
     )
 
     def __init__(
@@ -55,6 +55,7 @@ class World:
         self.awake: list[Body] = []  # the balls that can move now
         self.statics: list[Body] = []
         self.added = 0  # bodies added so far
+        self.changes = 0  # of the hooks
         self.has_changed = True  # whether contacts must be found anew before the next step
         self.unchecked: list[Body] = []  # bodies and ends of joints that are new or changed
         self.warned: set[str] = set()  # the effects that a step has warned of
@@ -82,15 +83,20 @@ class World:
 
     def update_hooks(self) -> None:
         """Skip hooks of idle and resting effects. Lags may be other ones then."""
+        self.changes += 1
         state = tuple([(effect.is_idle(), effect.is_at_rest()) for effect in self.ranked])
         if state not in self.hooks_in:
             busy = [effect for effect in self.ranked if not effect.is_idle()]
             active = [effect for effect in self.ranked if not effect.is_at_rest()]
+            resting = [effect for effect in self.ranked if effect.is_at_rest()]
             pushes = {name: find_hooks(name, busy) for name in SUBSTEP}
             others = {name: find_hooks(name, active) for name in STEP}
+            others["finish"] = [*find_hooks("rest", resting), *others["finish"]]
             self.hooks_in[state] = {**self.hooks, **pushes, **others}, any(pushes.values())
+        before = self.hooks
         self.hooks, self.is_pushed = self.hooks_in[state]
-        self.lags.forget()
+        if self.hooks is not before:
+            self.lags.forget()
 
     def call(self, name: str, *arguments: Any) -> None:
         """Call the hooks of this name."""

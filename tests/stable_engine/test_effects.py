@@ -23,7 +23,7 @@ from worlds_for_tests import (
 import stable_engine
 from experiments.measures import run, watch
 from experiments.opcodes import count_opcodes, files_run
-from experiments.scenes import DT, EFFECTS, NEED_CONTACTS, Ball, Scene, Spring
+from experiments.scenes import BOUNCE, DT, EFFECTS, NEED_CONTACTS, Ball, Scene, Spring
 from stable_engine import Body, Circle, Contacts, Rod, World
 
 HERE = Path(__file__).parent
@@ -173,6 +173,20 @@ def test_contacts_cost_little_between_balls_that_do_not_meet(speed):
         return sum(count_opcodes(lambda: run(world, 60 * DT)).values())
 
     assert price("Contacts") < 1.2 * price()
+
+
+@pytest.mark.parametrize("count", [10, 40])
+@pytest.mark.parametrize("effects", [[], ["Contacts"], ["Damping"], BOUNCE])
+def test_sleep_costs_little_where_nothing_sleeps(count, effects):
+    scene = flying(count)
+
+    def price(*effects):
+        world = build(scene, *effects)
+        run(world, 64 * DT)
+        assert not world.anybody_sleeps()
+        return sum(count_opcodes(lambda: run(world, 64 * DT)).values())
+
+    assert price(*effects, "Sleep") < 1.02 * price(*effects)
 
 
 def test_a_fall_has_no_substeps():

@@ -129,6 +129,21 @@ def test_a_falling_ball_wakes_the_pile_it_hits():
     assert deepest_overlap(engine) < 0.5
 
 
+@pytest.mark.parametrize("effects", [[], [Contacts], [Contacts, Bounce]])
+def test_a_ball_that_a_force_stops_in_space_falls_asleep(effects):
+    """While nothing changed its velocity, nobody looked."""
+    dt = 1 / 128  # s, without rounding: the ball must stop wholly
+    world = World((0, 0), 4, [Sleep(), *[effect() for effect in effects]])
+    ball = world.add(Body(Circle(10), (0, 0), 2.0))
+    ball.vel = 64, 0
+    for _ in range(200):
+        world.step(dt)
+    ball.apply_force((-64 * 2.0 / dt, 0))
+    for _ in range(200):
+        world.step(dt)
+    assert ball.asleep
+
+
 def test_a_ball_far_away_sleeps_on():
     world = asleep(build(Scene([floor(), Ball((0, -10)), Ball((200, -10))]), *SLEEPY))
     near, far = balls(world)
