@@ -39,7 +39,7 @@ class Body:
         *("e", "mu", "restitution_given", "friction_given"),
         *("x", "y", "vx", "vy", "turn", "w", "last_x", "last_y"),
         *("id", "world", "is_bullet", "is_kinematic", "idle", "island", "joint_count"),
-        *("still", "calm", "kept", "kept_at", "touches", "has_moved"),
+        *("still", "calm", "kept", "kept_at", "touches", "has_moved", "jostled"),
         *("lag_x", "lag_y", "is_pressed", "is_fresh", "flown"),
     )
 
@@ -92,6 +92,7 @@ class Body:
         self.flown = inf
         self.has_moved = False  # since the contacts near it were last found
         self.touches = 0  # the contacts of a ball with other balls
+        self.jostled = False  # whether it has touched another ball since it was last fast
         self.calm = 0.0, 0.0, 0.0  # px/s: vx, vy and the speed of its rim at the last look
         self.kept = 0.0  # s, how long it has stayed where it is
         self.kept_at = inf, 0.0, 0.0  # x, y and angle when that began
@@ -320,7 +321,7 @@ class Body:
     def moved(self) -> None:
         """Wake this body; if it is static, also wake bodies that rested on it or touch it now."""
         self.wake()
-        self.is_pressed, self.is_fresh = False, True
+        self.is_pressed, self.is_fresh, self.jostled = False, True, False
         if self.world is None:
             return
         self.world.look_again(self)

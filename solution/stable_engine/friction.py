@@ -1,12 +1,14 @@
 """Friction: bodies that touch do not slide freely, and balls roll."""
 
-from math import sqrt
+from math import hypot, sqrt
 
 from .contact import Contact
 from .contacts import Contacts
 from .effect import Effect
 from .order import Group
 
+ROLLING = 0.001  # of the weight: the rolling resistance of steel on steel
+ROLLING_SPEED = 3.0  # 1/s, in units of the world; what rolls faster keeps its speed
 CALM = 1e-7  # share of the normal impulse; smaller changes are skipped
 
 
@@ -18,6 +20,9 @@ class Friction(Effect):
     move and after it; in relax alone, a pile would never rest. Where piles are solved, friction
     follows them, as it depends on what they bear, and they are solved again: it makes bodies come
     together where heavy ones press.
+
+    A ball that has touched another one, and rolls on a level face slower than 3 px/s, comes to rest
+    by rolling resistance: so a pile does. Faster ones, and those alone, roll on.
     """
 
     __slots__ = ("contacts",)
@@ -38,6 +43,25 @@ class Friction(Effect):
         c.mu = sqrt(c.a.mu * c.b.mu)
         if c.mu == 0:
             c.jt = 0.0
+
+    def prepare(self, h: float) -> None:
+        """Slow balls that roll slowly on a level face, and have touched others."""
+        world = self.world
+        gx, gy = world.g
+        pull = hypot(gx, gy)
+        slow, less = ROLLING_SPEED * world.unit, ROLLING * pull * h * world.substep_count
+        for c in self.contacts.statics.contacts:
+            a, b = c.a, c.b
+            speed = max(hypot(a.vx, a.vy), abs(a.w) * a.r)
+            if speed > slow or a.joint_count or a in world.forces:
+                a.jostled = False
+                continue
+            a.jostled = a.jostled or a.touches > 0
+            if b.r or b.vx or b.vy or b.w or abs(c.nx * gy - c.ny * gx) > ROLLING * pull:
+                continue
+            if a.jostled and c.jn and c.mu:
+                share = 1 - less / speed if speed > less else 0.0
+                a.vx, a.vy, a.w = a.vx * share, a.vy * share, a.w * share
 
     def solve(self, h: float) -> None:
         if self.contacts.piles:

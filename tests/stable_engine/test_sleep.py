@@ -222,6 +222,24 @@ def test_nothing_slows_what_rolls_or_slides_on_a_level_floor(spin):
     assert asleep(world, 1)
 
 
+@pytest.mark.parametrize("seed", [3, 5, 6, 11])
+def test_what_rolls_in_a_rained_pile_comes_to_rest(seed):
+    """In each of these, a ball would roll to and fro under others for more than ten seconds."""
+    world = build(pile(40, 200, seed), *BOUNCE)
+    run(world, 10)
+    assert max(speed(ball) for ball in balls(world)) < 0.1
+
+
+@pytest.mark.parametrize("start", [3.1, 30.0])
+def test_balls_that_roll_in_a_row_keep_their_speed(start):
+    """Rolling resistance ends only what is too slow to be seen."""
+    world = build(Scene([floor(), Ball((0, -10)), Ball((20, -10))]), *TOUCH)
+    for ball in balls(world):
+        ball.vel, ball.omega = (start, 0), start / 10
+    run(world, 5)
+    assert [ball.x for ball in balls(world)] == pytest.approx([5 * start, 20 + 5 * start])
+
+
 def test_a_ball_that_rolls_up_a_slope_turns_back():
     """A disc on a slope accelerates by 2/3 g sin, also where its speed is 0."""
     world, ball = lone_ball(-4.0, 0.1, Sleep())
