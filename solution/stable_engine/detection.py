@@ -274,14 +274,18 @@ class Detection(Effect):
         return c
 
     def end_contacts(self, parting: list[Contact]) -> None:
-        """End contacts of bodies that an impact has thrown apart: nothing brings them back."""
+        """End contacts of bodies that an impact has thrown apart: nothing brings them back.
+
+        Not of pairs that have parted in this step already: none parts twice in one.
+        """
         world = self.world
         least = self.speculative_speed + hypot(*world.g) * self.last_dt  # px/s
         ended: set[Contact] = set()
+        parted = {(c.a, c.b) for c in self.events.parted}
         for c in parting:
             b = c.b
             is_led = c.a.joint_count or b.joint_count or (b.is_static and (b.vx or b.vy))
-            if is_led or c.jn or c.jt or c.closing_speed() > -least:
+            if is_led or c.jn or c.jt or c.closing_speed() > -least or (c.a, b) in parted:
                 continue
             if collide(c.a, b)[2] > self.touching_gap:
                 ended.add(c)

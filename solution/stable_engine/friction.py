@@ -50,16 +50,17 @@ class Friction(Effect):
         gx, gy = world.g
         pull = hypot(gx, gy)
         slow, less = ROLLING_SPEED * world.unit, ROLLING * pull * h * world.substep_count
+        tilted = ROLLING * pull
         for c in self.contacts.statics.contacts:
+            if not -tilted <= c.nx * gy - c.ny * gx <= tilted:
+                continue
             a, b = c.a, c.b
             speed = max(hypot(a.vx, a.vy), abs(a.w) * a.r)
             if speed > slow or a.joint_count or a in world.forces:
                 a.jostled = False
-                continue
-            a.jostled = a.jostled or a.touches > 0
-            if b.r or b.vx or b.vy or b.w or abs(c.nx * gy - c.ny * gx) > ROLLING * pull:
-                continue
-            if a.jostled and c.jn and c.mu:
+            elif a.touches:
+                a.jostled = True
+            if a.jostled and c.jn and c.mu and not (b.r or b.vx or b.vy or b.w):
                 share = 1 - less / speed if speed > less else 0.0
                 a.vx, a.vy, a.w = a.vx * share, a.vy * share, a.w * share
 

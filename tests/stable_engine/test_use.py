@@ -713,8 +713,8 @@ def test_a_pair_is_told_in_turns_while_a_program_pushes():
 
 @pytest.mark.parametrize("seed", range(3))
 def test_a_pair_is_told_to_meet_and_part_in_turns(seed):
-    """A program that keeps a set of the pairs in touch is right, also if a pair meets twice."""
-    rng, touching = random.Random(seed), set()
+    """A program that keeps a set of the pairs in touch is right. None parts twice in a step."""
+    rng, touching, parted = random.Random(seed), set(), set()
 
     def meet(a, b, _):
         assert frozenset((a, b)) not in touching
@@ -722,6 +722,8 @@ def test_a_pair_is_told_to_meet_and_part_in_turns(seed):
 
     def part(a, b):
         touching.remove(frozenset((a, b)))
+        assert frozenset((a, b)) not in parted
+        parted.add(frozenset((a, b)))
 
     world = World((0, 0), 4, [Contacts(meet, part), Bounce()])
     for way in (-1, 1):
@@ -731,4 +733,5 @@ def test_a_pair_is_told_to_meet_and_part_in_turns(seed):
         ball = world.add(Body(Circle(12), (i, j), 1.0, restitution=1.0))
         ball.vel = rng.uniform(-900, 900), rng.uniform(-900, 900)
     for _ in range(120):
+        parted.clear()
         world.step(1 / 60)
