@@ -1,14 +1,9 @@
 """Restitution: bodies that hit each other bounce off."""
 
-from math import hypot
-
-from .contact import RESTING_SPEED, Contact
+from .contact import Contact
 from .contacts import FAR_APART, Contacts
 from .effect import Effect
 from .impacts import Impacts, select_fast
-
-RESTING_STEPS = 3.7  # impacts slower than gravity's speed after so many do not bounce
-LEAST_SPEED = 0.001  # 1/s, in units of the world: the same without gravity
 
 
 class Bounce(Effect):
@@ -35,7 +30,7 @@ class Bounce(Effect):
         if not self.contacts.groups:
             return
         contacts = self.contacts
-        slow = self.slow_speed(max(h, contacts.pace.h) * self.world.substep_count)
+        slow = contacts.slow_speed(max(h, contacts.pace.h) * self.world.substep_count)
         fast = select_fast(contacts.touching, slow)
         may_hit = contacts.begun and (fast or contacts.may_pass())
         if not may_hit and all([abs(c.closing_speed()) <= slow for c in fast]):
@@ -60,11 +55,3 @@ class Bounce(Effect):
             if closing < -slow:
                 parting.append(c)
         contacts.end_contacts(parting)
-
-    def slow_speed(self, dt: float) -> float:
-        """Return the speed (px/s) up to which contacts do not bounce in steps of dt seconds.
-
-        Gravity gives that much in a few steps; without gravity all but the slowest bounce.
-        """
-        unit, g = self.world.unit, hypot(*self.world.g)
-        return min(RESTING_SPEED * unit, RESTING_STEPS * g * dt + LEAST_SPEED * unit)

@@ -12,6 +12,7 @@ from .order import Group, Stage, give_places, put_in_order
 from .pile import Pile, lower
 from .piles import BEARING, find_piles
 from .soft import Pace, softness
+from .strikes import stop_strikes
 from .unload import take_off
 
 FREQUENCY = 0.24  # of a contact of two balls, per substep; against a static body it is doubled
@@ -98,6 +99,8 @@ class Contacts(Detection):
             for c in self.crowd:  # they just touch, so that the solver does not push them apart
                 c.gap = max(c.gap, self.touching_gap)
         self.leave_covered()
+        if self.begun and not self.lets_none_pass:
+            stop_strikes(self, h * self.world.substep_count)
         self.find_order()
         if self.begun:  # impulses may reach all others
             self.renewed = self.touching

@@ -6,7 +6,7 @@ from math import hypot, inf, sqrt
 from .body import Body
 from .bounds import Pair
 from .broad_phase import BroadPhase
-from .contact import Contact, collide, is_over_face, leave_as_entered
+from .contact import RESTING_SPEED, Contact, collide, is_over_face, leave_as_entered
 from .effect import Effect
 from .events import Events
 from .landings import Landings
@@ -20,6 +20,8 @@ from .validate import function
 
 # lengths are in units of the world, see World.unit
 SPECULATIVE_SPEED = 10.0  # 1/s, slower pairs get a contact before they touch
+RESTING_STEPS = 3.7  # hits slower than gravity's speed after so many do not bounce
+LEAST_SPEED = 0.001  # 1/s: the same without gravity
 FAR = 0.125  # of both radii; balls that approach by more in a step may have passed each other
 TOUCHING = 1e-6  # a gap that counts as touching: rounding
 MOST_BODIES = 2**29  # and no id is larger
@@ -37,7 +39,7 @@ class Detection(Effect):
         *("lets_none_pass", "last_dt", "flying", "hit_ago", "stops"),
         *("broad_phase", "crowd", "beside_static", "landings", "rods", "balls", "statics"),
         *("groups", "unpaired", "ignored", "h", "touching_gap", "speculative_speed", "springs"),
-        *("struck", "is_resting"),
+        "is_resting",
     )
 
     def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:
@@ -54,7 +56,6 @@ class Detection(Effect):
         self.hit_ago: dict[Body, float] = {}  # s, since the last impact of a ball in this step
         self.stops: dict[Body, Stop] = {}  # of balls that static bodies stopped in this step
         self.broad_phase = BroadPhase()
-        self.struck: dict[Contact, float] = {}  # by fast hits, without Bounce: see find_struck
         self.crowd: dict[Contact, bool] = {}  # of bodies that part_crowd separates
         self.beside_static: dict[Body, None] = {}  # balls that are near static bodies
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
@@ -370,6 +371,14 @@ class Detection(Effect):
         if (a.joint_count or b.joint_count) and (self.is_led_far(a) or self.is_led_far(b)):
             return False
         return (self.look_back_late(a, b) if is_late else moment_of_touch(a, b, seconds))[0] > 0
+
+    def slow_speed(self, dt: float) -> float:
+        """Return the speed (px/s) up to which hits do not bounce in steps of dt seconds.
+
+        Gravity gives that much in a few steps; without gravity all but the slowest bounce.
+        """
+        unit, g = self.world.unit, hypot(*self.world.g)
+        return min(RESTING_SPEED * unit, RESTING_STEPS * g * dt + LEAST_SPEED * unit)
 
     def is_led_far(self, body: Body) -> bool:
         """Return whether rods or stiff springs may lead a ball by more than its radius in a step.

@@ -1,16 +1,11 @@
 """Hits of one moment: the impulses of contacts, friction and rods, solved together."""
 
 from collections.abc import Sequence
-from math import sqrt
 
 from .contact import Contact
-from .flight import Flight
-from .frame import Frame
 from .limits import LimitedRow, solve_within
 from .network import Network
-from .order import balls_of
 from .row import Row
-from .time_of_impact import speed_at_touch
 
 LEAST = 1e-9  # share of the speed of the hardest impact of a moment; less may be left
 
@@ -53,46 +48,19 @@ class Rub(Hit):
         self.end_b.w -= self.arm_b * j * self.end_b.inv_inertia
 
 
-def resolve(group: list[Contact], frames: list[Frame], flight: Flight) -> None:
-    """Make contacts separate at the speeds of the law, or faster.
+def resolve_at_once(hits: list[Hit], rods: list[Row]) -> None:
+    """Make bodies separate at the speeds that are wanted, or faster.
 
-    Normal impulses come first, then friction limited by them, so no energy is created.
+    Normal impulses come first, then friction limited by them, so no energy is created. Rods are to
+    keep their lengths.
     """
-    for frame in frames:
-        frame.hold()
-    hits = [Hit(c, law_of(c, flight)) for c in group]
-    rods = [Row(rod.end_a, rod.end_b, rod.nx, rod.ny) for frame in frames for rod in frame.rods]
     least = LEAST * max([hit.wanted - hit.speed() for hit in hits])
-    resolve_at_once(hits, rods, least)
-    resolve_at_once([Rub(hit) for hit in hits if hit.mu * hit.total], rods, least)
-    for body in balls_of(group) if flight.rests else []:
-        if body in flight.rests and body not in flight.frame_of:
-            flight.release(body)
+    reach(hits, rods, least)
+    reach([Rub(hit) for hit in hits if hit.mu * hit.total], rods, least)
 
 
-def law_of(c: Contact, flight: Flight) -> tuple[float, float]:
-    """Return the speed (px/s) at which a pair separates.
-
-    At any step size a ball leaves a wall exactly: e is applied to its speed at the surface. If
-    it was not moved back there, conservation of energy gives that speed, and the present one.
-
-    Also return the share of the impulse without the speed gained below the surface.
-    """
-    closing, e = c.closing_speed(), c.e
-    g, lag = flight.closing_acceleration(c)
-    lag += flight.stiff_lag(c) if flight.stiff else 0.0
-    if g == lag == 0:
-        return e * closing, 1.0
-    crossing = max(speed_at_touch(c, closing, g, lag), 0.0)
-    gap = c.gap if abs(c.gap) > flight.contacts.touching_gap else 0.0
-    most = (closing + lag) * (closing + lag)
-    parting = sqrt(max(min(e * e * crossing * crossing - 2 * g * gap, most), 0.0)) + lag
-    whole = parting + closing
-    return parting, min((1 + e) * crossing / whole, 1.0) if whole > 0 else 1.0
-
-
-def resolve_at_once(rows: Sequence[Hit], rods: list[Row], least: float) -> None:
-    """Give the rows the impulses that they need together. Rods are to keep their lengths."""
+def reach(rows: Sequence[Hit], rods: list[Row], least: float) -> None:
+    """Give rows the impulses that they need together, and rods those that hold them."""
     if not rows:
         return
     if len(rows) == 1 and not rods:

@@ -11,8 +11,8 @@ from .detection import FAR, pair_number
 from .faces import Faces
 from .flight import DEEPEST, Flight
 from .frame import Frame
-from .hit import resolve
 from .impact_queue import ImpactQueue
+from .law import resolve
 from .order import balls_of
 from .sweep import has_entered, moment_of_touch, was_at_face
 from .time_of_impact import ARC_PASSES, TimeOfImpact

@@ -15,8 +15,6 @@ TALL = 13.3  # weights of its effective mass; a contact that bears more carries 
 # so that rounding does not decide between towers of equal balls
 LEANING = 0.1  # a sine; a tower leans less
 SUNK = 0.01  # in units of the world; a contact that gives way by less sinks too little to be seen
-STRUCK = 0.3  # in units of the world; a hit counts until bodies overlap by less
-STRUCK_TIME = 0.1  # s, and no longer
 BEARING = 0.05  # weights of its effective mass; a contact with less bears nothing
 TIED = 0.005  # of both radii; rods take over what a push of balls that overlap by more leaves
 MOST_ROWS = 128  # contacts and rods of a pile; a larger one is left to passes
@@ -44,8 +42,6 @@ def find_piles(contacts: Detection, before: list[Pile], h: float) -> list[Pile]:
         pile.end()
     tied = find_tied(contacts, h) if contacts.landings.pairs else set()
     springs = contacts.springs.find_stiff(h) if contacts.springs else []
-    dt = h * world.substep_count
-    contacts.struck = {} if contacts.lets_none_pass else find_struck(contacts, dt)
     piles = find_heavy(contacts, is_heavy, tied, springs)
     if is_tall:
         piles += find_towers(contacts.touching, piles, tall, weight, world.unit)
@@ -80,14 +76,14 @@ def find_heavy(
             loads[body] = hypot(fx, fy) / pull
     held = {body for spring in springs for body in (spring.end_a, spring.end_b) if body.inv_mass}
     pulled = {c for c in contacts.touching if c.a in held or c.b in held} if held else set()
-    is_heavy = is_heavy or bool(loads or tied or pulled or contacts.struck)
+    is_heavy = is_heavy or bool(loads or tied or pulled)
     frames = rods.frames if rods else []
     if not (is_heavy or any([frame.load > HEAVY * frame.lightest for frame in frames])):
         return []
     for frame in frames:
         loads.update(dict.fromkeys(frame.ends, frame.load))
     links: list[Joint] = [rod for frame in frames for rod in frame.rods]
-    tied = {c for c in tied if c.a in loads or c.b in loads} | pulled | contacts.struck.keys()
+    tied = {c for c in tied if c.a in loads or c.b in loads} | pulled
     return collect_piles(contacts.touching, [*links, *springs], loads, tied, world.unit)
 
 
@@ -139,23 +135,6 @@ def find_wedged(contacts: list[Contact]) -> dict[Body, float]:
         if WEDGED < alike < PARALLEL:
             wedged[c.a] = max(wedged.get(c.a, 0.0), c.a.m / (1 - alike))
     return wedged
-
-
-def find_struck(contacts: Detection, dt: float) -> dict[Contact, float]:
-    """Return the contacts that a fast hit has pressed together, and for how long (s) they count.
-
-    Passes would leave some of its speed as a bounce.
-    """
-    struck: dict[Contact, float] = {}
-    fast, deep = contacts.speculative_speed, STRUCK * contacts.world.unit
-    before = [c for c in contacts.touching if c in contacts.struck] if contacts.struck else []
-    for c in [*before, *contacts.begun]:
-        left = contacts.struck.get(c, 0.0) - dt
-        if c.closing_speed() > fast and not (c.a.joint_count or c.b.joint_count):
-            struck[c] = STRUCK_TIME
-        elif left > STRUCK_TIME - 1.5 * dt or (left > 0 and c.gap < -deep):
-            struck[c] = left
-    return struck
 
 
 def find_firsts(
