@@ -46,6 +46,8 @@ class Friction(Effect):
 
     def prepare(self, h: float) -> None:
         """Slow balls that roll slowly on a level face, and have touched others."""
+        if not self.contacts.changed:
+            return  # nothing moves
         world = self.world
         gx, gy = world.g
         pull = hypot(gx, gy)
