@@ -324,7 +324,7 @@ class Body:
         self.is_pressed, self.is_fresh, self.jostled = False, True, False
         if self.world is None:
             return
-        self.world.look_again(self)
+        self.world.look_again(self, steers=not self.is_static)
         if self.is_static:
             self.world.call("static_moved", self)
 

@@ -49,6 +49,12 @@ class Bounds:
         x, y = self.body.x, self.body.y
         return self.left <= x <= self.right and self.top <= y <= self.bottom
 
+    def leaves(self, dt: float) -> bool:
+        """Return whether the body, if nothing pushes it, will be out of its room in dt seconds."""
+        body = self.body
+        x, y = body.x + body.vx * dt, body.y + body.vy * dt
+        return not (self.left <= x <= self.right and self.top <= y <= self.bottom)
+
     def make_room(self, back: float, ahead: float) -> None:
         """Make room for a body's path, from `back` seconds ago to `ahead` s from now."""
         body, margin = self.body, self.margin

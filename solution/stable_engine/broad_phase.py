@@ -60,7 +60,8 @@ class BroadPhase:
         self.age = 0.0  # s, of the rooms
         self.end = -1.0  # s, the age up to which a body that nothing pushes stays in its room
         self.falls = False  # whether gravity pushes all
-        self.is_free = False  # whether nothing else has pushed any since the sweep
+        self.is_free = False  # whether nothing else has pushed any since the sweep, but for these:
+        self.led: dict[Bounds, None] = {}  # of bodies on joints, or that the program has pushed
         self.looks = 0  # checks of pairs that did not touch, since the last sweep
 
     def take(self, bodies: list[Body]) -> None:
@@ -79,7 +80,9 @@ class BroadPhase:
         """
         self.age += dt
         late, doubtful = self.is_late(dt), self.moving
-        if not (late or self.falls):
+        if self.is_free and not late:
+            doubtful = list(self.led)
+        elif not (late or self.falls):
             self.list_near()
             # of bodies with nobody near, only those can leave whose velocity has changed
             far = [b for b in self.far if b.body.vx != b.vx or b.body.vy != b.vy]
@@ -90,9 +93,7 @@ class BroadPhase:
             if not (one.left <= body.x <= one.right and one.top <= body.y <= one.bottom):
                 leavers.append(one)
         for one in self.tied:
-            body = one.body
-            x, y = body.x + body.vx * dt, body.y + body.vy * dt
-            if not (one.left <= x <= one.right and one.top <= y <= one.bottom) and one.holds():
+            if one.leaves(dt) and one.holds():
                 one.extra = dt
                 leavers.append(one)
         count = len(leavers)
@@ -122,6 +123,7 @@ class BroadPhase:
             self.leavers = self.moving
             self.is_quiet, self.falls = False, g != (0.0, 0.0)
             self.end, self.pairs, self.spare = self.ahead, [], self.pairs
+            self.led = {one: None for one in self.moving if one.body.joint_count}
         count, ahead = len(self.pairs), max(self.ahead - self.age, dt)
         fall_x, fall_y = g[0] * ahead * ahead / 2, g[1] * ahead * ahead / 2
         for one in self.leavers:
@@ -171,12 +173,15 @@ class BroadPhase:
     def skip_pairs(self, dt: float, margin: float) -> None:
         """Look at no pair until two balls come within margin px, if nothing pushes.
 
-        All fly straight on, or fall alike. A static body counts as if a ball came near it.
+        All fly straight on, or fall alike. A static body counts as if a ball came near it. Pairs of
+        bodies that may be pushed are looked at in each step.
         """
         self.looks += len(self.pairs)
         seconds, first = self.ahead + 2 * dt, NO_HIT
         for pair in self.pairs:
             a, b = pair.a, pair.b
+            if a.joint_count or b.joint_count:
+                continue
             x, y, reach = a.x - b.x, a.y - b.y, a.r + b.r + margin
             dx, dy = (a.vx - b.vx) * seconds, (a.vy - b.vy) * seconds
             if b.is_static or x * x + y * y <= reach * reach:
@@ -191,10 +196,27 @@ class BroadPhase:
         self.is_listed = False
         for one in self.moving:
             one.near = False
+        for one in self.led:
+            self.lead(one)
+
+    def lead(self, one: Bounds) -> None:
+        """Note that something may push a body, so it is looked at in each step."""
+        self.led[one] = None
+        for pair in one.pairs:
+            self.rooms[pair.a].near = self.rooms[pair.b].near = True
+            self.is_listed = False
+
+    def hold_led(self, dt: float) -> bool:
+        """Return whether bodies that may be pushed are in their rooms: on rods, also dt s later."""
+        stays = all([one.holds() for one in self.led])
+        return stays and not any([one.leaves(dt) for one in self.tied])
 
     def add_looks(self, count: int, dt: float) -> None:
-        """Count checks of pairs that did not touch. After many, the next step has smaller rooms."""
-        self.looks += count
+        """Count checks of pairs that did not touch. After many, the next step has smaller rooms.
+
+        Pairs that are skipped do not count.
+        """
+        self.looks += sum([len(one.pairs) for one in self.near]) if self.is_quiet else count
         if self.is_crowded() and self.ahead > dt:
             self.is_stale = True
 

@@ -237,7 +237,7 @@ class Contacts(Detection):
 
         The end of a room is left out, as velocities lag behind positions when rooms are made.
         """
-        if self.stays(h):
+        if self.stays(h) and self.broad_phase.hold_led(h * self.world.substep_count):
             self.broad_phase.age += h * self.world.substep_count
             return
         self.is_resting = False
@@ -248,7 +248,9 @@ class Contacts(Detection):
     def stays(self, h: float) -> bool:
         """Return whether all bodies fall freely in their rooms in this step, and in equal ones."""
         phase, world = self.broad_phase, self.world
-        phase.is_free = phase.is_free and not self.groups and world.is_falling()
+        phase.is_free = phase.is_free and not (self.groups or world.are_all_pushed)
+        for body in world.forces:
+            phase.lead(phase.rooms[body])
         return (
             phase.is_free and phase.age + h * (world.substep_count + 1) <= phase.end and h == self.h
         )
@@ -268,7 +270,9 @@ class Contacts(Detection):
             if deepest < REDETECT_DISTANCE * self.world.unit:
                 self.crowd = {}
         self.cores.keep_out(h)
-        if stays and not (phase.near or phase.is_stale or self.crowd or self.cores.starts):
+        if stays and not (
+            phase.near or phase.leavers or phase.is_stale or self.crowd or self.cores.starts
+        ):
             self.is_resting = self.pace.h == h
             if self.is_resting:
                 self.last_dt = 0.0

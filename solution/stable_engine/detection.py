@@ -93,7 +93,10 @@ class Detection(Effect):
         was_idle = self.is_idle()
         self.is_resting = False
         if self.last_dt == 0:  # a program may have changed velocities
-            phase.is_free = False
+            phase.is_free = phase.is_free and world.steered is not None
+            for body in world.steered or []:
+                if body in phase.rooms:
+                    phase.lead(phase.rooms[body])
         if len(phase.bounds) != len(world.members):
             phase.take(world.members)
             rods = self.rods
@@ -143,7 +146,7 @@ class Detection(Effect):
             self.beside_static, self.landings.pairs = {}, []
             for c in self.touching:
                 self.unpaired[pair_number(c.a, c.b)] = c
-            phase.is_free = self.world.is_falling() and not self.touching
+            phase.is_free = not (self.world.are_all_pushed or self.world.forces or self.touching)
         found = phase.renew(g, held, dt, back, self.speculative_speed * dt)
         self.add_pairs(found)
         touched = {c.a for c in self.unpaired.values()}

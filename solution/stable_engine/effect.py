@@ -23,6 +23,7 @@ class Effect:
 
     __slots__ = ("world",)
     rank: ClassVar[int]
+    pushes_all: ClassVar[bool] = True  # whether its substeps push bodies off joints and contacts
     world: World  # set when it joins one
 
     def __repr__(self) -> str:

@@ -97,6 +97,7 @@ class Joints(Effect, Generic[AnyJoint]):
     """An effect with a list of joints. Those between sleeping bodies are skipped."""
 
     __slots__ = ("awake", "is_stale", "joints")
+    pushes_all = False
 
     def __init__(self) -> None:
         self.joints: list[AnyJoint] = []

@@ -12,6 +12,7 @@ class Kinematics(Users):
     """
 
     __slots__ = ()
+    pushes_all = False
     rank = -1  # moves bodies before any other effect relaxes
 
     def detect(self, h: float) -> None:

@@ -37,8 +37,8 @@ class World:
 
     __slots__ = (
         *("lengths", "substep_count", "g", "members", "awake", "statics", "added", "declared"),
-        *("ranked", "hooks", "hooks_in", "is_pushed", "has_changed", "lags", "unchecked"),
-        *("warned", "forces", "changes"),
+        *("ranked", "hooks", "hooks_in", "is_pushed", "are_all_pushed", "has_changed", "lags"),
+        *("warned", "forces", "changes", "steered", "unchecked"),
     )
 
     def __init__(
@@ -57,6 +57,7 @@ class World:
         self.added = 0  # bodies added so far
         self.changes = 0  # of the hooks
         self.has_changed = True  # whether contacts must be found anew before the next step
+        self.steered: list[Body] | None = []  # balls that the program has pushed, if that is all
         self.unchecked: list[Body] = []  # bodies and ends of joints that are new or changed
         self.warned: set[str] = set()  # the effects that a step has warned of
         self.forces: dict[Body, Push] = {}  # of the next step
@@ -73,7 +74,8 @@ class World:
             self.declared[name] = effect
         self.ranked = sorted(self.declared.values(), key=lambda effect: effect.rank)
         self.hooks = {name: find_hooks(name, self.ranked) for name in HOOKS}
-        self.hooks_in: dict[State, tuple[Hooks, bool]] = {}  # and whether any pushes in substeps
+        # and whether any pushes in substeps, and whether any pushes all bodies
+        self.hooks_in: dict[State, tuple[Hooks, bool, bool]] = {}
         for effect in self.declared.values():
             name, found = f"World.effects' {effect!r}", "in another world already"
             require(not hasattr(effect, "world"), name, found, "a new one: each world has its own")
@@ -92,9 +94,11 @@ class World:
             pushes = {name: find_hooks(name, busy) for name in SUBSTEP}
             others = {name: find_hooks(name, active) for name in STEP}
             others["finish"] = [*find_hooks("rest", resting), *others["finish"]]
-            self.hooks_in[state] = {**self.hooks, **pushes, **others}, any(pushes.values())
+            pushing = [effect for effect in busy if any([find_hooks(n, [effect]) for n in SUBSTEP])]
+            are_all = any([effect.pushes_all for effect in pushing])
+            self.hooks_in[state] = {**self.hooks, **pushes, **others}, bool(pushing), are_all
         before = self.hooks
-        self.hooks, self.is_pushed = self.hooks_in[state]
+        self.hooks, self.is_pushed, self.are_all_pushed = self.hooks_in[state]
         if self.hooks is not before:
             self.lags.forget()
 
@@ -202,15 +206,22 @@ class World:
         effect.add(joint)
         self.begin_anew()
 
-    def look_again(self, body: Body) -> None:
-        """Check this new or changed body in the next step."""
-        self.begin_anew()
+    def look_again(self, body: Body, steers: bool = False) -> None:
+        """Check this new or changed body in the next step: a ball that is only steered moves on."""
+        self.begin_anew(body if steers else None)
         self.unchecked.append(body)
 
-    def begin_anew(self) -> None:
-        """Let the next step find contacts and lags anew, as the program has changed something."""
+    def begin_anew(self, ball: Body | None = None) -> None:
+        """Let the next step find contacts and lags anew, as the program has changed something.
+
+        Name a ball if nothing but its motion has changed.
+        """
         self.has_changed = True
         self.lags.forget()
+        if ball is None:
+            self.steered = None
+        elif self.steered is not None:
+            self.steered.append(ball)
 
     def remove(self, thing: Body | Joint) -> None:
         """Remove a body, rod or spring; with a body, also the rods and springs tied to it.
@@ -381,11 +392,14 @@ class World:
 
     def detect(self, h: float) -> None:
         """Find out which bodies touch. If the program has changed anything, no effect rests."""
-        if self.has_changed:
+        has_changed = self.has_changed
+        if has_changed:
             self.update_hooks()
         self.has_changed = False
         for detect in self.hooks["detect"]:
             detect(h)
+        if has_changed:
+            self.steered = []
 
     def fall(self, h: float) -> None:
         """Accelerate by gravity, move and turn awake balls, for all substeps of h seconds at once.
