@@ -195,7 +195,7 @@ class BroadPhase:
         self.is_quiet = True
         self.is_listed = False
         for one in self.moving:
-            one.near = False
+            one.near = one.body.has_moved = False
         for one in self.led:
             self.lead(one)
 
@@ -207,8 +207,11 @@ class BroadPhase:
             self.is_listed = False
 
     def hold_led(self, dt: float) -> bool:
-        """Return whether bodies that may be pushed are in their rooms: on rods, also dt s later."""
-        stays = all([one.holds() for one in self.led])
+        """Return whether bodies that may be pushed are in their rooms, on rods also in dt seconds.
+
+        Nobody may be near them.
+        """
+        stays = all([one.holds() and not one.pairs for one in self.led])
         return stays and not any([one.leaves(dt) for one in self.tied])
 
     def add_looks(self, count: int, dt: float) -> None:

@@ -108,7 +108,8 @@ class Detection(Effect):
         if renews or moved:
             self.changed = True
             for pair in found:  # where nothing has moved as well
-                (pair.b if pair.a.idle else pair.a).has_moved = True
+                body = pair.b if pair.a.idle else pair.a
+                body.has_moved = phase.rooms[body].near
             if self.landings.speeds:
                 self.landings.end()
             self.find_contacts(dt)
@@ -146,7 +147,7 @@ class Detection(Effect):
             self.beside_static, self.landings.pairs = {}, []
             for c in self.touching:
                 self.unpaired[pair_number(c.a, c.b)] = c
-            phase.is_free = not (self.world.are_all_pushed or self.world.forces or self.touching)
+            phase.is_free = not (self.world.are_all_pushed or self.touching)
         found = phase.renew(g, held, dt, back, self.speculative_speed * dt)
         self.add_pairs(found)
         touched = {c.a for c in self.unpaired.values()}

@@ -175,6 +175,31 @@ def test_contacts_cost_little_between_balls_that_do_not_meet(speed):
     assert price("Contacts") < 1.2 * price()
 
 
+@pytest.mark.parametrize("gravity", [0, 980])
+@pytest.mark.parametrize("tie", [Rod, stable_engine.Spring, None])
+def test_contacts_cost_little_beside_one_tied_or_steered_ball(tie, gravity):
+    rng = random.Random(5)
+    ties = [] if tie is None else [tie]
+
+    def price(*effects):
+        world = build(Scene([], (*effects, "Rods", "Springs"), gravity=(0, gravity)))
+        for i, j in product(range(10), repeat=2):
+            ball = world.add(Body(Circle(10), (100 * i, 100 * j), 1.0))
+            ball.vel = rng.uniform(-30, 30), rng.uniform(-30, 30)
+        ends = [world.add(Body(Circle(10), (x, -500), 1.0)) for x in (0, 100)]
+        for one in ties:
+            world.add(one(*ends) if one is Rod else one(*ends, 100))
+        world.check()
+        run(world, 3 * DT)
+        total = 0
+        for _ in range(60):
+            ends[1].vel += (0, 1)
+            total += sum(count_opcodes(lambda: world.step(DT)).values())
+        return total
+
+    assert price("Contacts") < 1.2 * price()
+
+
 @pytest.mark.parametrize("count", [10, 40])
 @pytest.mark.parametrize("effects", [[], ["Contacts"], ["Damping"], BOUNCE])
 def test_sleep_costs_little_where_nothing_sleeps(count, effects):

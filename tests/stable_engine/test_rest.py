@@ -1,10 +1,25 @@
 """Test that a step may skip work while nobody is near or all part, and moves all the same."""
 
+import math
 import random
 
 import pytest
 
-from stable_engine import Body, Bounce, Box, Circle, Contacts, Damping, Friction, World
+from stable_engine import (
+    Body,
+    Bounce,
+    Box,
+    Circle,
+    Contacts,
+    Damping,
+    Friction,
+    Rod,
+    Rods,
+    Spring,
+    Springs,
+    World,
+)
+from stable_engine.broad_phase import BroadPhase
 
 DT = 1 / 120
 
@@ -72,3 +87,40 @@ def test_what_a_step_skips_changes_nothing(gravity, speed, change, monkeypatch):
     slow, none = film(gravity, speed, change)
     assert states == pytest.approx(slow, rel=1e-9, abs=1e-9)
     assert skipped > none == 0
+
+
+def swarm(tie, seed):
+    """Return all states of a sparse swarm that a tied or a steered ball crosses, and the rests."""
+    rng = random.Random(seed)
+    world = World((0, 0), 4, [Contacts(), Bounce(), Rods(), Springs()])
+    balls = []
+    for i in range(12):
+        place = 120 * (i % 4) + rng.uniform(-40, 40), 120 * (i // 4) + rng.uniform(-40, 40)
+        balls.append(world.add(Body(Circle(10), place, 1.0, restitution=1.0)))
+        balls[-1].vel = rng.uniform(-40, 40), rng.uniform(-40, 40)
+    first, second = (world.add(Body(Circle(10), (x, -150), 1.0)) for x in (0, 60))
+    first.vel, second.vel = (100, 250), (100, 350)
+    if tie in (Rod, Spring):
+        world.add(tie(first, second) if tie is Rod else Spring(first, second, 300, 0, 60))
+    states, rests = [], 0
+    for step in range(150):
+        if tie is None and step % 2:
+            first.vel += (math.sin(step / 9) * 20, 0)
+        elif tie is push:
+            first.apply_force((math.sin(step / 9) * 2400, 0))
+        world.step(DT)
+        rests += world.effects["Contacts"].is_at_rest()
+        states += [x for b in world.bodies for x in (b.x, b.y, b.vx, b.vy, b.w)]
+    return states, rests
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("tie", [Rod, Spring, None, push])
+def test_what_a_tied_or_steered_ball_meets_is_not_skipped(tie, seed, monkeypatch):
+    """Contacts rest beside it, but look where it goes: all moves as if they never rested."""
+    states, rests = swarm(tie, seed)
+    monkeypatch.setattr(Contacts, "stays", lambda contacts, h: False)
+    monkeypatch.setattr(BroadPhase, "skip_pairs", lambda phase, dt, margin: None)
+    slow, none = swarm(tie, seed)
+    assert states == pytest.approx(slow, rel=1e-6, abs=1e-6)
+    assert rests >= none == 0
