@@ -4,6 +4,8 @@ They are moved apart and get no speed by that. Contacts would push them apart as
 jam would store the push of many substeps, and be shot away by it.
 """
 
+from math import copysign, sqrt
+
 from .body import Body
 from .contact import Contact, collide, leave_as_entered
 from .detection import Detection
@@ -59,8 +61,13 @@ def part_crowd(contacts: Detection, most: float) -> float:
                 way = min(max(-PARTED * gap, 0.0), most)
                 move_apart(c, nx * way, ny * way, frame_of)
                 slip = (b.vy - a.vy) * nx - (b.vx - a.vx) * ny
-                slower = 0.0 if c.e or not b.inv_mass else -slip * way / (gap + a.r + b.r + way)
-                dvx, dvy = -ny * slower * c.mn, nx * slower * c.mn
+                slower = -slip * way / (gap + a.r + b.r + way) if b.inv_mass else 0.0
+                faster = 0.0
+                if c.e:  # as if they had flown apart, which keeps their energy as well
+                    away = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
+                    square = away * away - slower * (2 * slip + slower)
+                    faster = copysign(sqrt(max(square, 0.0)), away) - away
+                dvx, dvy = (nx * faster - ny * slower) * c.mn, (ny * faster + nx * slower) * c.mn
                 a.vx, a.vy = a.vx - dvx * a.inv_mass, a.vy - dvy * a.inv_mass
                 b.vx, b.vy = b.vx + dvx * b.inv_mass, b.vy + dvy * b.inv_mass
                 for body in (a, b):
