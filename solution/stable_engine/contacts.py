@@ -24,6 +24,7 @@ FAR_APART = 1e6  # radii: no step takes a ball as far
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
 BORNE = 40.0  # weights of a ball; static bodies need no larger impulses beside what it carries
 HELD = 0.1  # of the normal impulse; with less, friction does not hold what is squeezed
+MOST_PASSES = 16  # in which to take back the speed of a push
 LEFT_BEHIND = 0.1  # of the speed of a body that recedes; slower balls stay behind
 
 
@@ -46,7 +47,7 @@ class Contacts(Detection):
 
     __slots__ = (
         *("beginnings", "has_friction", "max_push_speed", "pace", "piles"),
-        *("cores", "held", "push", "squeezed"),
+        *("cores", "drifts", "held", "push", "squeezed"),
     )
     rank = 3
 
@@ -58,6 +59,7 @@ class Contacts(Detection):
         self.beginnings = 0.0  # in how many steps any contact has begun
         self.piles: list[Pile] = []  # with heavy bodies
         self.has_friction = False  # which may hold squeezes
+        self.drifts = False  # whether nothing presses bodies together
         self.push: Stage = push  # of passes, unless there are piles: see Friction
         self.pace = Pace(STIFFENING)
 
@@ -83,6 +85,7 @@ class Contacts(Detection):
             self.held = [(c, c.jn, c.jt, c.last) for c in self.touching]
         if not (self.groups or self.piles or self.crowd):
             return
+        self.drifts = self.lets_none_pass and self.is_drifting()
         if self.has_friction:
             self.squeezed = self.find_squeezed(h)
         hertz = FREQUENCY / pace
@@ -111,6 +114,14 @@ class Contacts(Detection):
             if c.mu:
                 c.set_arms(distance - a.r - b.r)
         self.piles = find_piles(self, self.piles, h)
+
+    def is_drifting(self) -> bool:
+        """Return whether nothing presses bodies together: no force, joint or moving static body."""
+        world = self.world
+        if world.g != (0.0, 0.0) or world.forces or world.hooks["force"]:
+            return False
+        is_alone = len(world.hooks["warm_start"]) == 1
+        return is_alone and not any([body.vx or body.vy or body.w for body in world.statics])
 
     def leave_covered(self) -> None:
         """Let contacts at corners that other bodies cover do nothing, as at a seam of flush boxes.
@@ -179,6 +190,8 @@ class Contacts(Detection):
 
     def warm_start(self, h: float) -> None:
         """Apply both impulses of each contact: one pass costs less than one for each."""
+        if self.drifts:
+            self.forget_impacts()
         for pile in self.piles:
             pile.forget_impacts()
         for c, most in self.squeezed.items():
@@ -201,6 +214,11 @@ class Contacts(Detection):
                     a.w -= c.spin_a * jt
                     b.w -= c.spin_b * jt
 
+    def forget_impacts(self) -> None:
+        """Begin a substep without impulses: where nothing presses, they were impacts."""
+        for c in self.touching:
+            c.jn = c.jt = 0.0
+
     def solve(self, h: float) -> None:
         for pile in self.piles:
             pile.note_lengths(h)
@@ -211,9 +229,19 @@ class Contacts(Detection):
         if self.changed:
             turn_normals(self.renewed)
         self.press_on(h, has_moved=True)
+        if self.drifts:
+            self.take_back(h)
         for pile in self.piles:
             if pile.rods or not self.has_friction:  # else friction settles it
                 pile.settle(self.balls, self.statics, h)
+
+    def take_back(self, h: float) -> None:
+        """Relax until no bodies that a push has parted still separate: they would gain energy."""
+        most = self.touching_gap / h  # px/s
+        for _ in range(MOST_PASSES):
+            if all([not c.jn or c.closing_speed() > -most for c in self.touching]):
+                return
+            self.press_on(h, has_moved=True)
 
     def press_on(self, h: float, has_moved: bool) -> None:
         """Push bodies in a pass over contacts, before the move or after it."""

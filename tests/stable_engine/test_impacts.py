@@ -209,6 +209,29 @@ def test_a_cloud_of_fast_balls_keeps_its_angular_momentum(fast, restitution):
             assert momentum == pytest.approx(before, abs=1e-9 * scale)
 
 
+@pytest.mark.parametrize("friction", [0.0, 0.5, 3.0])
+@pytest.mark.parametrize("restitution", [0.0, 0.3, 1.0])
+def test_a_dense_cloud_of_rough_balls_keeps_momenta_and_gains_no_energy(restitution, friction):
+    """Also where one step takes balls deep into others, and pushes part them."""
+    for seed in range(6):
+        rng = random.Random(seed)
+        cloud = []
+        for at in range(25):
+            x, y = (at % 5 - 2) * 29, (at // 5 - 2) * 29
+            inwards = -rng.uniform(0, 1500) / max(math.hypot(x, y), 29)
+            vel = inwards * x + rng.uniform(-200, 200), inwards * y + rng.uniform(-200, 200)
+            radius, mass, omega = rng.uniform(4, 14), rng.uniform(0.2, 5), rng.uniform(-40, 40)
+            cloud.append(Ball((x, y), radius, mass, vel, omega, restitution, friction))
+        engine = Stable(Scene(cloud, BOUNCE, gravity=(0, 0)))
+        first, *before = read_sums(engine)
+        scale = sum(b.mass * 58 * math.hypot(*b.vel) for b in cloud)
+        last = first
+        for now, *momentum in watch(engine, 0.5, lambda: read_sums(engine), (1 + seed % 4) / 120):  # noqa: B023
+            assert momentum == pytest.approx(before, abs=1e-9 * scale)
+            assert now < last + 1e-6 * first
+            last = now
+
+
 # ---------------------------------------------------------------- rows of balls
 
 
