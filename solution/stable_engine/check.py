@@ -105,15 +105,17 @@ def unused(world: World) -> list[str]:
 def overloaded_rods(world: World) -> list[str]:
     """Return a sentence if a light ball on rods carries more than the substeps can follow.
 
-    Its load is the heaviest ball that rods connect to it, directly or through other balls. Rods
-    pull it by its weight, and more if they turn.
+    All that rods connect to it, directly or through other balls, may hang on it. If rods turn, the
+    heaviest one pulls as well.
     """
     rods: list[Joint] = getattr(world.effects.get("Rods"), "joints", [])
-    h, pull = FRAME / 2 / world.substep_count, hypot(*world.g) + whirl(rods)
+    h, g, turn = FRAME / 2 / world.substep_count, hypot(*world.g), whirl(rods)
     for frame in connect(rods):
-        load = max([body.m for body in bodies_of(frame.rows)])
+        masses = [body.m for body in bodies_of(frame.rows)]
+        load = sum(masses)
+        pull = h * h * (g * load + turn * max(masses))
         for body, length in [(end, rod.rest) for rod in frame.rows for end in (rod.a, rod.b)]:
-            if not body.is_static and h * h * pull * load > SHAKY * body.m * length:
+            if not body.is_static and pull > SHAKY * body.m * length:
                 return [
                     f"{body!r} is on a rod with up to {load:g} kg: it may shake faster than "
                     "the substeps can follow. Take more substeps, or masses closer to each other."

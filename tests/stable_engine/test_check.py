@@ -181,6 +181,18 @@ def test_a_load_too_heavy_for_the_rods_of_a_chain_is_told_of(ratio, told):
     assert len([sentence for sentence in world.check() if "masses closer" in sentence]) == told
 
 
+@pytest.mark.parametrize(("ratio", "told"), [(10, 0), (1000, 1)])
+def test_all_the_heavy_balls_of_a_chain_count(ratio, told):
+    """Each second ball is heavy. At 1 : 1000, with 60 steps a second, rods would tear."""
+    world = World(effects=make(["Rods"]))
+    last = world.add(Body(Circle(5), (0, 0)))
+    for i in range(1, 11):
+        link = world.add(Body(Circle(5), (15 * (i % 2), 26 * i), mass=1 if i % 2 else ratio))
+        world.add(Rod(last, link))
+        last = link
+    assert len([sentence for sentence in world.check() if "masses closer" in sentence]) == told
+
+
 @pytest.mark.parametrize(("ratio", "told"), [(1.0, 0), (1e5, 1)])
 def test_a_whirled_chain_that_rods_cannot_follow_is_told_of(ratio, told):
     """Without gravity, a bob that flies round at 30 rad/s pulls by 30² times its distance."""
