@@ -48,6 +48,7 @@ def stop_strikes(contacts: Contacts, dt: float) -> None:
         if len(group) > 1:
             balls = stop(group, ago)
             for ball in balls:
+                contacts.note_impact(ball, ago[ball])
                 measure(beside[ball])
             for ball in balls:
                 if contacts.cores.stop_hit(ball, beside[ball], []):
