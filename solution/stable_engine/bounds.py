@@ -5,18 +5,20 @@ from __future__ import annotations
 from .body import Body
 from .contact import Contact
 
+MOST_BODIES = 2**29  # and no id is larger
 ROOM = 0.1  # radii, on each side of a body that can move
 
 
 class Pair:
     """Two bodies that are near each other, and their contact while they touch."""
 
-    __slots__ = ("a", "b", "contact")
+    __slots__ = ("a", "b", "contact", "is_watched")
 
     def __init__(self, a: Body, b: Body) -> None:
         self.a = a  # always a ball with mass: the one with the higher id
         self.b = b
         self.contact: Contact | None = None
+        self.is_watched = True  # whether it is looked at in each step
 
 
 class Bounds:
@@ -89,3 +91,8 @@ class Bounds:
     def precedes(self, other: Bounds) -> bool:
         """Return whether the sweep meets this box before another."""
         return self.low < other.low or (self.low == other.low and self.index < other.index)
+
+
+def pair_number(a: Body, b: Body) -> int:
+    """Return a number that only this pair of bodies has, whichever comes first."""
+    return max(a.id, b.id) * MOST_BODIES + min(a.id, b.id)

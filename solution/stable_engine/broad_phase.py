@@ -4,7 +4,7 @@ from math import inf, sqrt
 from operator import attrgetter
 
 from .body import Body
-from .bounds import Bounds, Pair
+from .bounds import Bounds, Pair, pair_number
 from .sweep import NO_HIT, hit_point
 
 SWEEP = 8  # checks of near pairs per body that can move, which cost as much as a sweep
@@ -45,6 +45,7 @@ class BroadPhase:
         self.narrowest = 0.0  # px, the least width of a lane
         self.tied: list[Bounds] = []  # of balls on rods, whose landings are foreseen
         self.pairs: list[Pair] = []
+        self.watched = self.pairs  # all, or while it is quiet those of bodies that may be pushed
         self.spare: list[Pair] = []  # pairs of the last sweep: reuse is cheaper
         self.near: list[Bounds] = []  # of bodies that can move and have others near
         self.far: list[Bounds] = []  # of the others that can move
@@ -123,6 +124,7 @@ class BroadPhase:
             self.leavers = self.moving
             self.is_quiet, self.falls = False, g != (0.0, 0.0)
             self.end, self.pairs, self.spare = self.ahead, [], self.pairs
+            self.watched = self.pairs
             self.led = {one: None for one in self.moving if one.body.joint_count}
         count, ahead = len(self.pairs), max(self.ahead - self.age, dt)
         fall_x, fall_y = g[0] * ahead * ahead / 2, g[1] * ahead * ahead / 2
@@ -194,6 +196,9 @@ class BroadPhase:
             self.end = end
         self.is_quiet = True
         self.is_listed = False
+        self.watched = []
+        for pair in self.pairs:
+            pair.is_watched = False
         for one in self.moving:
             one.near = one.body.has_moved = False
         for one in self.led:
@@ -203,8 +208,21 @@ class BroadPhase:
         """Note that something may push a body, so it is looked at in each step."""
         self.led[one] = None
         for pair in one.pairs:
-            self.rooms[pair.a].near = self.rooms[pair.b].near = True
-            self.is_listed = False
+            if not pair.is_watched:
+                pair.is_watched = True
+                self.watched.append(pair)
+                self.rooms[pair.a].near = self.rooms[pair.b].near = True
+                self.is_listed = False
+
+    def ignore(self, numbers: set[int]) -> None:
+        """Drop the pairs with these numbers."""
+        dropped = {pair for pair in self.pairs if pair_number(pair.a, pair.b) in numbers}
+        for pair in dropped:
+            pair.is_watched = True  # so that nothing adds it again
+        is_all = self.watched is self.pairs
+        self.pairs = [pair for pair in self.pairs if pair not in dropped]
+        kept = [pair for pair in self.watched if pair not in dropped]
+        self.watched = self.pairs if is_all else kept
 
     def hold_led(self, dt: float) -> bool:
         """Return whether bodies that may be pushed are in their rooms, on rods also in dt seconds.
@@ -215,11 +233,8 @@ class BroadPhase:
         return stays and not any([one.leaves(dt) for one in self.tied])
 
     def add_looks(self, count: int, dt: float) -> None:
-        """Count checks of pairs that did not touch. After many, the next step has smaller rooms.
-
-        Pairs that are skipped do not count.
-        """
-        self.looks += sum([len(one.pairs) for one in self.near]) if self.is_quiet else count
+        """Count checks of pairs that did not touch. After many, the next step has smaller rooms."""
+        self.looks += count
         if self.is_crowded() and self.ahead > dt:
             self.is_stale = True
 
@@ -277,8 +292,11 @@ class BroadPhase:
         pair = self.spare.pop() if self.spare else Pair(a, b)
         pair.a, pair.b, pair.contact = a, b, None
         self.pairs.append(pair)
+        if self.watched is not self.pairs:
+            self.watched.append(pair)
         one.pairs.append(pair)
         other.pairs.append(pair)
+        pair.is_watched = True
         if not (one.near and other.near):
             one.near = other.near = True
             self.is_listed = False

@@ -4,8 +4,9 @@ from math import hypot, inf
 from operator import itemgetter
 
 from .body import Body, State, state_of
+from .bounds import pair_number
 from .contact import Contact, collide, leave_as_entered
-from .detection import Detection, pair_number
+from .detection import Detection
 from .soft import SAME_DIRECTION
 from .stop import Stop, lose_energy, rewind
 from .sweep import NO_HIT, drop_covered, first_hit, first_stop, free_share, has_entered

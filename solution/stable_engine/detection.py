@@ -4,7 +4,7 @@ from collections.abc import Callable
 from math import hypot, inf, sqrt
 
 from .body import Body
-from .bounds import Pair
+from .bounds import Pair, pair_number
 from .broad_phase import BroadPhase
 from .contact import RESTING_SPEED, Contact, collide, is_over_face, leave_as_entered
 from .effect import Effect
@@ -24,7 +24,6 @@ RESTING_STEPS = 3.7  # hits slower than gravity's speed after so many do not bou
 LEAST_SPEED = 0.001  # 1/s: the same without gravity
 FAR = 0.125  # of both radii; balls that approach by more in a step may have passed each other
 TOUCHING = 1e-6  # a gap that counts as touching: rounding
-MOST_BODIES = 2**29  # and no id is larger
 REDETECT_DISTANCE = 1e-4  # contacts stay valid until a body moves further
 
 OnHit = Callable[[Body, Body, float], object]
@@ -118,7 +117,7 @@ class Detection(Effect):
                 self.end_unpaired()
             if self.landings.pairs or self.landings.speeds:
                 self.landings.foresee(dt)
-            phase.add_looks(len(phase.pairs) - len(self.touching), dt)
+            phase.add_looks(len(phase.watched) - len(self.touching), dt)
         if self.is_idle() != was_idle:
             world.update_hooks()
 
@@ -160,7 +159,7 @@ class Detection(Effect):
         """Note new near pairs, and drop those to ignore."""
         phase = self.broad_phase
         if self.ignored:
-            phase.pairs = [p for p in phase.pairs if pair_number(p.a, p.b) not in self.ignored]
+            phase.ignore(self.ignored)
         for pair in found:
             if not pair.b.inv_mass:
                 self.beside_static[pair.a] = None
@@ -184,7 +183,7 @@ class Detection(Effect):
         margin, slow2 = slow * dt, slow * slow
         back = self.last_dt if self.lets_none_pass else 0.0
         stops, gone = self.stops, self.events.gone
-        for pair in self.broad_phase.pairs:
+        for pair in self.broad_phase.watched:
             a, b, c = pair.a, pair.b, pair.contact
             if not (a.has_moved or b.has_moved) and (c is None or c.gap == c.found):
                 if c:
@@ -302,7 +301,7 @@ class Detection(Effect):
 
     def drop_contacts(self, ended: set[Contact]) -> None:
         """Drop contacts of bodies that are near each other, without a call of on_part."""
-        for pair in self.broad_phase.pairs:
+        for pair in self.broad_phase.watched:
             if pair.contact in ended:
                 pair.contact = None
         self.touching = [c for c in self.touching if c not in ended]
@@ -546,8 +545,3 @@ def was_apart(a: Body, b: Body, reach: float, back: float) -> bool:
         return True
     out, away = (y, vy) if y > 0 else (-y, -vy)
     return out > b.hy + reach and (away <= 0 or out - away * back > b.hy + reach)
-
-
-def pair_number(a: Body, b: Body) -> int:
-    """Return a number that only this pair of bodies has, whichever comes first."""
-    return max(a.id, b.id) * MOST_BODIES + min(a.id, b.id)

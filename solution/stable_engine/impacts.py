@@ -4,10 +4,10 @@ from collections import defaultdict
 from math import hypot, inf
 
 from .body import Body, State, state_of
-from .bounds import Pair
+from .bounds import Pair, pair_number
 from .contact import Contact, collide, leave_as_entered
 from .contacts import Contacts
-from .detection import FAR, pair_number
+from .detection import FAR
 from .faces import Faces
 from .flight import DEEPEST, Flight
 from .frame import Frame
