@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from .body import Body
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
 
 AHEAD = 0.1  # cosine; a contact further aside takes no part in a strike
 SHARE = 0.3  # of a strike; where less of it gets, passes are enough
-PLACE = attrgetter("x", "y")
+ROUNDING = 1e-9  # of a share, or it would decide
 
 Beside = dict[Body, list[Contact]]  # the contacts of each body
 
@@ -41,7 +40,7 @@ def stop_strikes(contacts: Contacts, dt: float) -> None:
         since = moment_of_touch(c.a, c.b, dt)[0] or min(-c.gap / c.closing_speed(), dt)
         for body in (c.a, c.b):
             ago[body] = max(ago.get(body, 0.0), since)
-    found = find_ahead(hits, beside, ago, gap)
+    found = find_ahead(hits, beside, gap)
     near = [c for c in contacts.touching if c in found]
     links = {c: [d for b in (c.a, c.b) if b.inv_mass for d in beside[b]] for c in near}
     for group in connected(near, {c: [d for d in links[c] if d in found] for c in near}):
@@ -60,18 +59,14 @@ def takes_part(c: Contact, touching_gap: float) -> bool:
     return c.gap <= touching_gap and not (c.a.joint_count or c.b.joint_count)
 
 
-def find_ahead(
-    struck: list[Contact], beside: Beside, ago: dict[Body, float], touching_gap: float
-) -> set[Contact]:
+def find_ahead(struck: list[Contact], beside: Beside, touching_gap: float) -> set[Contact]:
     """Return the contacts of strikes, and those that balls are pressed into by them.
 
-    Balls divide a strike between the contacts ahead of them, as far as much of it gets, and pass
-    on how long `ago` it was.
+    Balls divide a strike between the contacts ahead of them, as far as much of it gets.
     """
     found = set(struck)
-    ahead: list[tuple[Body, float, float, float]] = []
-    for c in struck:
-        ahead += sorted_by_place([(c.b, c.nx, c.ny, 1.0), (c.a, -c.nx, -c.ny, 1.0)])
+    shares: dict[tuple[Contact, Body], float] = {}  # by the body that is pressed
+    ahead = [(c.b, c.nx, c.ny, 1.0) for c in struck] + [(c.a, -c.nx, -c.ny, 1.0) for c in struck]
     for body, nx, ny, share in ahead:
         on: list[tuple[Contact, float, float]] = []  # how far ahead, as a cosine, and which side
         for c in beside[body] if body.inv_mass else []:
@@ -82,27 +77,24 @@ def find_ahead(
         whole = sum([cosine for _, cosine, _ in on])
         for c, cosine, side in on:
             part = share * cosine / whole
-            if c not in found and part > SHARE:
+            other = c.b if body is c.a else c.a
+            if part > shares.get((c, other), SHARE) + ROUNDING:
+                shares[c, other] = part
                 found.add(c)
-                other = c.b if body is c.a else c.a
-                ago[other] = max(ago.get(other, 0.0), ago[body])
                 ahead.append((other, side * c.nx, side * c.ny, part))
     return found
-
-
-def sorted_by_place(
-    ends: list[tuple[Body, float, float, float]],
-) -> list[tuple[Body, float, float, float]]:
-    """Return both ends of a contact in an order that does not depend on which is A."""
-    return sorted(ends, key=lambda end: PLACE(end[0]))
 
 
 def stop(group: list[Contact], ago: dict[Body, float]) -> list[Body]:
     """Move balls back to their touch, stop them there, and let them fly on. Return them.
 
-    Along the way that each flew, angular momentum is kept.
+    Along the way that each flew, angular momentum is kept. Those that were not hit themselves are
+    pushed when the first one was.
     """
     balls = [b for b in dict.fromkeys([b for c in group for b in (c.a, c.b)]) if b.inv_mass]
+    first = max([ago[b] for b in balls if b in ago])
+    for ball in balls:
+        ago.setdefault(ball, first)
     fly(balls, ago, -1.0)
     measure(group)
     resolve_at_once([Hit(c, (0.0, 1.0)) for c in group], [])

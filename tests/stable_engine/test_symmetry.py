@@ -15,7 +15,7 @@ from experiments.engines import Stable
 from experiments.measures import states
 from experiments.rows.hits import kinetic, moments
 from experiments.scenes import BOUNCE, DT, Ball, Block, G, Scene, Spring, floor
-from stable_engine import Body, Circle, Contacts, Segment, World
+from stable_engine import Body, Circle, Contacts, Friction, Segment, World
 
 ROUNDING = 1e-9  # share of the highest speed so far by which two mirrored speeds may differ
 RESTITUTIONS = [0.0, 0.01, 0.1, 0.3, 0.5, 0.9, 1.0]
@@ -183,3 +183,17 @@ def test_a_ball_shot_deep_into_a_symmetric_v_stays_in_its_middle(degrees):
     for _ in range(60):
         world.step(DT)
         assert abs(ball.vel.x) < 1e-9 * 3000
+
+
+def test_a_pile_that_falls_into_a_v_without_bounce_stays_mirrored():
+    """Each strike counts all that is ahead of it, from whichever side it comes."""
+    world = World((0, 980), 4, [Contacts(), Friction()])
+    for side in (-1, 1):
+        world.add(Body(Segment((side * 400, -200), (0, 0), 3), friction=0.5))
+    pairs = []
+    for i in range(5):
+        x, y = 30 + 24 * i, -150 - 7 * i
+        pairs.append([world.add(Body(Circle(10), (s * x, y), 1.0, friction=0.5)) for s in (-1, 1)])
+    for _ in range(180):
+        world.step(1 / 120)
+        assert max(abs(a.x + b.x) + abs(a.y - b.y) for a, b in pairs) < 1e-6
