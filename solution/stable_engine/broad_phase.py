@@ -43,7 +43,7 @@ class BroadPhase:
         self.moving: list[Bounds] = []  # of those that can move
         self.widest = 0.0  # px, half of the widest that can move
         self.narrowest = 0.0  # px, the least width of a lane
-        self.tied: list[Bounds] = []  # of balls on rods, whose landings are foreseen
+        self.tied: list[Bounds] = []  # of balls on joints, whose landings are foreseen
         self.pairs: list[Pair] = []
         self.watched = self.pairs  # all, or while it is quiet those of bodies that may be pushed
         self.spare: list[Pair] = []  # pairs of the last sweep: reuse is cheaper

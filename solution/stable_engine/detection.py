@@ -96,10 +96,12 @@ class Detection(Effect):
             for body in world.steered or []:
                 if body in phase.rooms:
                     phase.lead(phase.rooms[body])
-        if len(phase.bounds) != len(world.members):
+        springs = len(self.springs.joints) if self.springs else 0
+        if len(phase.bounds) != len(world.members) or springs > self.landings.springs:
             phase.take(world.members)
-            rods = self.rods
-            phase.tied = [one for one in phase.moving if rods.holds(one.body)] if rods else []
+            balls = phase.moving if self.has_joints() else []
+            phase.tied = [one for one in balls if self.is_on_joint(one.body)]
+        self.landings.springs = springs
         renews = phase.is_stale or len(phase.leavers) > 0
         found = self.renew_pairs(dt) if renews else []
         phase.list_near()
@@ -163,12 +165,11 @@ class Detection(Effect):
         for pair in found:
             if not pair.b.inv_mass:
                 self.beside_static[pair.a] = None
-        rods = self.rods
-        if rods and rods.awake:
-            for pair in found:
-                a, b = pair.a, pair.b
-                if (rods.holds(a) or rods.holds(b)) and pair_number(a, b) not in self.ignored:
-                    self.landings.pairs.append(pair)
+        for pair in found if self.has_joints() else []:
+            a, b = pair.a, pair.b
+            is_led = self.is_on_joint(a) or self.is_on_joint(b)
+            if is_led and pair_number(a, b) not in self.ignored:
+                self.landings.pairs.append(pair)
 
     def find_contacts(self, dt: float) -> None:
         """Find the present contacts of bodies that have moved, with the impulses they had before.
@@ -382,6 +383,15 @@ class Detection(Effect):
         """
         unit, g = self.world.unit, hypot(*self.world.g)
         return min(RESTING_SPEED * unit, RESTING_STEPS * g * dt + LEAST_SPEED * unit)
+
+    def has_joints(self) -> bool:
+        """Return whether there is any rod or spring that does not sleep."""
+        return any([effect.awake for effect in (self.rods, self.springs) if effect])
+
+    def is_on_joint(self, body: Body) -> bool:
+        """Return whether a body is a ball on a rod or spring."""
+        rods, springs = self.rods, self.springs
+        return bool((rods and rods.holds(body)) or (springs and springs.holds(body)))
 
     def is_led_far(self, body: Body) -> bool:
         """Return whether rods or stiff springs may lead a ball by more than its radius in a step.

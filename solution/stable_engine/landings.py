@@ -1,4 +1,4 @@
-"""Foresee the landings of balls on rods."""
+"""Foresee the landings of balls on rods or springs."""
 
 from __future__ import annotations
 
@@ -15,28 +15,29 @@ if TYPE_CHECKING:
 
 
 class Landings:
-    """Landings of balls on rods: their contacts begin before the bodies meet.
+    """Landings of balls on rods or springs: their contacts begin before the bodies meet.
 
-    In an overlap, rods would work against the push out of it.
+    In an overlap, rods would work against the push out of it, and the push would load springs.
     """
 
-    __slots__ = ("contacts", "pairs", "speeds")
+    __slots__ = ("contacts", "pairs", "speeds", "springs")
 
     def __init__(self, contacts: Detection) -> None:
         self.contacts = contacts
-        self.pairs: list[Pair] = []  # near ones with a ball on rods
+        self.springs = 0  # how many there were when these were found
+        self.pairs: list[Pair] = []  # near ones with a ball on a joint
         # of contacts whose bodies do not press each other yet: at which speed (px/s) they will meet
         self.speeds: dict[Contact, float] = {}
 
     def lands(self, a: Body, b: Body) -> bool:
-        """Return whether one of these is on rods, and they will not bounce off each other."""
+        """Return whether one of these is on a joint, and they will not bounce off each other."""
         contacts = self.contacts
-        if contacts.rods is None or (contacts.lets_none_pass and a.e and b.e):
+        if contacts.lets_none_pass and a.e and b.e:
             return False
-        return contacts.rods.holds(a) or contacts.rods.holds(b)
+        return contacts.is_on_joint(a) or contacts.is_on_joint(b)
 
     def foresee(self, dt: float) -> None:
-        """Begin the contacts of balls on rods that will land on something in dt seconds."""
+        """Begin the contacts of balls on joints that will land on something in dt seconds."""
         contacts, world = self.contacts, self.contacts.world
         if self.speeds:
             self.speeds = {c: self.speeds[c] for c in contacts.touching if c in self.speeds}

@@ -177,6 +177,11 @@ class Springs(Joints[Spring]):
                 x, y = x + fx * body.inv_mass, y + fy * body.inv_mass
         return x, y
 
+    def holds(self, body: Body) -> bool:
+        """Return whether a body is a ball on one of these."""
+        self.find_networks()
+        return body.inv_mass > 0 and body in self.springs_of
+
     def stiff_around(self, body: Body, h: float) -> list[Spring]:
         """Return the stiff springs that tie a ball to others, these to more, and so on."""
         return tied_to(self.find_stiff(h), body)
