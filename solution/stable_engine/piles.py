@@ -40,7 +40,7 @@ def find_piles(contacts: Detection, before: list[Pile], h: float) -> list[Pile]:
             is_tall = is_tall or (is_upright and c.a.touches <= 2 and c.b.touches <= 2)
     for pile in before:
         pile.end()
-    tied = find_tied(contacts, h) if contacts.landings.pairs else set()
+    tied = find_tied(contacts, h) if contacts.rods and contacts.landings.pairs else set()
     springs = contacts.springs.find_stiff(h) if contacts.springs else []
     piles = find_heavy(contacts, is_heavy, tied, springs)
     if is_tall:

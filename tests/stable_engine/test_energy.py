@@ -176,3 +176,58 @@ def test_a_jam_stores_no_energy(masses, rate, substeps):
     for _ in range(rate):
         world.step(1 / rate)
         assert max(body.vel.length() for body in world.bodies) < 1
+
+
+def sprung(world, swing, mass, rest, press=0.0, **surface):
+    """Add a ball on a spring to an anchor `rest` px below it, in balance under a force (kg px/s²).
+
+    Alone, it swings by `swing` rad in a substep of 1/480 s. Return it and the spring.
+    """
+    ball = world.add(Body(Circle(10), (0, 0), mass, **surface))
+    anchor = world.add(Body(Circle(3), (0, rest)))
+    stiffness = (swing * 480) ** 2 * mass
+    return ball, world.add(Spring(ball, anchor, stiffness, length=rest + press / stiffness))
+
+
+@pytest.mark.parametrize("swing", [0.3, 0.49, 0.56, 0.8])  # rad in a substep
+@pytest.mark.parametrize("ratio", [3, 10, 100])
+@pytest.mark.parametrize("substeps", [4, 8])
+def test_a_ball_leaves_a_sprung_one_no_faster_than_it_came(swing, ratio, substeps):
+    for start, effects in product((20.1, 20.7, 21.3), ([], [Bounce])):
+        world = World((0, 0), substeps, [Contacts(), Springs(), *[kind() for kind in effects]])
+        sprung(world, swing, 0.1, 60)
+        ball = world.add(Body(Circle(10), (0, -start), 0.1 * ratio))
+        ball.vel = 0, 200
+        for _ in range(60 * substeps):
+            world.step(substeps / 480)
+        assert -200 <= ball.vel.y < 0, start
+
+
+@pytest.mark.parametrize("swing", [0.3, 0.52, 0.6, 0.8])  # rad in a substep
+@pytest.mark.parametrize("mass", [0.1, 1])
+@pytest.mark.parametrize("bounce", [[], [Bounce]])
+def test_a_load_on_a_sprung_plate_in_balance_is_not_thrown(swing, mass, bounce):
+    """The plate, bent by the load m before that lies on it, may lift it by m g / 2k more."""
+    world = World((0, G), 4, [Contacts(), Springs(), *[kind() for kind in bounce]])
+    _, spring = sprung(world, swing, mass, 100, 11 * mass * G)
+    load = world.add(Body(Circle(10), (0, -20.3), 10 * mass))
+    for _ in range(600):
+        world.step(1 / 120)
+        assert -load.y - 20 <= 0.3 + load.m * G / (2 * spring.stiffness)
+
+
+@pytest.mark.parametrize("swing", [0.3, 0.49, 0.6])  # rad in a substep
+@pytest.mark.parametrize("heavy", [1, 10])
+@pytest.mark.parametrize("restitution", [0, 1])
+def test_a_pogo_stick_jumps_no_higher_than_it_fell(swing, heavy, restitution):
+    """The middle of both masses stays below its start: its height takes energy."""
+    world = World((0, G), 4, [Contacts(), Bounce(), Springs()])
+    world.add(Body(Box((100, 20)), (0, 20), restitution=restitution))
+    foot = world.add(Body(Circle(10), (0, -60), 0.1, restitution=restitution))
+    body = world.add(Body(Circle(10), (0, -100), heavy, restitution=restitution))
+    world.add(Spring(foot, body, (swing * 480) ** 2 * foot.m))
+    masses = foot.m + body.m
+    start = (foot.m * foot.y + body.m * body.y) / masses
+    for _ in range(360):
+        world.step(1 / 120)
+        assert (foot.m * foot.y + body.m * body.y) / masses >= start
