@@ -38,7 +38,9 @@ class Contacts(Detection):
     with mass, `b` any body. Both functions may add and remove bodies, and can be set later on.
     Bodies that are removed do not part; those that a rod ties so close that they overlap do.
 
-    Flush static bodies are one: at a corner that another one covers, a contact does nothing.
+    Without Bounce, what hits a row of bodies fast stops at its touch, with what is ahead: see
+    stop_strikes. Flush static bodies are one: at a corner that another one covers, a contact does
+    nothing.
 
     Each stage solves contacts of static bodies last, so that these hold best. Where passes would
     leave much, all that balls connect is then solved together, see Pile: where a body is more than
