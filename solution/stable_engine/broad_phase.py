@@ -43,7 +43,8 @@ class BroadPhase:
         self.moving: list[Bounds] = []  # of those that can move
         self.widest = 0.0  # px, half of the widest that can move
         self.narrowest = 0.0  # px, the least width of a lane
-        self.tied: list[Bounds] = []  # of balls on joints, whose landings are foreseen
+        self.tied: list[Bounds] = []  # of balls on joints, whose landings may be foreseen
+        self.foresees = False  # whether they are
         self.pairs: list[Pair] = []
         self.watched = self.pairs  # all, or while it is quiet those of bodies that may be pushed
         self.spare: list[Pair] = []  # pairs of the last sweep: reuse is cheaper
@@ -93,7 +94,7 @@ class BroadPhase:
             body = one.body
             if not (one.left <= body.x <= one.right and one.top <= body.y <= one.bottom):
                 leavers.append(one)
-        for one in self.tied:
+        for one in self.tied if self.foresees else []:
             if one.leaves(dt) and one.holds():
                 one.extra = dt
                 leavers.append(one)
@@ -230,7 +231,7 @@ class BroadPhase:
         Nobody may be near them.
         """
         stays = all([one.holds() and not one.pairs for one in self.led])
-        return stays and not any([one.leaves(dt) for one in self.tied])
+        return stays and not (self.foresees and any([one.leaves(dt) for one in self.tied]))
 
     def add_looks(self, count: int, dt: float) -> None:
         """Count checks of pairs that did not touch. After many, the next step has smaller rooms."""

@@ -24,7 +24,7 @@ class Contact:
 
     __slots__ = (
         *("a", "b", "nx", "ny", "found", "gap", "reach", "jn", "jt", "mn", "mt", "mu", "e"),
-        *("arm_a", "arm_b", "spin_a", "spin_b", "last", "place", "sorting", "ratio"),
+        *("arm_a", "arm_b", "spin_a", "spin_b", "last", "sunk", "place", "sorting", "ratio"),
     )
 
     def __init__(self, a: Body, b: Body) -> None:
@@ -37,6 +37,7 @@ class Contact:
         self.jn = 0.0  # kg px/s, accumulated normal impulse, never negative
         self.jt = 0.0  # kg px/s, accumulated friction impulse
         self.last = 0.0  # kg px/s, jn after the substep before, in a pile of loads
+        self.sunk = 0.0  # px, overlap that a steady load on springs explains
         self.place = 0.0, 0.0, 0.0  # in the order of solving, see give_places
         self.sorting = -1  # the last one that it was in, see put_in_order
         self.mn = self.ratio = 0.0  # kg, effective mass along the normal; ratio of the masses

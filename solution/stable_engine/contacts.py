@@ -25,6 +25,7 @@ FAR_APART = 1e6  # radii: no step takes a ball as far
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
 BORNE = 40.0  # weights of a ball; static bodies need no larger impulses beside what it carries
 HELD = 0.1  # of the normal impulse; with less, friction does not hold what is squeezed
+SINKING = 1.0  # 1/s, how fast a load on springs may come to explain an overlap
 MOST_PASSES = 16  # in which to take back the speed of a push
 LEFT_BEHIND = 0.1  # of the speed of a body that recedes; slower balls stay behind
 
@@ -110,7 +111,7 @@ class Contacts(Detection):
         self.find_order()
         if self.begun:  # impulses may reach all others
             self.renewed = self.touching
-        if self.springs and self.springs.awake:
+        if self.springs and self.has_firm_springs(h * self.world.substep_count):
             self.spare_springs(self.springs, h)
         for c in self.renewed:
             a, b = c.a, c.b
@@ -131,12 +132,16 @@ class Contacts(Detection):
     def spare_springs(self, springs: Springs, h: float) -> None:
         """Slow the push out of overlaps where springs press: its work on them is energy for free.
 
-        It takes no more power than a push of one weight.
+        It takes no more power than a push of one weight. Overlap that a steady load explains stays.
         """
         most = hypot(*self.world.g) * h  # px/s
+        more = SINKING * self.world.unit * h * self.world.substep_count  # px
         for c in self.renewed:
             if c.gap < 0 and c.jn > most * c.mn and (springs.holds(c.a) or springs.holds(c.b)):
-                c.gap *= most * c.mn / c.jn
+                group = self.balls if c.b.inv_mass else self.statics
+                borne = (1 - group.mass_scale) / group.bias_rate * c.jn / c.mn  # px
+                c.sunk = min(borne, c.sunk + more)
+                c.gap -= min(c.gap + c.sunk, 0.0) * (1 - most * c.mn / c.jn)
 
     def leave_covered(self) -> None:
         """Let contacts at corners that other bodies cover do nothing, as at a seam of flush boxes.

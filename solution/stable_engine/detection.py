@@ -102,6 +102,7 @@ class Detection(Effect):
             balls = phase.moving if self.has_joints() else []
             phase.tied = [one for one in balls if self.is_on_joint(one.body)]
         self.landings.springs = springs
+        phase.foresees = bool(self.rods and self.rods.awake) or self.has_firm_springs(dt)
         renews = phase.is_stale or len(phase.leavers) > 0
         found = self.renew_pairs(dt) if renews else []
         phase.list_near()
@@ -117,7 +118,7 @@ class Detection(Effect):
             self.group_contacts()
             if self.unpaired:
                 self.end_unpaired()
-            if self.landings.pairs or self.landings.speeds:
+            if phase.foresees and (self.landings.pairs or self.landings.speeds):
                 self.landings.foresee(dt)
             phase.add_looks(len(phase.watched) - len(self.touching), dt)
         if self.is_idle() != was_idle:
@@ -387,6 +388,10 @@ class Detection(Effect):
     def has_joints(self) -> bool:
         """Return whether there is any rod or spring that does not sleep."""
         return any([effect.awake for effect in (self.rods, self.springs) if effect])
+
+    def has_firm_springs(self, dt: float) -> bool:
+        """Return whether any spring swings too fast for overlaps of a step of dt seconds."""
+        return self.springs is not None and self.springs.are_firm(dt)
 
     def is_on_joint(self, body: Body) -> bool:
         """Return whether a body is a ball on a rod or spring."""

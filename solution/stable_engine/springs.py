@@ -10,6 +10,7 @@ from .validate import not_negative
 
 NUMEROV = 1 / 12  # of how the stretch curves in a substep: see Springs
 STIFF = 0.25  # a spring is stiff if (omega h)² and its damping in a substep are more than this
+FIRM = 0.04  # (omega dt)² of a step; overlaps that press a softer spring hardly load it
 MOST_SWAY = 1e9  # rad²; no more counts, as its sixth power might be no number
 SWAYS = 0.5  # rad², of a light ball between tight springs in a substep; less is left alone
 SMALL = 1e-3  # below it, a series is more exact than the quotient
@@ -181,6 +182,11 @@ class Springs(Joints[Spring]):
         """Return whether a body is a ball on one of these."""
         self.find_networks()
         return body.inv_mass > 0 and body in self.springs_of
+
+    def are_firm(self, dt: float) -> bool:
+        """Return whether any swings so fast that overlaps of a step of dt seconds matter to it."""
+        self.find_networks()
+        return any([spring.crowd * dt * dt > FIRM for spring in self.awake])
 
     def stiff_around(self, body: Body, h: float) -> list[Spring]:
         """Return the stiff springs that tie a ball to others, these to more, and so on."""
