@@ -226,9 +226,9 @@ class BroadPhase:
         self.watched = self.pairs if is_all else kept
 
     def hold_led(self, dt: float) -> bool:
-        """Return whether bodies that may be pushed are in their rooms, on rods also in dt seconds.
+        """Return whether bodies that may be pushed are in their rooms, with nobody near.
 
-        Nobody may be near them.
+        Those on joints must be there in dt seconds as well.
         """
         stays = all([one.holds() and not one.pairs for one in self.led])
         return stays and not (self.foresees and any([one.leaves(dt) for one in self.tied]))

@@ -8,6 +8,7 @@ from .body import Body
 from .contact import Contact, collide, leave_as_entered
 from .hit import Hit, resolve_at_once
 from .network import connected
+from .order import balls_of
 from .sweep import moment_of_touch
 
 if TYPE_CHECKING:
@@ -42,8 +43,8 @@ def stop_strikes(contacts: Contacts, dt: float) -> None:
             ago[body] = max(ago.get(body, 0.0), since)
     found = find_ahead(hits, beside, gap)
     near = [c for c in contacts.touching if c in found]
-    links = {c: [d for b in (c.a, c.b) if b.inv_mass for d in beside[b]] for c in near}
-    for group in connected(near, {c: [d for d in links[c] if d in found] for c in near}):
+    at = {b: [c for c in beside[b] if c in found] for b in balls_of(near)}
+    for group in connected(near, {c: at[c.a] + at.get(c.b, []) for c in near}):
         if len(group) > 1:
             balls = stop(group, ago)
             for ball in balls:
@@ -91,7 +92,7 @@ def stop(group: list[Contact], ago: dict[Body, float]) -> list[Body]:
     Along the way that each flew, angular momentum is kept. Those that were not hit themselves are
     pushed when the first one was.
     """
-    balls = [b for b in dict.fromkeys([b for c in group for b in (c.a, c.b)]) if b.inv_mass]
+    balls = balls_of(group)
     first = max([ago[b] for b in balls if b in ago])
     for ball in balls:
         ago.setdefault(ball, first)
