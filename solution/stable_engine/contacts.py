@@ -3,16 +3,17 @@
 from math import hypot, pi
 
 from .body import Body
-from .contact import RESTING_SPEED, Contact, is_at_face, turn_normals
+from .contact import Contact, is_at_face, turn_normals
 from .cores import Cores
 from .crowd import gather_crowd, part_crowd
 from .detection import REDETECT_DISTANCE, Detection, OnHit, OnPart
 from .effect import Direction
 from .order import Group, Stage, give_places, put_in_order
-from .pile import Pile, lower
+from .pile import Pile
 from .piles import BEARING, find_piles
 from .soft import Pace, softness
 from .springs import Springs
+from .squeeze import Squeeze, find_squeezes
 from .strikes import stop_strikes
 from .unload import take_off
 
@@ -23,8 +24,6 @@ STIFFENING = 0.07  # of a substep, per step
 # lengths are in units of the world, see World.unit
 FAR_APART = 1e6  # radii: no step takes a ball as far
 MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
-BORNE = 40.0  # weights of a ball; static bodies need no larger impulses beside what it carries
-HELD = 0.1  # of the normal impulse; with less, friction does not hold what is squeezed
 SINKING = 1.0  # 1/s, how fast a load on springs may come to explain an overlap
 MOST_PASSES = 16  # in which to take back the speed of a push
 LEFT_BEHIND = 0.1  # of the speed of a body that recedes; slower balls stay behind
@@ -57,7 +56,7 @@ class Contacts(Detection):
 
     def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:
         super().__init__(on_hit, on_part)
-        self.squeezed: dict[Contact, float] = {}  # and the largest impulses they keep (kg px/s)
+        self.squeezed: list[Squeeze] = []  # of balls that keep less of it
         # those of a short step, with their impulses before: jn, jt and last
         self.held: list[tuple[Contact, float, float, float]] = []
         self.beginnings = 0.0  # in how many steps any contact has begun
@@ -91,7 +90,7 @@ class Contacts(Detection):
             return
         self.drifts = self.lets_none_pass and self.is_drifting()
         if self.has_friction:
-            self.squeezed = self.find_squeezed(h)
+            self.squeezed = find_squeezes(self, h)
         hertz = FREQUENCY / pace
         damping = max(LEAST_DAMPING, SUBSTEP_DAMPING * self.world.substep_count)
         for group in self.groups:
@@ -158,23 +157,6 @@ class Contacts(Detection):
                 c.gap = FAR_APART * c.a.r
                 self.renewed = [*self.renewed, c]
 
-    def find_squeezed(self, h: float) -> dict[Contact, float]:
-        """Return contacts of balls with static bodies, and how much impulse they may keep.
-
-        Balls that static bodies squeeze and friction holds store more than anything bears. Once it
-        gives way, that would throw them. So a substep begins with some weights, and what others
-        press.
-        """
-        kept = max(RESTING_SPEED * self.world.unit, BORNE * hypot(*self.world.g) * h)  # px/s
-        large = [c for c in self.statics.contacts if c.jn > kept * c.mn]
-        large = [c for c in large if abs(c.jt) > HELD * c.jn and not c.a.joint_count]
-        most = {c.a: kept * c.mn for c in large}
-        for c in self.balls.contacts if large else []:
-            for body in (c.a, c.b):
-                if body in most:
-                    most[body] += c.jn
-        return {c: most[c.a] for c in large if c.jn > most[c.a]}
-
     def find_order(self) -> None:
         """Find the contacts solved in turn, with their order, and those solved at once.
 
@@ -214,8 +196,8 @@ class Contacts(Detection):
             self.forget_impacts()
         for pile in self.piles:
             pile.forget_impacts()
-        for c, most in self.squeezed.items():
-            lower(c, most)
+        for squeeze in self.squeezed:
+            squeeze.ease()
         for group in self.groups:
             moves_b = group.moves_b
             for c in group.contacts:

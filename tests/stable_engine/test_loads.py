@@ -336,6 +336,24 @@ def test_balls_that_a_circle_is_wedged_between_are_not_shot_away(pairs, friction
             assert max(ball.vel.length() for ball in balls) < fast
 
 
+@pytest.mark.parametrize("seed", [1, 23, 132])
+def test_a_pile_on_a_ball_jammed_between_two_circles_comes_to_rest(seed):
+    """What the jam holds pushes nothing, or the pile would roll on and on."""
+    rng, half = random.Random(seed), 27.2
+    world = World((0, G), 4, make(("Contacts", "Friction", "Bounce")))
+    for x in (-half, half):
+        world.add(Body(Circle(18), (x, 0), friction=0.6))
+        world.add(Body(Box((10, 200)), (math.copysign(half + 10, x), -200), friction=0.6))
+    balls = []
+    for i in range(6):
+        at = rng.uniform(-1, 1) * (half - 12 if i else 1), -60 - 30 * i
+        balls.append(world.add(Body(Circle(10), at, 1.0, friction=0.6, restitution=0.3)))
+    balls[0].vel = (0, 600)
+    for _ in range(5 * 120):
+        world.step(1 / 120)
+    assert max(ball.vel.length() for ball in balls) < 0.1
+
+
 def make_bin(half, names):
     """Make a world with a rough floor and walls `half` px to both sides."""
     world = World((0, G), effects=make(names))
