@@ -140,7 +140,7 @@ class Detection(Effect):
         return any_moved
 
     def renew_pairs(self, dt: float) -> list[Pair]:
-        """Return the near pairs that are new, with the contacts of bodies that still touch."""
+        """Return the near pairs that are new."""
         phase, g = self.broad_phase, self.world.g
         bearing = self.touching if g != (0.0, 0.0) else []
         held = {c.a for c in bearing} | {c.b for c in bearing}
@@ -152,17 +152,21 @@ class Detection(Effect):
             phase.is_free = not (self.world.are_all_pushed or self.touching)
         found = phase.renew(g, held, dt, back, self.speculative_speed * dt)
         self.add_pairs(found)
-        touched = {c.a for c in self.unpaired.values()}
-        for pair in found if touched else []:
-            if pair.a in touched:
-                pair.contact = self.unpaired.pop(pair_number(pair.a, pair.b), None)
         return found
 
     def add_pairs(self, found: list[Pair]) -> None:
-        """Note new near pairs, and drop those to ignore."""
+        """Note new near pairs, with the contacts they had, and drop those to ignore."""
         phase = self.broad_phase
         if self.ignored:
             phase.ignore(self.ignored)
+        touched = {c.a for c in self.unpaired.values()}
+        kept: list[Contact] = []
+        for pair in found if touched else []:
+            if pair.a in touched:
+                pair.contact = self.unpaired.pop(pair_number(pair.a, pair.b), None)
+                if pair.contact:
+                    kept.append(pair.contact)
+        self.touching = [*self.touching, *kept]
         for pair in found:
             if not pair.b.inv_mass:
                 self.beside_static[pair.a] = None

@@ -283,7 +283,6 @@ def tiny(tmp_path_factory):
     handout = str(out / "handout" / "t.md")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(runs, "QUICK_BUDGETS", (0.02,))
-        patch.setattr(accuracy, "QUICK_BALLS", (8,))
         accuracy.main([*TINY, "--out", str(out), "--no-figures", "--markdown", handout])
     return out
 

@@ -119,7 +119,7 @@ class Program:
 
 
 @pytest.mark.filterwarnings("ignore::UserWarning")
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", [*range(20), 644])
 def test_a_program_may_do_anything_at_any_time(seed):
     Program(seed).run(80)
 
