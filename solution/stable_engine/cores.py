@@ -112,10 +112,12 @@ class Cores:
         """
         a, b = c.a, c.b
         nx, ny, now = leave_as_entered(c, *collide(a, b))
-        if nx * c.nx + ny * c.ny < SAME_DIRECTION and (c.found < -a.r or has_entered(a, b)):
+        has_turned = nx * c.nx + ny * c.ny < SAME_DIRECTION
+        is_through = has_turned and (c.found < -a.r or has_entered(a, b))
+        if is_through:
             nx, ny, now = c.nx, c.ny, gap
         back = min(c.found, -CORE * a.r) - now
-        if back > self.contacts.touching_gap and not self.contacts.find_cover(c):
+        if back > self.contacts.touching_gap and (is_through or not self.contacts.find_cover(c)):
             closing = max((a.vx - b.vx) * nx + (a.vy - b.vy) * ny, 0.0)
             faces.setdefault(a, []).append((back, closing, nx, ny))
 

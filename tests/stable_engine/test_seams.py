@@ -1,11 +1,12 @@
 """Test flush bodies: they are one flat face. Test that no face goes on past its end."""
 
 import math
+import random
 
 import pytest
 from worlds_for_tests import add_ideal_ball, make
 
-from stable_engine import Body, Box, Circle, Rod, Segment, World
+from stable_engine import Body, Box, Circle, Rod, Segment, Spring, World
 
 pytestmark = pytest.mark.filterwarnings("ignore:This scene calls for Bullets")
 R, DT = 10.0, 1 / 60
@@ -92,6 +93,24 @@ def test_a_bullet_that_slides_over_seams_loses_no_time(kind):
     start = ball.x
     run(world, 1)
     assert ball.x == pytest.approx(start + 700, abs=0.01)
+
+
+@pytest.mark.parametrize("seed", [14, 80, 221, 276])
+def test_a_ball_pressed_into_a_thin_wall_stays_on_its_side_at_a_seam(seed):
+    """A spring as stiff as tens of thousands of weights pulls it towards the other side."""
+    rng = random.Random(seed)
+    world = World((0, 980), 1, make(["Contacts", "Friction", "Springs", "Bullets"]))
+    half = rng.uniform(1, 3)
+    for y in (-5000, 5000):
+        world.add(Body(Box((half, 5000)), (0, y), friction=0.3))
+    at = -half - 2.7 + rng.uniform(0, 0.1), rng.uniform(5, 60)
+    ball = world.add(Body(Circle(5.4), at, 0.37, friction=0.3))
+    anchor = world.add(Body(Box((2, 2)), (200, rng.uniform(0, 100))))
+    world.add(Spring(ball, anchor, 7e4 * rng.uniform(0.3, 2), 0.05, 24))
+    ball.vel = (rng.uniform(0, 3000), -rng.uniform(500, 4000))
+    for _ in range(40):
+        world.step(1 / 120)
+        assert ball.x < 0
 
 
 @pytest.mark.parametrize("kind", KINDS)
