@@ -166,8 +166,9 @@ sync: $(CORE) ## Carry the solution's given code over into the starter
 test: $(DEV) ## Run the test suite, with some of the bank; verify and soak have the rest
 	@$(PY) -m pytest tests $(PLUGINS) -n 2 --dist loadfile -rs
 
-soak: $(DEV) $(SITE) $(NOTEBOOKS) ## Run the long tests that `make test` leaves out
-	@$(PY) -m pytest tests -m soak $(PLUGINS) -n 2 --dist loadfile -rs
+soak: $(SITE) $(NOTEBOOKS) compiled ## Run the long tests that `make test` leaves out
+	@$(PY) -m pytest tests/stable_engine -m "soak and compiled" $(PLUGINS) -p compiled_engine -n 2 -q
+	@$(PY) -m pytest tests -m "soak and not compiled" $(PLUGINS) -n 2 --dist loadfile -rs
 
 lint: $(DEV) ## Check style and types
 	$(PY) -m ruff check
