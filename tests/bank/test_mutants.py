@@ -217,7 +217,7 @@ def find_mutant(todo: str, now: str) -> Mutant:
         ),
         pytest.param("7a", "space.gravity = (980, 0)", "gravity-points-sideways", marks=SOAK),
         pytest.param("7b", "moment = pymunk.moment_for_circle(mass, 0, mass)", None, marks=SOAK),
-        pytest.param("7d", "steps -= 1", "steps-are-counted-down", marks=SOAK),
+        pytest.param("7d", "steps -= 1", None, marks=SOAK),
         pytest.param("8a", "return (v, x + v * dt)", "velocity-returned-first", marks=SOAK),
         pytest.param(
             "8b", "x = x + v * dt + 0 * a_start * dt ** 2", "straight-line-in-x", marks=SOAK

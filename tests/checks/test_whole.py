@@ -18,7 +18,6 @@ from grader.judge.wall.children import Worker, start_worker
 WHOLE = next(todo for todo in load_rubric().todos if todo.id == "whole")
 TASKS = [todo for todo in load_rubric().todos if todo.function]
 TOGETHER = {  # TODOs that a check needs only if others are missing as well
-    "the_picture_shows_where_the_balls_are": {"1"},
     "the_pymunk_stack_falls_when_it_is_knocked_over": {"7a", "7d"},
 }
 
