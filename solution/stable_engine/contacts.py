@@ -96,6 +96,7 @@ class Contacts(Detection):
         for group in self.groups:
             rate = hertz if group.moves_b else 2 * hertz
             group.bias_rate, group.mass_scale = softness(rate, damping, h)
+            group.load_rate = softness(rate, damping, pace)[0] * (h / pace)
         if not self.changed:
             return
         if self.crowd:
@@ -118,7 +119,7 @@ class Contacts(Detection):
             c.reach = distance - c.gap
             if c.mu:
                 c.set_arms(distance - a.r - b.r)
-        self.piles = find_piles(self, self.piles, h)
+        self.piles = find_piles(self, self.piles, h, pace)
 
     def is_drifting(self) -> bool:
         """Return whether nothing presses bodies together: no force, joint or moving static body."""

@@ -19,8 +19,8 @@ class Group:
     """Contacts that are solved alike: ball against ball, or ball against static body."""
 
     __slots__ = (
-        *("bias_rate", "contacts", "has_moved", "in_turn", "is_mirrored", "least", "mass_scale"),
-        *("max_push_speed", "moves_b", "ordered", "sorted", "ties", "sortings"),
+        *("bias_rate", "contacts", "has_moved", "in_turn", "is_mirrored", "least", "load_rate"),
+        *("mass_scale", "max_push_speed", "moves_b", "ordered", "sorted", "ties", "sortings"),
     )
 
     def __init__(self, moves_b: bool) -> None:
@@ -33,6 +33,7 @@ class Group:
         self.sortings = 0  # how often they were put in order
         self.is_mirrored = False  # whether any two of them had the same place then
         self.bias_rate = self.mass_scale = 0.0  # see softness
+        self.load_rate = 0.0  # 1/s, of piles: any step explains a load by the same overlap
         self.has_moved = False  # whether bodies have moved in this substep
         self.max_push_speed = 0.0  # px/s, overlap is pushed out no faster
         self.least = 0.0  # px and px/s, less counts as 0; at 0, rounding would decide

@@ -36,7 +36,7 @@ class Load(LimitedRow):
         c, a, b = self.c, self.end_a, self.end_b
         speed = (b.vx - a.vx) * self.nx + (b.vy - a.vy) * self.ny
         gap = (b.x - a.x) * self.nx + (b.y - a.y) * self.ny - c.reach
-        rate = 0.0 if group.has_moved else group.bias_rate
+        rate = 0.0 if group.has_moved else group.load_rate
         give = self.give * RELAXED if group.has_moved else self.give
         self.pivot = (1 + give) / c.mn
         presses = c.jn > 0 if self.pressed < 0 else self.pressed > 0

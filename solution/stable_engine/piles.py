@@ -23,8 +23,11 @@ PARALLEL = 1 - 1e-9  # cosine, of faces that are one
 OPPOSITE = -0.5  # cosine; faces that turn further apart clamp what is between them
 
 
-def find_piles(contacts: Detection, before: list[Pile], h: float) -> list[Pile]:
-    """Return the piles of a step with substeps of h seconds, and end those of the step before."""
+def find_piles(contacts: Detection, before: list[Pile], h: float, pace: float) -> list[Pile]:
+    """Return the piles of a step with substeps of h seconds, and end those of the step before.
+
+    In steps that vary, springs that are stiff at this pace (s) count in short ones too.
+    """
     world, balls = contacts.world, contacts.balls
     gx, gy = world.g
     weight = hypot(gx, gy) * h  # px/s, of 1 kg in a substep
@@ -41,7 +44,7 @@ def find_piles(contacts: Detection, before: list[Pile], h: float) -> list[Pile]:
     for pile in before:
         pile.end()
     tied = find_tied(contacts, h) if contacts.rods and contacts.landings.pairs else set()
-    springs = contacts.springs.find_stiff(h) if contacts.springs else []
+    springs = contacts.springs.find_stiff(max(h, pace)) if contacts.springs else []
     piles = find_heavy(contacts, is_heavy, tied, springs)
     if is_tall:
         piles += find_towers(contacts.touching, piles, tall, weight, world.unit)

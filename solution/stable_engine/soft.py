@@ -3,6 +3,9 @@
 import math
 
 SAME_DIRECTION = 0.9  # cosine; an impulse is dropped if its direction has turned further
+SIMILAR = 0.7  # of the pace; while steps that vary are as long at times, the pace stays
+LONGER = 1.5
+STEADY = 60  # steps in a row, after which it may shorten
 
 
 def softness(hertz: float, zeta: float, h: float) -> tuple[float, float]:
@@ -22,18 +25,30 @@ class Pace:
     A constraint is as stiff as the substep allows, so a long substep lets bodies overlap more. A
     short one after it would push them apart violently at its full stiffness. So the pace follows
     longer substeps at once and shorter ones gradually, slowly enough for gravity to keep a rising
-    pile together. In equal steps the pace is the substep. A step may shorten the pace by the share
-    `stiffening` of a substep.
+    pile together. A step may shorten the pace by the share `stiffening` of a substep.
+
+    Each change of pace moves a pile at rest, as it changes the overlap that explains a load. So
+    while steps vary, the pace stays. In equal steps, it is the substep in the end.
     """
 
     def __init__(self, stiffening: float) -> None:
         self.stiffening = stiffening
         self.h = 0.0  # s
+        self.last = 0.0  # s, the substep of the last step
+        self.steady = STEADY  # steps in a row that left it free to shorten
         self.slept = 0.0  # s, the longest pace at which a present sleeper fell asleep
 
     def follow(self, h: float) -> float:
         """Return the pace (s) of a step that takes substeps of h seconds."""
-        self.h = max(h, self.h - self.stiffening * h)
+        if h > LONGER * self.h:
+            self.h = h
+        elif h != self.last and h > SIMILAR * self.h:
+            self.steady = 0
+        else:
+            self.steady += 1
+        self.last = h
+        if self.steady > STEADY:
+            self.h = max(h, self.h - self.stiffening * h)
         return self.h
 
     def awake_changed(self, anybody_sleeps: bool) -> None:

@@ -152,6 +152,19 @@ def test_a_pile_rests_while_frames_are_cut_into_steps(rest):
         assert max(speed(ball) for ball in bearing_balls(world)) < G * H
 
 
+@pytest.mark.parametrize("substeps", [1, 2, 4, 8])
+@pytest.mark.parametrize("range_of", [(1e-4, 0.033), (1 / 144, 1 / 30), (0.016, 0.0175)])
+@pytest.mark.parametrize("scene", sample([pile(20, 120.0), pile(40, 160.0, seed=2)], 1))
+def test_a_pile_rests_in_steps_that_vary_at_random(scene, range_of, substeps):
+    """A load is explained by the same overlap in each step: the pile does not breathe."""
+    world = build(scene, "Contacts", "Friction", substeps=substeps)
+    for dt in lasting(10, at_random(*range_of)):
+        world.step(dt)
+    for dt in lasting(0.5, at_random(*range_of, seed=2)):
+        world.step(dt)
+        assert max(speed(ball) for ball in bearing_balls(world)) < 0.1  # px/s
+
+
 def test_equal_steps_are_as_stiff_as_they_can_be():
     pace = Pace(0.1)
     assert [pace.follow(H) for _ in range(3)] == [H, H, H]
