@@ -139,8 +139,7 @@ class Contacts(Detection):
         for c in self.renewed:
             if c.gap < 0 and c.jn > most * c.mn and (springs.holds(c.a) or springs.holds(c.b)):
                 group = self.balls if c.b.inv_mass else self.statics
-                borne = (1 - group.mass_scale) / group.bias_rate * c.jn / c.mn  # px
-                c.sunk = min(borne, c.sunk + more)
+                c.sunk = min(group.borne(c), c.sunk + more)
                 c.gap -= min(c.gap + c.sunk, 0.0) * (1 - most * c.mn / c.jn)
 
     def leave_covered(self) -> None:

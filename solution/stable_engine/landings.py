@@ -42,24 +42,25 @@ class Landings:
         if self.speeds:
             self.speeds = {c: self.speeds[c] for c in contacts.touching if c in self.speeds}
         for pair in self.pairs:
+            if pair.contact:
+                continue
             a, b = pair.a, pair.b
-            if pair.contact is None:
-                gx, gy = world.g if b.is_static else (0.0, 0.0)
-                dx, dy = (a.vx - b.vx + gx * dt) * dt, (a.vy - b.vy + gy * dt) * dt
-                reach = a.r + b.r + abs(dx) + abs(dy)
-                if b.r and (a.x - b.x) ** 2 + (a.y - b.y) ** 2 > reach * reach:
-                    continue
-                nx, ny, gap = collide(a, b)
-                is_near = gap > contacts.touching_gap and gap * gap < dx * dx + dy * dy
-                if (
-                    is_near
-                    and self.lands(a, b)
-                    and hit_body(b, a.r, a.x - b.x, a.y - b.y, dx, dy) < NO_HIT
-                ):
-                    c = contacts.meet(pair, nx, ny, gap)
-                    speed = c.closing_speed()
-                    square = speed * speed + 2 * gap * (gx * nx + gy * ny)
-                    self.speeds[c] = sqrt(max(square, 0.0))
+            gx, gy = world.g if b.is_static else (0.0, 0.0)
+            dx, dy = (a.vx - b.vx + gx * dt) * dt, (a.vy - b.vy + gy * dt) * dt
+            reach = a.r + b.r + abs(dx) + abs(dy)
+            if b.r and (a.x - b.x) ** 2 + (a.y - b.y) ** 2 > reach * reach:
+                continue
+            nx, ny, gap = collide(a, b)
+            is_near = gap > contacts.touching_gap and gap * gap < dx * dx + dy * dy
+            if (
+                is_near
+                and self.lands(a, b)
+                and hit_body(b, a.r, a.x - b.x, a.y - b.y, dx, dy) < NO_HIT
+            ):
+                c = contacts.meet(pair, nx, ny, gap)
+                speed = c.closing_speed()
+                square = speed * speed + 2 * gap * (gx * nx + gy * ny)
+                self.speeds[c] = sqrt(max(square, 0.0))
 
     def end(self) -> None:
         """Note the hits of contacts that were foreseen, once their bodies press each other."""

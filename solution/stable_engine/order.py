@@ -38,6 +38,10 @@ class Group:
         self.max_push_speed = 0.0  # px/s, overlap is pushed out no faster
         self.least = 0.0  # px and px/s, less counts as 0; at 0, rounding would decide
 
+    def borne(self, c: Contact) -> float:
+        """Return the overlap (px) that the load of a contact explains."""
+        return (1 - self.mass_scale) / self.bias_rate * c.jn / c.mn
+
 
 Stage = Callable[[Group, list[Contact], float], None]
 

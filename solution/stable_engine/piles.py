@@ -16,7 +16,7 @@ TALL = 13.3  # weights of its effective mass; a contact that bears more carries 
 LEANING = 0.1  # a sine; a tower leans less
 SUNK = 0.01  # in units of the world; a contact that gives way by less sinks too little to be seen
 BEARING = 0.05  # weights of its effective mass; a contact with less bears nothing
-TIED = 0.005  # of both radii; rods take over what a push of balls that overlap by more leaves
+TIED = 0.005  # of both radii; rods take over what a push out of more overlap leaves
 MOST_ROWS = 128  # contacts and rods of a pile; a larger one is left to passes
 WEDGED = 0.9  # cosine; a ball between faces that turn less is pressed as by a heavier one
 PARALLEL = 1 - 1e-9  # cosine, of faces that are one
@@ -52,14 +52,18 @@ def find_piles(contacts: Detection, before: list[Pile], h: float, pace: float) -
 
 
 def find_tied(contacts: Detection, h: float) -> set[Contact]:
-    """Return the contacts that may work against rods: they land or overlap."""
+    """Return the contacts that may work against rods: they land or overlap.
+
+    Overlap that a load explains is left out: nothing works against it.
+    """
     tied: set[Contact] = set()
-    for pair in contacts.landings.pairs:
-        c = pair.contact
-        if c:
-            ahead = c.gap - max(c.closing_speed(), 0.0) * h * contacts.world.substep_count
-            if c in contacts.landings.speeds or ahead < -TIED * (c.a.r + c.b.r):
-                tied.add(c)
+    dt = h * contacts.world.substep_count
+    for c in [pair.contact for pair in contacts.landings.pairs if pair.contact]:
+        deep = TIED * (c.a.r + c.b.r) + c.gap - max(c.closing_speed(), 0.0) * dt  # px, below 0
+        if deep < 0:
+            deep += (contacts.balls if c.b.inv_mass else contacts.statics).borne(c)
+        if deep < 0 or c in contacts.landings.speeds:
+            tied.add(c)
     return tied
 
 
