@@ -12,6 +12,7 @@ import pytest
 from samples import sample
 from worlds_for_tests import (
     all_but,
+    balls,
     build,
     build_playground,
     flying,
@@ -22,9 +23,9 @@ from worlds_for_tests import (
 
 import stable_engine
 from experiments.measures import run, watch
-from experiments.opcodes import count_opcodes, files_run
-from experiments.scenes import BOUNCE, DT, EFFECTS, NEED_CONTACTS, Ball, Scene, Spring
-from stable_engine import Body, Circle, Contacts, Rod, World
+from experiments.opcodes import count_calls, count_opcodes, files_run
+from experiments.scenes import BOUNCE, DT, EFFECTS, NEED_CONTACTS, Ball, Scene, Spring, pile
+from stable_engine import Body, Circle, Contacts, Rod, World, piles
 
 HERE = Path(__file__).parent
 FILES = {name: {f"{name.lower()}.py"} for name in EFFECTS}
@@ -234,6 +235,20 @@ def test_a_tall_silo_costs_no_more_than_a_wide_bin():
 
     assert price(0, 1) == pytest.approx(price(1, 0), rel=0.2)
     assert price(0.02, 1) < 2 * price(1, 0)
+
+
+def test_rods_under_a_pile_cost_no_search_for_what_works_against_them():
+    """The balls on them overlap as far as their load explains."""
+    world = build(pile(80, 104.0), "Contacts", "Friction", "Rods", substeps=1)
+    run(world, 4, 1 / 60)
+    low = sorted(balls(world), key=lambda ball: -ball.y)[:20]
+    for a, b in zip(low, low[10:], strict=False):
+        world.add(Rod(a, b))
+    run(world, 1, 1 / 60)
+    tied = [c for ball in low for c in world.effects["Contacts"].of_body(ball)]
+    assert max(-c.gap for c in tied) > 0.1 * low[0].r
+    done = count_calls(lambda: run(world, 0.1, 1 / 60), [("searches", piles.collect_piles, 1)])
+    assert done["searches"] == 0
 
 
 # ---------------------------------------------------------------- dependencies
