@@ -4,7 +4,7 @@ import math
 
 SAME_DIRECTION = 0.9  # cosine; an impulse is dropped if its direction has turned further
 SIMILAR = 0.7  # of the pace; while steps that vary are as long at times, the pace stays
-LONGER = 1.5
+LONGER = 1.5  # times the pace; while they are no longer, it stays
 STEADY = 60  # steps in a row, after which it may shorten
 
 
@@ -24,8 +24,8 @@ class Pace:
 
     A constraint is as stiff as the substep allows, so a long substep lets bodies overlap more. A
     short one after it would push them apart violently at its full stiffness. So the pace follows
-    longer substeps at once and shorter ones gradually, slowly enough for gravity to keep a rising
-    pile together. A step may shorten the pace by the share `stiffening` of a substep.
+    far longer substeps at once and shorter ones gradually, slowly enough for gravity to keep a
+    rising pile together. A step may shorten it by the share `stiffening` of a substep.
 
     Each change of pace moves a pile at rest, as it changes the overlap that explains a load. So
     while steps vary, the pace stays. In equal steps, it is the substep in the end.
