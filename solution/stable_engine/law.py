@@ -13,11 +13,16 @@ from .time_of_impact import speed_at_touch
 
 def resolve(group: list[Contact], frames: list[Frame], flight: Flight) -> None:
     """Make contacts separate at the speeds of the law, or faster, with the rods of frames."""
-    for frame in frames:
-        frame.hold()
-    hits = [Hit(c, law_of(c, flight)) for c in group]
-    rods = [Row(rod.end_a, rod.end_b, rod.nx, rod.ny) for frame in frames for rod in frame.rods]
-    resolve_at_once(hits, rods)
+    c = group[0]
+    if len(group) == 1 and not (frames or c.mu):
+        parting, _ = law_of(c, flight)
+        c.push_apart(max((parting + c.closing_speed()) * c.mn, 0.0))
+    else:
+        for frame in frames:
+            frame.hold()
+        hits = [Hit(c, law_of(c, flight)) for c in group]
+        rods = [Row(rod.end_a, rod.end_b, rod.nx, rod.ny) for frame in frames for rod in frame.rods]
+        resolve_at_once(hits, rods)
     for body in balls_of(group) if flight.rests else []:
         if body in flight.rests and body not in flight.frame_of:
             flight.release(body)
