@@ -38,7 +38,7 @@ class Detection(Effect):
         *("lets_none_pass", "last_dt", "flying", "hit_ago", "stops"),
         *("broad_phase", "crowd", "beside_static", "landings", "rods", "balls", "statics"),
         *("groups", "unpaired", "ignored", "h", "touching_gap", "speculative_speed", "springs"),
-        "is_resting",
+        *("is_resting", "was_idle"),
     )
 
     def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:
@@ -62,6 +62,7 @@ class Detection(Effect):
         self.unpaired: dict[int, Contact] = {}  # of sleeping bodies, by their pair's number
         self.ignored: set[int] = set()  # numbers of pairs
         self.is_resting = False  # while nobody is near, see Contacts.finish
+        self.was_idle = True  # before contacts were found
 
     @property
     def on_hit(self) -> OnHit | None:
@@ -89,7 +90,7 @@ class Detection(Effect):
 
     def detect(self, h: float) -> None:
         world, phase, dt = self.world, self.broad_phase, h * self.world.substep_count
-        was_idle = self.is_idle()
+        self.was_idle = self.is_idle()
         self.is_resting = False
         if self.last_dt == 0:  # a program may have changed velocities
             phase.is_free = phase.is_free and world.steered is not None
@@ -121,8 +122,11 @@ class Detection(Effect):
             if phase.foresees and (self.landings.pairs or self.landings.speeds):
                 self.landings.foresee(dt)
             phase.add_looks(len(phase.watched) - len(self.touching), dt)
-        if self.is_idle() != was_idle:
-            world.update_hooks()
+        self.note_idle()
+
+    def note_idle(self) -> None:
+        """Let the world update its hooks after the impacts if this has become idle or busy."""
+        self.world.is_outdated = self.is_idle() != self.was_idle
 
     def note_moved(self) -> bool:
         """Note which bodies with others near have moved since their contacts were last found.
@@ -290,42 +294,43 @@ class Detection(Effect):
         """
         world = self.world
         least = self.speculative_speed + hypot(*world.g) * self.last_dt  # px/s
-        ended: set[Contact] = set()
+        ended: list[Contact] = []
         parted = {(c.a, c.b) for c in self.events.parted}
         for c in parting:
-            b = c.b
-            is_led = c.a.joint_count or b.joint_count or (b.is_static and (b.vx or b.vy))
-            if is_led or c.jn or c.jt or c.closing_speed() > -least or (c.a, b) in parted:
+            a, b = c.a, c.b
+            is_led = a.joint_count or b.joint_count or (not b.inv_mass and (b.vx or b.vy))
+            if is_led or c.jn or c.jt or c.closing_speed() > -least or (a, b) in parted:
                 continue
-            if collide(c.a, b)[2] > self.touching_gap:
-                ended.add(c)
+            if collide(a, b)[2] > self.touching_gap:
+                ended.append(c)
+                self.events.note_gone(c)
         if ended:
             self.broad_phase.is_free = False
-            for c in ended:
-                self.events.note_gone(c)
             self.drop_contacts(ended)
 
-    def drop_contacts(self, ended: set[Contact]) -> None:
+    def drop_contacts(self, ended: list[Contact]) -> None:
         """Drop contacts of bodies that are near each other, without a call of on_part."""
-        for pair in self.broad_phase.watched:
-            if pair.contact in ended:
-                pair.contact = None
-        self.touching = [c for c in self.touching if c not in ended]
-        self.begun = [c for c in self.begun if c not in ended]
+        for c in ended:
+            for pair in self.broad_phase.rooms[c.a].pairs:
+                if pair.contact is c:
+                    pair.contact = None
+        gone = set(ended)
+        self.touching = [c for c in self.touching if c not in gone]
+        self.begun = [c for c in self.begun if c not in gone]
         self.group_contacts()
-        self.world.update_hooks()
+        self.note_idle()
 
     def drop_untouched(self, new: set[Contact]) -> None:
         """Drop new contacts of bodies that were hit by others and so did not touch.
 
         Before a step none are new: the program has been told of all.
         """
-        missed: set[Contact] = set()
+        missed: list[Contact] = []
         for c in new if self.last_dt else ():
             was_hit, gap = c.a in self.hit_ago or c.b in self.hit_ago, collide(c.a, c.b)[2]
             touch = gap <= self.touching_gap or self.have_passed(c.a, c.b, gap)
             if was_hit and not touch and c not in self.landings.speeds:
-                missed.add(c)
+                missed.append(c)
         if missed:
             self.events.hits = {c: hit for c, hit in self.events.hits.items() if c not in missed}
             self.drop_contacts(missed)

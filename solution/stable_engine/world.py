@@ -38,7 +38,7 @@ class World:
     __slots__ = (
         *("lengths", "substep_count", "g", "members", "awake", "statics", "added", "declared"),
         *("ranked", "hooks", "hooks_in", "is_pushed", "are_all_pushed", "has_changed", "lags"),
-        *("warned", "forces", "changes", "steered", "unchecked"),
+        *("warned", "forces", "changes", "is_outdated", "steered", "unchecked"),
     )
 
     def __init__(
@@ -56,6 +56,7 @@ class World:
         self.statics: list[Body] = []
         self.added = 0  # bodies added so far
         self.changes = 0  # of the hooks
+        self.is_outdated = False  # whether effects have become idle or busy since update_hooks
         self.has_changed = True  # whether contacts must be found anew before the next step
         self.steered: list[Body] | None = []  # balls that the program has pushed, if that is all
         self.unchecked: list[Body] = []  # bodies and ends of joints that are new or changed
@@ -86,6 +87,7 @@ class World:
     def update_hooks(self) -> None:
         """Skip hooks of idle and resting effects. Lags may be other ones then."""
         self.changes += 1
+        self.is_outdated = False
         state = tuple([(effect.is_idle(), effect.is_at_rest()) for effect in self.ranked])
         if state not in self.hooks_in:
             busy = [effect for effect in self.ranked if not effect.is_idle()]
@@ -346,6 +348,8 @@ class World:
             self.lags.take_off_new(h)
         for impact in self.hooks["impact"] if has_changed else []:
             impact(h)
+        if self.is_outdated:
+            self.update_hooks()
 
         # 2 prepare
         for prepare in self.hooks["prepare"]:
@@ -383,6 +387,8 @@ class World:
             self.detect(h)
             for impact in self.hooks["impact"]:
                 impact(h)
+            if self.is_outdated:
+                self.update_hooks()
         self.lags.forget()
         if has_lags:
             self.lags.add(h)
@@ -400,6 +406,8 @@ class World:
             detect(h)
         if has_changed:
             self.steered = []
+            if self.is_outdated:
+                self.update_hooks()
 
     def fall(self, h: float) -> None:
         """Accelerate by gravity, move and turn awake balls, for all substeps of h seconds at once.
