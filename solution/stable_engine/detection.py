@@ -258,7 +258,7 @@ class Detection(Effect):
             else:
                 statics.append(c)
         self.balls.contacts, self.statics.contacts = balls, statics
-        self.groups = [group for group in (self.balls, self.statics) if group.contacts]
+        self.groups = [*([self.balls] if balls else []), *([self.statics] if statics else [])]
 
     def make_contact(self, a: Body, b: Body, nx: float, ny: float) -> Contact:
         """Return a new contact with this normal, filled in by the other effects."""
@@ -427,7 +427,7 @@ class Detection(Effect):
 
     def may_pass(self) -> bool:
         """Return whether any ball may fly on into the static body that stopped it."""
-        return any([stop.end for stop in self.stops.values()])
+        return len(self.stops) > 0 and any([stop.end for stop in self.stops.values()])
 
     def way_left(self, body: Body) -> float:
         """Return how far (px) a ball would have flown on, had no wall stopped it."""

@@ -5,7 +5,7 @@ from math import cos, hypot, sin
 from .body import Body, State, state_of
 from .contact import Contact
 from .contacts import Contacts
-from .cores import Point, core_of, way_out
+from .cores import CORE, Point, core_of, way_out
 from .frame import Frame
 from .rods import Rods
 from .springs import Spring, share_before
@@ -162,11 +162,11 @@ class Flight:
         x, y = (body.vx + ax * mean) * seconds, (body.vy + ay * mean) * seconds
         if self.stops:
             self.stops.pop(body, None)
-        radius = core_of(body)
-        if seconds > 0 and (body.is_bullet or x * x + y * y > radius * radius):
+        core = CORE * body.r
+        if seconds > 0 and (body.is_bullet or x * x + y * y > core * core):
             known = self.walls.get(body, []) if hypot(x, y) <= DEEPEST * body.r else []
             others = [s for s in self.world.statics if s not in known]
-            share = free_share(body, others, radius, (body.x, body.y), x, y)
+            share = free_share(body, others, core_of(body), (body.x, body.y), x, y)
             if share < 1:
                 late = seconds * (1 - share)
                 end = body.x + x, body.y + y, body.vx + ax * seconds, body.vy + ay * seconds
@@ -257,7 +257,8 @@ class Flight:
         Also return by how much (px/s) a velocity lags behind the position: with semi-implicit
         Euler half a substep.
         """
-        if self.is_simple and c.b.inv_mass and not (self.bearing or self.pivots):
+        falls = not c.b.inv_mass and self.world.g != (0.0, 0.0)
+        if self.is_simple and not (falls or self.bearing or self.pivots):
             return 0.0, 0.0
         (ax, ay), (bx, by) = self.acceleration(c.a), self.acceleration(c.b)
         g = (ax - bx) * c.nx + (ay - by) * c.ny
