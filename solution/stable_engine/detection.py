@@ -295,7 +295,7 @@ class Detection(Effect):
         world = self.world
         least = self.speculative_speed + hypot(*world.g) * self.last_dt  # px/s
         ended: list[Contact] = []
-        parted = {(c.a, c.b) for c in self.events.parted}
+        parted = {(c.a, c.b) for c in self.events.parted} if self.events.parted else ()
         for c in parting:
             a, b = c.a, c.b
             is_led = a.joint_count or b.joint_count or (not b.inv_mass and (b.vx or b.vy))
@@ -311,12 +311,12 @@ class Detection(Effect):
     def drop_contacts(self, ended: list[Contact]) -> None:
         """Drop contacts of bodies that are near each other, without a call of on_part."""
         for c in ended:
+            self.touching.remove(c)
+            if c in self.begun:
+                self.begun.remove(c)
             for pair in self.broad_phase.rooms[c.a].pairs:
                 if pair.contact is c:
                     pair.contact = None
-        gone = set(ended)
-        self.touching = [c for c in self.touching if c not in gone]
-        self.begun = [c for c in self.begun if c not in gone]
         self.group_contacts()
         self.note_idle()
 

@@ -54,6 +54,9 @@ class ImpactQueue:
     def find_early(self) -> list[Impact]:
         """Return the earliest impacts, in order: first those left of the moment before."""
         queue, fastest, gap = self.queue, self.fastest, self.gap
+        if len(self.due) == 1:
+            queue.clear()
+            return list(self.due.values())
         early = [impact for impact in self.early if self.is_due(impact)] if self.early else []
         while queue and (not early or (queue[0][0] - early[0][0]) * fastest <= gap):
             impact = heappop(queue)

@@ -211,7 +211,8 @@ class Impacts:
             self.resolve_first()
         self.return_to_stops(list(self.passing))
         for c in self.times.turned:
-            self.times.turn_on(c, 0.0)
+            if c.gap != c.found:  # else it was measured since
+                self.times.turn_on(c, 0.0)
         deep: dict[Body, list[Contact]] = {}
         for c in self.faces.normals:
             self.faces.measure(c)
@@ -238,17 +239,17 @@ class Impacts:
         """Stop balls before walls, if an impact took them through: on them, or by a joint."""
         contacts = self.contacts
         moved = [*contacts.hit_ago, *[body for body, _ in self.flight.changes]]
-        frames = [*self.flight.frames_of(moved), *self.returned]
+        frames = [*self.flight.frames_of(moved), *self.returned] if self.frame_of else []
         if frames:
             moved = [*moved, *[ball for frame in frames for ball in frame.balls]]
             moved = list(dict.fromkeys(moved))
+        bends, beside = self.flight.bends, self.beside
+        stopped: list[Body] = []
         for body in moved:
             if body not in contacts.hit_ago:
                 contacts.note_impact(body, 0.0)  # so the next step may stop it before a wall
-        bends, beside = self.flight.bends, self.beside
-        stopped = [
-            b for b in moved if contacts.cores.stop_hit(b, beside.get(b, []), bends.get(b, []))
-        ]
+            if contacts.cores.stop_hit(body, beside.get(body, []), bends.get(body, [])):
+                stopped.append(body)
         if stopped:
             self.find_pairs(stopped)
 
@@ -275,7 +276,7 @@ class Impacts:
         """Resolve the first impacts, and find those that they cause."""
         group, ago = self.queue.take_first()
         events = self.contacts.events
-        for c in group:
+        for c in group if events.hits or events.again else []:
             is_new = c in self.begun or c in events.again
             if is_new and c in events.hits and self.queue.counts[c] == 1:
                 events.note_hit(c, ago)
@@ -373,10 +374,12 @@ class Impacts:
 
     def find_pairs(self, moved: list[Body]) -> None:
         """Find the near pairs of bodies that impacts have moved, if out of their rooms."""
-        rooms = self.contacts.broad_phase.rooms
-        thrown = [body for body in moved if not rooms[body].holds()]
+        phase, thrown = self.contacts.broad_phase, []
+        for body in moved:
+            if not phase.rooms[body].holds():
+                thrown.append(body)
         if thrown:
-            found = self.contacts.broad_phase.follow(thrown, self.dt, self.reach)
+            found = phase.follow(thrown, self.dt, self.reach)
             self.contacts.add_pairs(found)
 
     def meet_others(self, hit: list[Body]) -> None:

@@ -35,7 +35,7 @@ class TimeOfImpact:
         since = self.contacts.flight_of(a, b)
         if since <= 0:
             return 0.0
-        is_face, stops = is_at_face(c), self.contacts.stops
+        is_face, stops = not b.inv_mass and is_at_face(c), self.contacts.stops
         late = self.contacts.late_by(a) if stops else 0.0
         if a.joint_count or b.joint_count:
             frame = self.flight.frame_of.get(a)
