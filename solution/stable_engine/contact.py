@@ -154,8 +154,9 @@ def turn_normals(contacts: list[Contact]) -> None:
 
 def circle_box(a: Body, b: Body) -> tuple[float, float, float]:
     """Return normal and gap of a circle and a box. From inside, the nearest face counts."""
-    x, y = a.x - b.x, a.y - b.y
-    dx, dy = max(-b.hx, min(x, b.hx)) - x, max(-b.hy, min(y, b.hy)) - y
+    x, y, hx, hy = a.x - b.x, a.y - b.y, b.hx, b.hy
+    dx = hx - x if x > hx else -hx - x if x < -hx else 0.0  # max and min would cost calls
+    dy = hy - y if y > hy else -hy - y if y < -hy else 0.0
     distance = sqrt(dx * dx + dy * dy)
     if distance > 0:
         return dx / distance, dy / distance, distance - a.r
