@@ -90,7 +90,7 @@ class Detection(Effect):
 
     def detect(self, h: float) -> None:
         world, phase, dt = self.world, self.broad_phase, h * self.world.substep_count
-        self.was_idle = self.is_idle()
+        self.was_idle = not self.groups
         self.is_resting = False
         if self.last_dt == 0:  # a program may have changed velocities
             phase.is_free = phase.is_free and world.steered is not None
@@ -116,7 +116,8 @@ class Detection(Effect):
             if self.landings.speeds:
                 self.landings.end()
             self.find_contacts(dt)
-            self.group_contacts()
+            if self.touching or self.groups:
+                self.group_contacts()
             if self.unpaired:
                 self.end_unpaired()
             if phase.foresees and (self.landings.pairs or self.landings.speeds):
@@ -126,7 +127,7 @@ class Detection(Effect):
 
     def note_idle(self) -> None:
         """Let the world update its hooks after the impacts if this has become idle or busy."""
-        self.world.is_outdated = self.is_idle() != self.was_idle
+        self.world.is_outdated = self.was_idle == bool(self.groups)
 
     def note_moved(self) -> bool:
         """Note which bodies with others near have moved since their contacts were last found.
@@ -147,7 +148,7 @@ class Detection(Effect):
         """Return the near pairs that are new."""
         phase, g = self.broad_phase, self.world.g
         bearing = self.touching if g != (0.0, 0.0) else []
-        held = {c.a for c in bearing} | {c.b for c in bearing}
+        held = {body for c in bearing for body in (c.a, c.b)}
         back = self.last_dt if self.lets_none_pass else 0.0
         if phase.is_stale:  # all pairs are new
             self.beside_static, self.landings.pairs = {}, []
@@ -163,14 +164,8 @@ class Detection(Effect):
         phase = self.broad_phase
         if self.ignored:
             phase.ignore(self.ignored)
-        touched = {c.a for c in self.unpaired.values()}
-        kept: list[Contact] = []
-        for pair in found if touched else []:
-            if pair.a in touched:
-                pair.contact = self.unpaired.pop(pair_number(pair.a, pair.b), None)
-                if pair.contact:
-                    kept.append(pair.contact)
-        self.touching = [*self.touching, *kept]
+        if self.unpaired:
+            self.keep_contacts(found)
         for pair in found:
             if not pair.b.inv_mass:
                 self.beside_static[pair.a] = None
@@ -179,6 +174,17 @@ class Detection(Effect):
             is_led = self.is_on_joint(a) or self.is_on_joint(b)
             if is_led and pair_number(a, b) not in self.ignored:
                 self.landings.pairs.append(pair)
+
+    def keep_contacts(self, found: list[Pair]) -> None:
+        """Give new near pairs the contacts that their bodies had before."""
+        touched = {c.a for c in self.unpaired.values()}
+        kept: list[Contact] = []
+        for pair in found:
+            if pair.a in touched:
+                pair.contact = self.unpaired.pop(pair_number(pair.a, pair.b), None)
+                if pair.contact:
+                    kept.append(pair.contact)
+        self.touching = [*self.touching, *kept]
 
     def find_contacts(self, dt: float) -> None:
         """Find the present contacts of bodies that have moved, with the impulses they had before.
@@ -396,7 +402,8 @@ class Detection(Effect):
 
     def has_joints(self) -> bool:
         """Return whether there is any rod or spring that does not sleep."""
-        return any([effect.awake for effect in (self.rods, self.springs) if effect])
+        rods, springs = self.rods, self.springs
+        return bool((rods and rods.awake) or (springs and springs.awake))
 
     def has_firm_springs(self, dt: float) -> bool:
         """Return whether any spring swings too fast for overlaps of a step of dt seconds."""
