@@ -44,7 +44,7 @@ class Bounce(Effect):
                 if not c.b.is_static:
                     c.gap = FAR_APART * c.a.r
         contacts.changed, contacts.renewed = True, contacts.touching
-        parting = []
+        parting, least = [], max(slow, contacts.leaving_speed())
         for c in select_fast(contacts.touching, slow):
             closing = c.closing_speed()
             if c.gap < 0 and closing < -slow:
@@ -53,6 +53,6 @@ class Bounce(Effect):
                 c.gap = 0.0
             elif closing > slow and impacts.is_open(c) and not contacts.landings.lands(c.a, c.b):
                 c.gap = FAR_APART * c.a.r
-            if closing < -slow:
+            if closing <= -least:
                 parting.append(c)
         contacts.end_contacts(parting)

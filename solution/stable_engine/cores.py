@@ -48,8 +48,9 @@ class Cores:
             if not one.near:
                 one.find_start(contacts.last_dt)
             self.stop_core(one.body, h)
-        for body in contacts.beside_static:
-            self.stop_core(body, h)
+        for body in contacts.beside_static:  # most calls of stop_core would do nothing
+            if body.flown < inf or abs(body.x - body.last_x) + abs(body.y - body.last_y) > body.r:
+                self.stop_core(body, h)
         statics = contacts.statics.contacts
         for _ in range(CORNER_PASSES if statics else 0):
             faces: dict[Body, list[Face]] = {}

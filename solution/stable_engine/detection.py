@@ -134,7 +134,7 @@ class Detection(Effect):
 
         Return whether any has.
         """
-        far = REDETECT_DISTANCE * self.world.unit
+        far = REDETECT_DISTANCE * self.world.lengths
         far2, any_moved = far * far, False
         for one in self.broad_phase.near:
             body = one.body
@@ -294,18 +294,16 @@ class Detection(Effect):
         return c
 
     def end_contacts(self, parting: list[Contact]) -> None:
-        """End contacts of bodies that an impact has thrown apart: nothing brings them back.
+        """End contacts of bodies that an impact has thrown apart, if nothing brings them back.
 
         Not of pairs that have parted in this step already: none parts twice in one.
         """
-        world = self.world
-        least = self.speculative_speed + hypot(*world.g) * self.last_dt  # px/s
         ended: list[Contact] = []
         parted = {(c.a, c.b) for c in self.events.parted} if self.events.parted else ()
         for c in parting:
             a, b = c.a, c.b
             is_led = a.joint_count or b.joint_count or (not b.inv_mass and (b.vx or b.vy))
-            if is_led or c.jn or c.jt or c.closing_speed() > -least or (a, b) in parted:
+            if is_led or c.jn or c.jt or (a, b) in parted:
                 continue
             if collide(a, b)[2] > self.touching_gap:
                 ended.append(c)
@@ -313,6 +311,10 @@ class Detection(Effect):
         if ended:
             self.broad_phase.is_free = False
             self.drop_contacts(ended)
+
+    def leaving_speed(self) -> float:
+        """Return the speed (px/s) from which bodies leave each other, whatever gravity does."""
+        return self.speculative_speed + hypot(*self.world.g) * self.last_dt
 
     def drop_contacts(self, ended: list[Contact]) -> None:
         """Drop contacts of bodies that are near each other, without a call of on_part."""

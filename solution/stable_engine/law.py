@@ -15,12 +15,13 @@ def resolve(group: list[Contact], frames: list[Frame], flight: Flight) -> None:
     """Make contacts separate at the speeds of the law, or faster, with the rods of frames."""
     c = group[0]
     if len(group) == 1 and not (frames or c.mu):
-        parting, _ = law_of(c, flight)
-        c.push_apart(max((parting + c.closing_speed()) * c.mn, 0.0))
+        closing = c.closing_speed()
+        parting, _ = law_of(c, closing, flight)
+        c.push_apart(max((parting + closing) * c.mn, 0.0))
     else:
         for frame in frames:
             frame.hold()
-        hits = [Hit(c, law_of(c, flight)) for c in group]
+        hits = [Hit(c, law_of(c, c.closing_speed(), flight)) for c in group]
         rods = [Row(rod.end_a, rod.end_b, rod.nx, rod.ny) for frame in frames for rod in frame.rods]
         resolve_at_once(hits, rods)
     for body in balls_of(group) if flight.rests else []:
@@ -28,15 +29,15 @@ def resolve(group: list[Contact], frames: list[Frame], flight: Flight) -> None:
             flight.release(body)
 
 
-def law_of(c: Contact, flight: Flight) -> tuple[float, float]:
-    """Return the speed (px/s) at which a pair separates.
+def law_of(c: Contact, closing: float, flight: Flight) -> tuple[float, float]:
+    """Return the speed (px/s) at which a pair separates that closes in at the other.
 
     At any step size a ball leaves a wall exactly: e is applied to its speed at the surface. If
     it was not moved back there, conservation of energy gives that speed, and the present one.
 
     Also return the share of the impulse without the speed gained below the surface.
     """
-    closing, e = c.closing_speed(), c.e
+    e = c.e
     g, lag = flight.closing_acceleration(c)
     lag += flight.stiff_lag(c) if flight.stiff else 0.0
     if g == lag == 0:
