@@ -29,13 +29,12 @@ class Bounds:
     """
 
     __slots__ = (
-        *("body", "index", "near", "pairs", "margin", "extra", "left", "right", "top", "bottom"),
+        *("body", "near", "pairs", "margin", "extra", "left", "right", "top", "bottom"),
         *("vx", "vy", "high", "low", "side_high", "side_low", "first_lane", "last_lane", "rank"),
     )
 
-    def __init__(self, body: Body, index: int) -> None:
+    def __init__(self, body: Body) -> None:
         self.body = body
-        self.index = index  # in the world's list
         self.near = False  # whether any other body is near
         self.pairs: list[Pair] = []  # of its body and those that are near
         self.margin = ROOM * min(body.hx, body.hy)  # px, room on each side
@@ -87,10 +86,6 @@ class Bounds:
         else:
             self.low, self.high = self.left - hx - margin, self.right + hx
             self.side_low, self.side_high = self.top - hy - margin, self.bottom + hy
-
-    def precedes(self, other: Bounds) -> bool:
-        """Return whether the sweep meets this box before another."""
-        return self.low < other.low or (self.low == other.low and self.index < other.index)
 
 
 def pair_number(a: Body, b: Body) -> int:

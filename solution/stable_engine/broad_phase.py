@@ -39,7 +39,7 @@ class BroadPhase:
 
     def __init__(self) -> None:
         self.bounds: list[Bounds] = []  # of all bodies, in the order of the last sweep
-        self.rooms: dict[Body, Bounds] = {}
+        self.rooms: dict[Body, Bounds] = {}  # in the order of the world's list
         self.moving: list[Bounds] = []  # of those that can move
         self.widest = 0.0  # px, half of the widest that can move
         self.narrowest = 0.0  # px, the least width of a lane
@@ -68,7 +68,7 @@ class BroadPhase:
 
     def take(self, bodies: list[Body]) -> None:
         """Begin anew, with these bodies."""
-        self.bounds = [Bounds(body, place) for place, body in enumerate(bodies)]
+        self.bounds = [Bounds(body) for body in bodies]
         self.rooms = {one.body: one for one in self.bounds}
         self.moving = [b for b in self.bounds if not b.body.idle or b.body.is_kinematic]
         halves = [max(b.body.hx, b.body.hy) for b in self.moving]
@@ -248,7 +248,7 @@ class BroadPhase:
         for one in leavers:
             one.update_box(self.upright, margin)
             before, last_before = one.first_lane, one.last_lane
-            self.find_lanes(one)
+            self.find_lanes([one])
             for index in range(one.first_lane, one.last_lane + 1):
                 if not before <= index <= last_before:
                     self.lanes[index].append(one)
@@ -307,12 +307,12 @@ class BroadPhase:
         self.make_lanes(margin)
         lanes, (left, right, top, bottom) = self.lanes, self.hull
         begun: list[list[Bounds]] = [[] for _ in lanes]  # the boxes in each that have not ended
+        self.find_lanes(self.bounds)
         for rank, one in enumerate(self.bounds):
             one.rank = rank
             low, side_low, side_high = one.low, one.side_low, one.side_high
             if low >= right or one.high <= left or side_low >= bottom or side_high <= top:
                 continue  # far from all bodies that can move
-            self.find_lanes(one)
             first = one.first_lane
             for index in range(first, one.last_lane + 1):
                 met = begun[index]
@@ -343,7 +343,8 @@ class BroadPhase:
         for one in self.moving:
             breadth += one.side_high - one.side_low
         lane = max(self.narrowest, breadth / len(self.moving))
-        self.sort(upright)
+        self.upright = upright
+        self.bounds = sorted(self.rooms.values(), key=LOW)
         if upright:
             left, right, top, bottom = top, bottom, left, right
         self.hull = left, right, top, bottom
@@ -351,12 +352,13 @@ class BroadPhase:
         self.lanes_per_px = count / (bottom - top)
         self.lanes = [[] for _ in range(count + 1)]
 
-    def find_lanes(self, one: Bounds) -> None:
-        """Find the lanes that a box crosses."""
-        top, bottom, per_px = self.hull[2], self.hull[3], self.lanes_per_px
-        low, high = one.side_low, one.side_high
-        one.first_lane = int((low - top) * per_px) if low > top else 0
-        one.last_lane = int((high - top) * per_px) if high < bottom else len(self.lanes) - 1
+    def find_lanes(self, boxes: list[Bounds]) -> None:
+        """Find the lanes that boxes cross."""
+        (_, _, top, bottom), per_px, last = self.hull, self.lanes_per_px, len(self.lanes) - 1
+        for one in boxes:
+            low, high = one.side_low, one.side_high
+            one.first_lane = int((low - top) * per_px) if low > top else 0
+            one.last_lane = int((high - top) * per_px) if high < bottom else last
 
     def find_hull(self, edge: float) -> tuple[float, float, float, float]:
         """Return left, right, top and bottom of all rooms, with an edge (px) around them."""
@@ -372,25 +374,3 @@ class BroadPhase:
             if one.bottom > bottom:
                 bottom = one.bottom
         return left - edge, right + edge, top - edge, bottom + edge
-
-    def sort(self, upright: bool) -> None:
-        """Put the boxes into the order in which the sweep meets them.
-
-        Boxes that begin together keep the order of the world's list, whatever it was before.
-        """
-        bounds, self.upright = self.bounds, upright
-        highest = -inf
-        for one in bounds:
-            if one.low < highest:
-                bounds.sort(key=LOW)
-                break
-            highest = one.low
-        highest = -inf
-        for at, one in enumerate(bounds):
-            if one.low > highest:
-                highest = one.low
-                continue
-            while at > 0 and one.precedes(bounds[at - 1]):
-                bounds[at] = bounds[at - 1]
-                at -= 1
-            bounds[at] = one
