@@ -39,7 +39,6 @@ class Bounce(Effect):
         impacts.find(fast)
         if impacts.queue.due or impacts.returned:
             impacts.resolve_all()
-            contacts.broad_phase.is_free = False
             for c in impacts.met:  # only the next step may push balls apart or stop them
                 if not c.b.is_static:
                     c.gap = FAR_APART * c.a.r

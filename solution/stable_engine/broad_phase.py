@@ -208,7 +208,7 @@ class BroadPhase:
     def lead(self, one: Bounds) -> None:
         """Note that something may push a body, so it is looked at in each step."""
         self.led[one] = None
-        for pair in one.pairs:
+        for pair in one.pairs if self.is_quiet else []:
             if not pair.is_watched:
                 pair.is_watched = True
                 self.watched.append(pair)

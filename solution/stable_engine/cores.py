@@ -181,6 +181,7 @@ class Cores:
         flown = body.flown if body.flown < inf else contacts.last_dt
         body.flown = flown - (1 - fraction) * before
         contacts.flying.append(body)
+        contacts.broad_phase.lead(contacts.broad_phase.rooms[body])
 
     def take_along(self, bodies: list[Body], dx: float, dy: float, h: float) -> None:
         """Put balls back by (dx, dy) px with one that they are stiffly tied to, up to a wall.

@@ -309,7 +309,6 @@ class Detection(Effect):
                 ended.append(c)
                 self.events.note_gone(c)
         if ended:
-            self.broad_phase.is_free = False
             self.drop_contacts(ended)
 
     def leaving_speed(self) -> float:

@@ -237,7 +237,7 @@ class Impacts:
 
     def keep_inside(self) -> None:
         """Stop balls before walls, if an impact took them through: on them, or by a joint."""
-        contacts = self.contacts
+        contacts, phase = self.contacts, self.contacts.broad_phase
         moved = [*contacts.hit_ago, *[body for body, _ in self.flight.changes]]
         frames = [*self.flight.frames_of(moved), *self.returned] if self.frame_of else []
         if frames:
@@ -248,6 +248,7 @@ class Impacts:
         for body in moved:
             if body not in contacts.hit_ago:
                 contacts.note_impact(body, 0.0)  # so the next step may stop it before a wall
+            phase.lead(phase.rooms[body])
             if contacts.cores.stop_hit(body, beside.get(body, []), bends.get(body, [])):
                 stopped.append(body)
         if stopped:
