@@ -175,7 +175,8 @@ class Flight:
                 self.stops[body] = Stop(at, end, seconds, late)
         body.x += x
         body.y += y
-        body.turn += body.w * seconds
+        if body.w:
+            body.turn += body.w * seconds
         body.vx += ax * seconds
         body.vy += ay * seconds
         return seconds

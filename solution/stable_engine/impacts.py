@@ -209,7 +209,8 @@ class Impacts:
             self.link(self.contacts.touching)
         while self.queue.due:
             self.resolve_first()
-        self.return_to_stops(list(self.passing))
+        if self.passing:
+            self.return_to_stops(list(self.passing))
         for c in self.times.turned:
             if c.gap != c.found:  # else it was measured since
                 self.times.turn_on(c, 0.0)
@@ -221,7 +222,7 @@ class Impacts:
         for faces in deep.values():
             self.faces.lift(faces)
         self.flight.pass_on()
-        self.contacts.drop_untouched(self.begun - self.queue.counts.keys())
+        self.contacts.drop_untouched(self.begun.difference(self.queue.counts))
         self.leave_crowd()
         self.keep_inside()
 
