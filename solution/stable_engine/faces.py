@@ -11,6 +11,8 @@ from .soft import SAME_DIRECTION
 class Faces:
     """The flat faces of static bodies at which balls are, and how deep in them these were."""
 
+    __slots__ = ("flight", "normals")
+
     def __init__(self, flight: Flight) -> None:
         self.flight = flight
         # their normals, how far (px) along it the centres are at a touch, and the gap (px) before

@@ -22,6 +22,12 @@ class Flight:
     With semi-implicit Euler a velocity lags half a substep behind the position.
     """
 
+    __slots__ = (
+        *("contacts", "world", "h", "least_speed", "held", "stops", "bends", "walls", "rests"),
+        *("bearing", "frame_of", "pivots", "springs_of", "stiff", "before", "in_contact", "moved"),
+        *("partners", "changes", "time", "is_simple"),
+    )
+
     def __init__(self, contacts: Contacts, h: float, least_speed: float) -> None:
         rods, springs = contacts.rods, contacts.springs
         self.contacts = contacts
@@ -47,9 +53,10 @@ class Flight:
             self.springs_of = springs.springs_of
             self.stiff = {body for spring in stiff for body in (spring.end_a, spring.end_b)}
         # of bodies on springs: mirrored impacts, resolved in turn, must not see each other's moves
-        self.before = {body: state_of(body) for body in self.springs_of}
+        self.before: dict[Body, State] = {}
         self.in_contact: set[Body] = set()
         if self.springs_of:
+            self.before = {body: state_of(body) for body in self.springs_of}
             self.in_contact.update([body for c in contacts.touching for body in (c.a, c.b)])
         self.moved: set[Body] = set()  # by the present impact
         self.partners: dict[Body, State] = {}  # balls on springs that fly with these

@@ -19,6 +19,8 @@ class ImpactQueue:
     Impacts belong to one moment if the fastest body moves by less than a gap (px) between them.
     """
 
+    __slots__ = ("gap", "due", "queue", "early", "counts", "fastest", "number")
+
     def __init__(self, gap: float) -> None:
         self.gap = gap  # px
         self.due: dict[Contact, Impact] = {}

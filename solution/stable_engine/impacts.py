@@ -36,6 +36,11 @@ class Impacts:
     are solved together.
     """
 
+    __slots__ = (
+        *("begun", "contacts", "touching_gap", "dt", "reach", "least_speed", "queue", "passing"),
+        *("beside", "flight", "frame_of", "faces", "times", "returned", "met"),
+    )
+
     def __init__(self, contacts: Contacts, least_speed: float, h: float) -> None:
         self.begun = set(contacts.begun)
         self.contacts = contacts

@@ -17,6 +17,8 @@ ARC_PASSES = 4  # of Newton's method, to find the touch of a ball on an arc
 class TimeOfImpact:
     """Look back at the flights of two bodies, for the moment of their touch."""
 
+    __slots__ = ("contacts", "faces", "flight", "touching_gap", "turned")
+
     def __init__(self, contacts: Contacts, faces: Faces) -> None:
         self.contacts = contacts
         self.faces = faces
