@@ -115,12 +115,6 @@ class Flight:
             if body not in self.in_contact:  # else it might get into another body
                 body.x, body.y = body.x + x, body.y + y
 
-    def note_bends(self, hit: list[Body]) -> None:
-        """Note where balls that were hit fly straight on."""
-        for body in [] if self.springs_of else hit:
-            if body not in self.frame_of:
-                self.bends.setdefault(body, []).append((body.x, body.y))
-
     def fly(self, hit: list[Body], seconds: float) -> None:
         """Let balls fly back to an impact, or on. One that flies on far stops before a wall."""
         if self.springs_of and seconds < 0:
@@ -135,6 +129,8 @@ class Flight:
         if not self.springs_of:
             is_plain = self.is_simple and not (self.bearing or self.pivots)
             for body in free:
+                if seconds > 0:
+                    self.bends.setdefault(body, []).append((body.x, body.y))
                 acceleration = self.world.g if is_plain else self.acceleration(body)
                 time = self.own_time(body, seconds) if self.contacts.stops else seconds
                 self.fly_ball(body, acceleration, time)

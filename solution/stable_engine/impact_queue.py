@@ -36,11 +36,15 @@ class ImpactQueue:
             self.number += 1
             self.due[c] = impact = -ago, self.number, speed, c
             heappush(self.queue, impact)
-            self.fastest = max(self.fastest, speed)
+            if speed > self.fastest:
+                self.fastest = speed
 
     def take_first(self) -> tuple[list[Contact], float]:
         """Return the hardest of the earliest impacts, and how long (s) ago they touched."""
-        early = self.find_early()
+        if len(self.due) == 1:
+            early, self.queue = [*self.due.values()], []
+        else:
+            early = self.find_early()
         group, self.early = [early[0][3]], []
         if len(early) > 1:
             # the gap in px/s as well: rounding would decide between slow ones
@@ -56,9 +60,6 @@ class ImpactQueue:
     def find_early(self) -> list[Impact]:
         """Return the earliest impacts, in order: first those left of the moment before."""
         queue, fastest, gap = self.queue, self.fastest, self.gap
-        if len(self.due) == 1:
-            queue.clear()
-            return list(self.due.values())
         early = [impact for impact in self.early if self.is_due(impact)] if self.early else []
         while queue and (not early or (queue[0][0] - early[0][0]) * fastest <= gap):
             impact = heappop(queue)

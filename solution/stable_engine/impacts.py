@@ -244,10 +244,11 @@ class Impacts:
     def keep_inside(self) -> None:
         """Stop balls before walls, if an impact took them through: on them, or by a joint."""
         contacts, phase = self.contacts, self.contacts.broad_phase
-        moved = [*contacts.hit_ago, *[body for body, _ in self.flight.changes]]
-        frames = [*self.flight.frames_of(moved), *self.returned] if self.frame_of else []
-        if frames:
-            moved = [*moved, *[ball for frame in frames for ball in frame.balls]]
+        moved = [*contacts.hit_ago]
+        if self.flight.springs_of or self.frame_of:
+            moved += [body for body, _ in self.flight.changes]
+            frames = [*self.flight.frames_of(moved), *self.returned]
+            moved += [ball for frame in frames for ball in frame.balls]
             moved = list(dict.fromkeys(moved))
         bends, beside = self.flight.bends, self.beside
         stopped: list[Body] = []
@@ -347,7 +348,6 @@ class Impacts:
         resolve(self.uncover(group) if frames else group, frames, self.flight)
         for wall, (x, y) in walls.items():
             wall.x, wall.y = x, y
-        self.flight.note_bends(hit)
         self.flight.fly(hit, ago)
 
     def note_impact(self, body: Body, ago: float) -> None:
