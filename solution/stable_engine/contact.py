@@ -51,7 +51,7 @@ class Contact:
         """Take over the masses of A and B. A kinematic body counts as PUSHER balls."""
         a, b = self.a, self.b
         self.mn = 1 / (a.inv_mass + b.inv_mass)
-        self.ratio = max(a.m, b.m) / min(a.m, b.m) if b.m else PUSHER if b.is_kinematic else 1.0
+        self.ratio = max(a.m / b.m, b.m / a.m) if b.m else PUSHER if b.is_kinematic else 1.0
 
     def set_arms(self, gap: float) -> None:
         """Let the arms of friction end at one point, amid a gap (px), or spin would be made."""

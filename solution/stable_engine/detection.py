@@ -103,10 +103,13 @@ class Detection(Effect):
             balls = phase.moving if self.has_joints() else []
             phase.tied = [one for one in balls if self.is_on_joint(one.body)]
         self.landings.springs = springs
-        phase.foresees = bool(self.rods and self.rods.awake) or self.has_firm_springs(dt)
+        phase.foresees = bool(self.rods and self.rods.awake)
+        if springs:
+            phase.foresees = phase.foresees or self.has_firm_springs(dt)
         renews = phase.is_stale or len(phase.leavers) > 0
         found = self.renew_pairs(dt) if renews else []
-        phase.list_near()
+        if not phase.is_listed:
+            phase.list_near()
         moved = self.note_moved()
         if renews or moved:
             self.changed = True
@@ -456,7 +459,7 @@ class Detection(Effect):
 
     def flight_of(self, a: Body, b: Body) -> float:
         """Return how long (s) two bodies have flown freely: a step, if none was hit or stopped."""
-        least = min(a.flown, b.flown)
+        least = a.flown if a.flown < b.flown else b.flown
         return least if least < inf and self.last_dt else self.last_dt
 
     def note_impact(self, body: Body, ago: float) -> None:
