@@ -80,8 +80,10 @@ class Cores:
         """
         x, y, core = body.last_x, body.last_y, CORE * body.r
         dx, dy = body.x - x, body.y - y
-        is_near = dx * dx + dy * dy <= core * core
-        if is_near and not any([c.gap < -core and not c.b.inv_mass for c in beside]):
+        is_in = False
+        for c in beside:
+            is_in = is_in or (c.gap < -core and not c.b.inv_mass)
+        if dx * dx + dy * dy <= core * core and not is_in:
             return False
         share = free_share(body, self.world.statics, core_of(body), (x, y), dx, dy)
         if share < 1 and bends and self.is_free(body, bends):

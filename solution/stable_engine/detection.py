@@ -4,7 +4,7 @@ from collections.abc import Callable
 from math import hypot, inf, sqrt
 
 from .body import Body
-from .bounds import Pair, pair_number
+from .bounds import Bounds, Pair, pair_number
 from .broad_phase import BroadPhase
 from .contact import RESTING_SPEED, Contact, collide, is_over_face, leave_as_entered
 from .effect import Effect
@@ -100,8 +100,7 @@ class Detection(Effect):
         springs = len(self.springs.joints) if self.springs else 0
         if len(phase.bounds) != len(world.members) or springs > self.landings.springs:
             phase.take(world.members)
-            balls = phase.moving if self.has_joints() else []
-            phase.tied = [one for one in balls if self.is_on_joint(one.body)]
+            phase.tied = self.find_tied() if self.has_joints() else []
         self.landings.springs = springs
         phase.foresees = bool(self.rods and self.rods.awake)
         if springs:
@@ -412,6 +411,10 @@ class Detection(Effect):
     def has_firm_springs(self, dt: float) -> bool:
         """Return whether any spring swings too fast for overlaps of a step of dt seconds."""
         return self.springs is not None and self.springs.are_firm(dt)
+
+    def find_tied(self) -> list[Bounds]:
+        """Return the rooms of balls on joints."""
+        return [one for one in self.broad_phase.moving if self.is_on_joint(one.body)]
 
     def is_on_joint(self, body: Body) -> bool:
         """Return whether a body is a ball on a rod or spring."""

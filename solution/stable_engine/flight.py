@@ -119,13 +119,7 @@ class Flight:
         """Let balls fly back to an impact, or on. One that flies on far stops before a wall."""
         if self.springs_of and seconds < 0:
             self.add_partners(hit)
-        free = hit
-        if self.frame_of:
-            free = [body for body in hit if body not in self.frame_of]
-            for body in [body for body in hit if body in self.pivots]:
-                self.swing(body, seconds)
-            for frame in self.frames_of([body for body in hit if body not in self.pivots]):
-                self.fly_frame(frame, seconds)
+        free = self.fly_on_rods(hit, seconds) if self.frame_of else hit
         if not self.springs_of:
             is_plain = self.is_simple and not (self.bearing or self.pivots)
             for body in free:
@@ -134,10 +128,24 @@ class Flight:
                 acceleration = self.world.g if is_plain else self.acceleration(body)
                 time = self.own_time(body, seconds) if self.contacts.stops else seconds
                 self.fly_ball(body, acceleration, time)
-            return
-        free, parts = [*free, *self.partners], self.world.substep_count
+        else:
+            self.fly_on_springs([*free, *self.partners], seconds)
+            if seconds > 0:
+                self.end_partners()
+
+    def fly_on_rods(self, hit: list[Body], seconds: float) -> list[Body]:
+        """Let balls on rods fly for a time, or back. Return the others."""
+        for body in [body for body in hit if body in self.pivots]:
+            self.swing(body, seconds)
+        for frame in self.frames_of([body for body in hit if body not in self.pivots]):
+            self.fly_frame(frame, seconds)
+        return [body for body in hit if body not in self.frame_of]
+
+    def fly_on_springs(self, free: list[Body], seconds: float) -> None:
+        """Let balls on springs fly for a time, or back, in parts: their forces change."""
+        parts = self.world.substep_count
         times = [self.own_time(body, seconds) / parts for body in free]
-        for _ in range(parts):  # as the forces of springs change on the way
+        for _ in range(parts):
             before = [(body, self.acceleration(body)) for body in free]
             flown = [
                 self.fly_ball(body, acceleration, time)
@@ -147,8 +155,6 @@ class Flight:
             after = [self.acceleration(body) for body in free]  # with the same speeds for all
             for (body, acceleration), now, time in zip(before, after, flown, strict=True):
                 self.adjust(body, acceleration, now, time)
-        if seconds > 0:
-            self.end_partners()
 
     def own_time(self, body: Body, seconds: float) -> float:
         """Return for how long a ball flies: back for less time if a wall stopped it before."""

@@ -19,14 +19,19 @@ def resolve(group: list[Contact], frames: list[Frame], flight: Flight) -> None:
         parting, _ = law_of(c, closing, flight)
         c.push_apart(max((parting + closing) * c.mn, 0.0))
     else:
-        for frame in frames:
-            frame.hold()
-        hits = [Hit(c, law_of(c, c.closing_speed(), flight)) for c in group]
-        rods = [Row(rod.end_a, rod.end_b, rod.nx, rod.ny) for frame in frames for rod in frame.rods]
-        resolve_at_once(hits, rods)
+        resolve_together(group, frames, flight)
     for body in balls_of(group) if flight.rests else []:
         if body in flight.rests and body not in flight.frame_of:
             flight.release(body)
+
+
+def resolve_together(group: list[Contact], frames: list[Frame], flight: Flight) -> None:
+    """Solve contacts and rods together, as each changes the speeds at the others."""
+    for frame in frames:
+        frame.hold()
+    hits = [Hit(c, law_of(c, c.closing_speed(), flight)) for c in group]
+    rods = [Row(rod.end_a, rod.end_b, rod.nx, rod.ny) for frame in frames for rod in frame.rods]
+    resolve_at_once(hits, rods)
 
 
 def law_of(c: Contact, closing: float, flight: Flight) -> tuple[float, float]:

@@ -104,7 +104,11 @@ def within_reach(
 ) -> list[Body]:
     """Return the bodies whose boxes a ball that moves from (x, y) by (dx, dy) may touch."""
     reach_x, reach_y = abs(dx) + radius, abs(dy) + radius
-    return [s for s in statics if abs(x - s.x) <= s.hx + reach_x and abs(y - s.y) <= s.hy + reach_y]
+    near: list[Body] = []
+    for s in statics:
+        if abs(x - s.x) <= s.hx + reach_x and abs(y - s.y) <= s.hy + reach_y:
+            near.append(s)
+    return near
 
 
 def distance_from(s: Body, x: float, y: float) -> float:
