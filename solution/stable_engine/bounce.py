@@ -33,7 +33,7 @@ class Bounce(Effect):
         slow = contacts.slow_speed(max(h, contacts.pace.h) * self.world.substep_count)
         fast = select_fast(contacts.touching, slow)
         may_hit = contacts.begun and (fast or contacts.may_pass())
-        if not may_hit and all([abs(c.closing_speed()) <= slow for c in fast]):
+        if not may_hit and max([abs(c.closing_speed()) for c in fast], default=0.0) <= slow:
             return
         impacts = Impacts(contacts, slow, h)
         impacts.find(fast)

@@ -254,7 +254,7 @@ class BroadPhase:
                     self.lanes[index].append(one)
         for one in leavers:
             a = one.body
-            known = [a] + [pair.b if pair.a is a else pair.a for pair in one.pairs]
+            known = [a, *[body for pair in one.pairs for body in (pair.a, pair.b)]]
             for other in self.find_near(one, known):
                 self.pair_up(one, other)
 

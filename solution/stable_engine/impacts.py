@@ -292,23 +292,28 @@ class Impacts:
         if len(group) == 1 and self.is_alone(group[0]):
             hit = self.resolve_alone(group[0], ago)
         else:
-            hit = balls_of(group)
-            if ago > 0 and not self.flight.can_all_go_back(hit):
-                self.return_passed(group, ago)
-                ago = 0.0
-            if ago == 0:
-                self.return_to_stops(hit)
-                self.times.see_from_here(group)
-            frames = self.flight.frames_of(hit)
-            for frame in frames:
-                others = [ball for ball in frame.balls if ball in self.beside or ball.is_bullet]
-                hit += [ball for ball in others if ball not in hit]
-            if ago > 0:
-                self.resolve_at_touch(group, hit, ago, frames)
-            else:
-                resolve(group, frames, self.flight)
-            self.look_around(hit, ago)
+            hit = self.resolve_together(group, ago)
         self.meet_others(hit)
+
+    def resolve_together(self, group: list[Contact], ago: float) -> list[Body]:
+        """Resolve impacts of one moment, some seconds ago, with all rods. Return their balls."""
+        hit = balls_of(group)
+        if ago > 0 and not self.flight.can_all_go_back(hit):
+            self.return_passed(group, ago)
+            ago = 0.0
+        if ago == 0:
+            self.return_to_stops(hit)
+            self.times.see_from_here(group)
+        frames = self.flight.frames_of(hit)
+        for frame in frames:
+            others = [ball for ball in frame.balls if ball in self.beside or ball.is_bullet]
+            hit += [ball for ball in others if ball not in hit]
+        if ago > 0:
+            self.resolve_at_touch(group, hit, ago, frames)
+        else:
+            resolve(group, frames, self.flight)
+        self.look_around(hit, ago)
+        return hit
 
     def return_passed(self, group: list[Contact], ago: float) -> None:
         """Return balls to a touch, some seconds ago, if they have passed others that stay here."""
@@ -399,8 +404,11 @@ class Impacts:
                 for pair in self.contacts.broad_phase.rooms[body].pairs:
                     if pair.contact is None:
                         self.add_if_touching(pair, met)
-        if not met:
-            return
+        if met:
+            self.take_in(met, hit)
+
+    def take_in(self, met: list[Contact], hit: list[Body]) -> None:
+        """Find the impacts of contacts that began as balls were hit."""
         self.add_contacts(met)
         for body in hit:
             stop = self.flight.stops.get(body)
