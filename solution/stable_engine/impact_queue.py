@@ -19,7 +19,7 @@ class ImpactQueue:
     Impacts belong to one moment if the fastest body moves by less than a gap (px) between them.
     """
 
-    __slots__ = ("gap", "due", "queue", "early", "counts", "fastest", "number")
+    __slots__ = ("counts", "due", "early", "fastest", "gap", "number", "queue")
 
     def __init__(self, gap: float) -> None:
         self.gap = gap  # px
