@@ -319,13 +319,14 @@ class Detection(Effect):
 
     def drop_contacts(self, ended: list[Contact]) -> None:
         """Drop contacts of bodies that are near each other, without a call of on_part."""
+        touching, begun = dict.fromkeys(self.touching), dict.fromkeys(self.begun)
         for c in ended:
-            self.touching.remove(c)
-            if c in self.begun:
-                self.begun.remove(c)
+            del touching[c]
+            begun.pop(c, None)
             for pair in self.broad_phase.rooms[c.a].pairs:
                 if pair.contact is c:
                     pair.contact = None
+        self.touching, self.begun = list(touching), list(begun)
         self.group_contacts()
         self.note_idle()
 
@@ -340,8 +341,8 @@ class Detection(Effect):
             touch = gap <= self.touching_gap or self.have_passed(c.a, c.b, gap)
             if was_hit and not touch and c not in self.landings.speeds:
                 missed.append(c)
+                self.events.hits.pop(c, None)
         if missed:
-            self.events.hits = {c: hit for c, hit in self.events.hits.items() if c not in missed}
             self.drop_contacts(missed)
 
     def end_unpaired(self) -> None:
