@@ -173,9 +173,7 @@ class Flight:
             self.stops.pop(body, None)
         core = CORE * body.r
         if seconds > 0 and (body.is_bullet or x * x + y * y > core * core):
-            known = self.walls.get(body, []) if hypot(x, y) <= DEEPEST * body.r else []
-            others = [s for s in self.world.statics if s not in known]
-            share = free_share(body, others, core_of(body), (body.x, body.y), x, y)
+            share = self.share_before_wall(body, x, y)
             if share < 1:
                 late = seconds * (1 - share)
                 end = body.x + x, body.y + y, body.vx + ax * seconds, body.vy + ay * seconds
@@ -189,6 +187,12 @@ class Flight:
         body.vx += ax * seconds
         body.vy += ay * seconds
         return seconds
+
+    def share_before_wall(self, body: Body, x: float, y: float) -> float:
+        """Return how much of a way (px) a ball can fly, 1 if no wall stops it."""
+        known = self.walls.get(body, []) if hypot(x, y) <= DEEPEST * body.r else []
+        others = [s for s in self.world.statics if s not in known]
+        return free_share(body, others, core_of(body), (body.x, body.y), x, y)
 
     def adjust(
         self, body: Body, before: tuple[float, float], now: tuple[float, float], seconds: float

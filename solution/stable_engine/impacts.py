@@ -228,7 +228,8 @@ class Impacts:
             self.faces.lift(faces)
         self.flight.pass_on()
         self.contacts.drop_untouched(self.begun.difference(self.queue.counts))
-        self.leave_crowd()
+        if self.contacts.crowd:
+            self.leave_crowd()
         self.keep_inside()
 
     def leave_crowd(self) -> None:
@@ -236,10 +237,8 @@ class Impacts:
 
         They would be pushed apart when they next meet, before their impact.
         """
-        contacts = self.contacts
-        if contacts.crowd:
-            crowd = contacts.crowd.items()
-            contacts.crowd = {c: put for c, put in crowd if c.found <= -self.touching_gap}
+        crowd = self.contacts.crowd.items()
+        self.contacts.crowd = {c: put for c, put in crowd if c.found <= -self.touching_gap}
 
     def keep_inside(self) -> None:
         """Stop balls before walls, if an impact took them through: on them, or by a joint."""

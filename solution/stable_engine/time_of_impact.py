@@ -96,7 +96,7 @@ class TimeOfImpact:
         closing = c.closing_speed()
         speed = (speed_at_touch(c, closing, g, lag) + closing + lag) / 2
         deeper = -c.gap - speed * since
-        if c.gap >= 0 or deeper > self.slack(c, since):
+        if c.gap >= 0 or deeper > self.slack(c, since, g):
             return 0.0
         return since if deeper >= 0 else -c.gap / speed
 
@@ -118,11 +118,11 @@ class TimeOfImpact:
             gap = c.gap - way_x * c.nx - way_y * c.ny
         for ball, (at_x, at_y, vx, vy), turn in before:
             ball.x, ball.y, ball.vx, ball.vy, ball.turn = at_x, at_y, vx, vy, turn
-        return ago if abs(gap) <= self.slack(c, since) else 0.0
-
-    def slack(self, c: Contact, since: float) -> float:
-        """Return how much deeper (px) a ball may be in a face, as it fell or was under a load."""
         g, _ = self.flight.closing_acceleration(c)
+        return ago if abs(gap) <= self.slack(c, since, g) else 0.0
+
+    def slack(self, c: Contact, since: float, g: float) -> float:
+        """Return how much deeper (px) a ball may be in a face, as it fell or was under a load."""
         return self.touching_gap + abs(g) * since * since + self.faces.depth(c)
 
     def look_back(self, c: Contact, since: float) -> tuple[float, float, float]:
