@@ -296,16 +296,20 @@ class Detection(Effect):
         return c
 
     def end_contacts(self, parting: list[Contact]) -> None:
-        """End contacts of bodies that an impact has thrown apart, if nothing brings them back.
+        """End contacts of bodies that an impact has thrown apart, if no rod brings them back.
 
-        Not of pairs that have parted in this step already: none parts twice in one.
+        If a spring does, that is a new impact: a contact would stop it without a bounce. Pairs that
+        have parted in this step already stay: none parts twice in one.
         """
         ended: list[Contact] = []
         parted = {(c.a, c.b) for c in self.events.parted} if self.events.parted else ()
+        rods = self.rods
         for c in parting:
             a, b = c.a, c.b
-            is_led = a.joint_count or b.joint_count or (not b.inv_mass and (b.vx or b.vy))
-            if is_led or c.jn or c.jt or (a, b) in parted:
+            if rods and (rods.holds(a) or rods.holds(b)):
+                continue
+            is_moving = not b.inv_mass and (b.vx or b.vy)  # a static body that follows
+            if is_moving or c.jn or c.jt or (a, b) in parted:
                 continue
             if collide(a, b)[2] > self.touching_gap:
                 ended.append(c)
@@ -321,7 +325,7 @@ class Detection(Effect):
         """Drop contacts of bodies that are near each other, without a call of on_part."""
         touching, begun = dict.fromkeys(self.touching), dict.fromkeys(self.begun)
         for c in ended:
-            del touching[c]
+            touching.pop(c, None)
             begun.pop(c, None)
             for pair in self.broad_phase.rooms[c.a].pairs:
                 if pair.contact is c:

@@ -137,6 +137,29 @@ def test_ends_of_a_stiff_spring_that_hit_each_other_gain_no_energy(
             assert whole_energy(world) < most, (gap, off)
 
 
+@pytest.mark.parametrize("swing", [0.1, 0.3, 0.45])  # rad in a substep
+@pytest.mark.parametrize(("rate", "substeps"), [(60, 1), (120, 4)])
+def test_a_gas_of_sprung_pairs_keeps_its_energy(swing, rate, substeps):
+    """All is elastic. Springs without damping keep their swing up to 0.5 rad in a substep."""
+    rng = random.Random(2)
+    world = World((0, 0), substeps, effects=[Contacts(), Bounce(), Springs()])
+    for side in (-1, 1):
+        for box, pos in ((Box((300, 100)), (0, 300)), (Box((100, 300)), (300, 0))):
+            at = side * pos[0], side * pos[1]
+            world.add(Body(box, at, restitution=1.0, friction=0.0))
+    for i in range(12):
+        x, y = -140 + 90 * (i % 4), -140 + 120 * (i // 4)
+        pair = [Body(Circle(8), (at, y), 1.0, 1.0, 0.0) for at in (x, x + 30)]
+        for ball in pair:
+            world.add(ball).vel = rng.uniform(-200, 200), rng.uniform(-200, 200)
+        world.add(Spring(*pair, (swing * rate * substeps) ** 2 / 2, 0, 30))
+    start, energies = whole_energy(world), []
+    for _ in range(8 * rate):
+        world.step(1 / rate)
+        energies.append(whole_energy(world))
+    assert sum(energies[-rate:]) / rate == pytest.approx(start, rel=0.02)
+
+
 def jam(effects, masses, narrow, substeps, high):
     """Build a slot that is `narrow` px too narrow for balls side by side, up to `high` px high."""
     declared = [getattr(stable_engine, name)() for name in ("Contacts", *effects)]
