@@ -40,6 +40,10 @@ def speed(state):
     return math.hypot(state.vx, state.vy)
 
 
+def velocity_off(state, velocity):
+    return math.hypot(state.vx - velocity[0], state.vy - velocity[1])
+
+
 def top_speed(engine):
     """Return the speed of the fastest ball."""
     return max(speed(engine.read(i)) for i in engine.scene.moving())

@@ -15,7 +15,7 @@ from worlds_for_tests import IDEAL, balls, build, whole_energy
 from experiments.engines import Stable
 from experiments.measures import run, states, watch
 from experiments.rows.hits import energy_off, gas, kinetic, moments
-from experiments.rows.row import fall_speed, law, seen
+from experiments.rows.row import SEEN, fall_speed, law
 from experiments.scenes import BOUNCE, DT, Ball, Block, G, Scene, floor
 from stable_engine import (
     Body,
@@ -477,7 +477,7 @@ def test_as_many_balls_swing_out_of_a_cradle_on_rods_as_swung_in(thrown):
         swing[i].pos = (20 * i - hang, drop)
     run(world, math.pi * math.sqrt(100 / G) * (1 + 0.5**2 / 16))
     off = [body.x - 20 * i - (hang if i >= 5 - thrown else 0) for i, body in enumerate(swing)]
-    assert off == pytest.approx([0] * 5, abs=seen().limit)
+    assert off == pytest.approx([0] * 5, abs=SEEN.limit)
     fastest = max(abs(body.vx) for body in swing[: 5 - thrown])
     assert fastest < law(fall_speed(100 - drop)).limit
 

@@ -6,7 +6,7 @@ from functools import partial
 from ..measures import energy_height, watch
 from ..scenes import BOUNCE, DT, Ball, Block, G, Scene, drop, floor
 from .rest import late_speed
-from .row import Bound, H, Row, energy, fall_speed, law, run_for, still, velocity_off_after
+from .row import ENERGY, STILL, Bound, H, Row, fall_speed, law, run_for, velocity_off_after
 
 LEAVES = "A ball that lands at speed v leaves at e v, and its flight keeps its energy."
 
@@ -112,12 +112,12 @@ def make_rows():
         yield Row(f"bounce: e = 1 for 30 s, from {height:g} px",
                   "With e = 1 nothing takes energy: each apex is as high as the first.",
                   partial(drop, height, 1.0), partial(last_apex, seconds=30, height=height),
-                  energy(), quick=height == 290)
+                  ENERGY, quick=height == 290)
     for e in (0.5, 0.8):
         total = fall_speed(290) / G * (1 + e) / (1 - e)
         yield Row(f"bounce: e = {e} comes to rest", "The times of all bounces add up to "
                   "√(2h/g) (1 + e) / (1 - e): half a second later the ball rests.",
-                  partial(drop, 290.0, e), partial(late_speed, seconds=total + 1.5), still())
+                  partial(drop, 290.0, e), partial(late_speed, seconds=total + 1.5), STILL)
     for e in (0.5, 1.0):
         yield Row(f"bounce: without friction at 300 px/s, e = {e}",
                   "Without friction nothing acts along the floor.",

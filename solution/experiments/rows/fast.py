@@ -5,7 +5,7 @@ from functools import partial
 from ..scenes import BULLETS, Ball, Block, Scene, near_miss, rammer, shot
 from .bounces import between_walls, keeps_flying
 from .hits import after_head_on
-from .row import Row, law, never, run_for, velocity_off_after
+from .row import NEVER, Row, law, run_for, velocity_off_after
 
 COUNT = 20
 SMOOTH_BULLETS = ("Contacts", "Bounce", "Bullets")
@@ -52,12 +52,12 @@ def make_rows():
     solid, passed = "Bodies are solid at any speed.", partial(get_through, axis="y", seconds=0.4)
     for fast in (1000.0, 2448.0, 10_000.0, 50_000.0, 200_000.0):
         yield Row(f"bullets: 20 at {fast:,.0f} px/s, ledge of 20 px", solid, partial(volley, fast),
-                  passed, never(), quick=fast == 10_000)
+                  passed, NEVER, quick=fast == 10_000)
         yield Row(f"fast balls: 20 at {fast:,.0f} px/s that are no bullets, ledge of 20 px", solid,
-                  partial(volley, fast, bullet=False), passed, never())
+                  partial(volley, fast, bullet=False), passed, NEVER)
     for fast in (500.0, 5000.0):
         yield Row(f"bullets: 20 of radius 2 at {fast:,.0f} px/s, ledge of 2 px", solid,
-                  partial(volley, fast, 2.0, 2.0), passed, never())
+                  partial(volley, fast, 2.0, 2.0), passed, NEVER)
     for fast in (300.0, 2448.0, 20_000.0):
         miss = partial(near_miss, fast)
         yield Row(f"bullets: one that misses a corner by half a pixel at {fast:,.0f} px/s",
@@ -81,8 +81,8 @@ def make_rows():
                   partial(keeps_flying, seconds=1), law(fast))
     for fast in (3000.0, 6000.0):
         yield Row(f"fast balls: 20 thrown at 20 others at {fast:,.0f} px/s, no bounce", solid,
-                  partial(thrown_at_others, fast), partial(pass_each_other, seconds=0.4), never())
+                  partial(thrown_at_others, fast), partial(pass_each_other, seconds=0.4), NEVER)
     for mass, speed in ((100.0, 600.0), (1000.0, 600.0), (1000.0, 1000.0)):
         yield Row(f"ram: {mass:g} kg on a rod behind 1 kg, {speed:g} px/s, wall of 20 px", solid,
                   partial(rammer, mass, speed), partial(get_through, axis="x", seconds=0.5),
-                  never(), needs=("rods that push",))
+                  NEVER, needs=("rods that push",))

@@ -5,21 +5,9 @@ import random
 from dataclasses import replace
 from functools import partial
 
-from ..measures import run, states
+from ..measures import run, states, velocity_off
 from ..scenes import BOUNCE, DT, Ball, Block, Scene, cradle, shuffled
-from .row import (
-    Bound,
-    H,
-    Row,
-    aim,
-    energy,
-    law,
-    off_after,
-    run_for,
-    seen,
-    velocity_off,
-    velocity_off_after,
-)
+from .row import AIM, ENERGY, SEEN, Bound, H, Row, law, off_after, run_for, velocity_off_after
 
 SMOOTH = {"restitution": 1.0, "friction": 0.0}
 FREE = ("Contacts", "Bounce")
@@ -239,23 +227,23 @@ def make_hit_rows():
         for fast in (100.0, 500.0, 1500.0):
             yield Row(f"hit: {offset} widths off the middle at {fast:g} px/s",
                       "Without friction it leaves along the line of centres at the touch.",
-                      partial(oblique, offset, fast), partial(direction_off, offset=offset), aim(),
+                      partial(oblique, offset, fast), partial(direction_off, offset=offset), AIM,
                       quick=fast == 500)
     for mass in (0.1, 100.0):
         yield Row(f"hit: 0.5 widths off the middle at 500 px/s, 1:{mass:g}",
                   "Momentum and energy along the line of centres give both velocities.",
                   partial(oblique, 0.5, 500.0, mass), partial(oblique_off, offset=0.5, fast=500.0),
-                  aim())
+                  AIM)
     for words, change in (("in a frame that moves at 2000 px/s", {"frame": (2000.0, 700.0)}),
                           ("turned by 37°", {"turn": math.radians(37)})):
         yield Row(f"hit: 0.5 widths off the middle at 300 px/s, {words}",
                   "The laws are the same in every direction and in every frame that moves evenly.",
                   partial(oblique, 0.5, 300.0, **change),
-                  partial(oblique_off, offset=0.5, fast=300.0, **change), aim())
+                  partial(oblique_off, offset=0.5, fast=300.0, **change), AIM)
     yield Row("hit: 0.5 widths off the middle, 100,000 px away",
               "The laws are the same everywhere.",
               partial(oblique, 0.5, 300.0, shift=1e5),
-              partial(oblique_off, offset=0.5, fast=300.0), aim())
+              partial(oblique_off, offset=0.5, fast=300.0), AIM)
     for fast in (100.0, 500.0, 1500.0):
         rough = partial(oblique, 0.5, fast, friction=0.6, restitution=0.5)
         yield Row(f"hit: rough, off the middle at {fast:g} px/s, momentum", "Momentum is kept.",
@@ -305,18 +293,18 @@ def make_many_rows():
                   comes_back, law(300), quick=count == 3)
     for rows, fast in ((2, 300.0), (3, 300.0), (5, 300.0), (5, 1500.0)):
         yield Row(f"rack: {rows} rows at {fast:g} px/s, mirror image", mirror,
-                  partial(rack, rows, fast), partial(mirror_off, rows=rows, fast=fast), seen(),
+                  partial(rack, rows, fast), partial(mirror_off, rows=rows, fast=fast), SEEN,
                   quick=rows == 3)
         yield Row(f"rack: {rows} rows at {fast:g} px/s, energy", "With e = 1 energy is kept.",
-                  partial(rack, rows, fast), partial(energy_off, seconds=300 / fast), energy())
+                  partial(rack, rows, fast), partial(energy_off, seconds=300 / fast), ENERGY)
     yield Row("rack: 5 rows, added in another order",
               "The order of a list is no physics.", partial(rack, 5, 300.0),
-              partial(order_matters, seconds=1), seen())
+              partial(order_matters, seconds=1), SEEN)
     yield Row("rack: 5 rows, momentum", "Momentum is kept.", partial(rack, 5, 1000.0),
               partial(moment_lost, which=(0, 1), scale=1000.0, seconds=0.5), law(1))
     for words, masses in (("equal", (1.0,)), ("1:100", (1.0, 100.0))):
         yield Row(f"gas: 20 balls of {words} masses for 20 s, energy", "With e = 1 energy is kept.",
-                  partial(gas, 20, masses), partial(energy_off, seconds=20), energy(),
+                  partial(gas, 20, masses), partial(energy_off, seconds=20), ENERGY,
                   quick=words == "equal")
     yield Row("gas: 20 balls, e = 0.9, gain", "A hit with e < 1 never adds energy.",
               partial(gas, 20, (1.0, 10.0), 5, 0.9), partial(energy_off, seconds=5, may_fall=True),

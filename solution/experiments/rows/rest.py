@@ -8,7 +8,7 @@ from .. import scenes
 from ..measures import deepest_overlap, run, states, top_speed, watch
 from ..scenes import BOUNCE, TOUCH, Ball, Block, G, Scene, floor, pile, resting, stack, tower
 from ..steps import PATTERNS, lasting
-from .row import Row, late, never, off, off_after, run_for, seen, still
+from .row import NEVER, SEEN, STILL, Row, late, off, off_after, run_for
 from .ties import centre_off, stays
 
 ASLEEP = (*TOUCH, "Sleep")
@@ -138,64 +138,64 @@ def make_pile_rows():
     rests = "Friction and gravity hold it, and nothing drives it: it comes to rest."
     for radius in (1.0, 10.0, 100.0):
         yield Row(f"rest: ball of radius {radius:g} for 10 s", rigid, partial(resting, radius),
-                  partial(stays, seconds=10), seen())
+                  partial(stays, seconds=10), SEEN)
     for degrees in (30, 45, 80):
         yield Row(f"rest: in a corner, gravity at {degrees}°", rigid, partial(in_corner, degrees),
-                  stays, seen())
+                  stays, SEEN)
     for count in (5, 10, 20, 40):
         yield Row(f"tower: {count} equal balls, top", rigid, partial(tower, count), top_moves,
-                  seen(), quick=count == 10)
+                  SEEN, quick=count == 10)
         yield Row(f"tower: {count} equal balls, late speed", rests, partial(tower, count),
-                  late_speed, still())
+                  late_speed, STILL)
     for mass in (10, 100, 1000, 10_000):
-        yield Row(f"heavy on light: 1:{mass}", rigid, partial(stack, 1, mass), top_moves, seen(),
+        yield Row(f"heavy on light: 1:{mass}", rigid, partial(stack, 1, mass), top_moves, SEEN,
                   quick=mass == 100)
     yield Row("heavy on light: 1, 10, 100, 1000 kg", rigid, partial(stack, 1, 10, 100, 1000),
-              top_moves, seen())
-    yield Row("light on heavy: 1000:1", rigid, partial(stack, 1000, 1), top_moves, seen())
+              top_moves, SEEN)
+    yield Row("light on heavy: 1000:1", rigid, partial(stack, 1000, 1), top_moves, SEEN)
     for count in (6, 12):
         yield Row(f"tower: {count} balls of 1 kg and 100 kg in turns", rigid,
-                  partial(alternating, count), top_moves, seen())
+                  partial(alternating, count), top_moves, SEEN)
     for rows, count in ((3, 10), (5, 20), (8, 20)):
         yield Row(f"neat pile: {rows} rows of {count}, late speed", rests,
-                  partial(neat, rows, count), late_speed, still(), quick=rows == 3)
+                  partial(neat, rows, count), late_speed, STILL, quick=rows == 3)
         yield Row(f"neat pile: {rows} rows of {count}, overlap", rigid, partial(neat, rows, count),
-                  overlaps, seen())
+                  overlaps, SEEN)
     for rows in (4, 8):
         yield Row(f"pyramid: {rows} rows, late speed", rests, partial(pyramid, rows), late_speed,
-                  still())
-        yield Row(f"pyramid: {rows} rows, top", rigid, partial(pyramid, rows), top_moves, seen())
+                  STILL)
+        yield Row(f"pyramid: {rows} rows, top", rigid, partial(pyramid, rows), top_moves, SEEN)
     for count in (40, 100):
         bin_of = partial(pile, count, 200.0 if count == 40 else 300.0)
-        yield Row(f"rained pile: {count} balls, late speed", rests, bin_of, late_speed, still())
-        yield Row(f"rained pile: {count} balls, overlap", rigid, bin_of, overlaps, seen(),
+        yield Row(f"rained pile: {count} balls, late speed", rests, bin_of, late_speed, STILL)
+        yield Row(f"rained pile: {count} balls, overlap", rigid, bin_of, overlaps, SEEN,
                   quick=count == 40)
     for title, make in (("stack of 10", partial(stack, *[1] * 10)),
                         ("hanging chain of 20", scenes.chain)):
         for words, steps in PATTERNS.items():
             yield Row(f"uneven steps: {title}, {words}", "Nothing that rests starts to rise.", make,
-                      partial(rises_in_steps, steps=steps), seen(), quick="every" in words)
+                      partial(rises_in_steps, steps=steps), SEEN, quick="every" in words)
 
 
 def make_sleep_rows():
     newton = "Newton's law; that a body is slow and that it may sleep change nothing."
     yield Row("sleep: drifts at 2 px/s", newton, partial(alone, (2.0, 0.0)),
-              partial(off_after, seconds=10, x=20.0, y=0.0), seen(), quick=True)
+              partial(off_after, seconds=10, x=20.0, y=0.0), SEEN, quick=True)
     yield Row("sleep: falls at 1 px/s²", newton, partial(alone, gravity=(0.0, 1.0)),
-              partial(off_after, seconds=5, x=0.0, y=12.5), seen())
+              partial(off_after, seconds=5, x=0.0, y=12.5), SEEN)
     yield Row("sleep: thrown up, at 10 px/s²", newton, partial(alone, (0.0, -20.0), (0.0, 10.0)),
-              partial(off_after, seconds=5, x=0.0, y=25.0), seen())
+              partial(off_after, seconds=5, x=0.0, y=25.0), SEEN)
     for degrees in (0.05, 0.1):
         way = G * math.sin(math.radians(degrees)) / 3 * 25
         yield Row(f"sleep: on a slope of {degrees}°", "A disc rolls down at ⅔ g sin θ.",
-                  partial(slow_slope, degrees), partial(off_after, seconds=5, x=way), seen(),
+                  partial(slow_slope, degrees), partial(off_after, seconds=5, x=way), SEEN,
                   quick=degrees == 0.1)
     yield Row("sleep: the ball below is thrown away", "What loses its support falls.", two_high,
-              partial(wakes, fast=2000.0, seconds=2, y=-10), seen())
+              partial(wakes, fast=2000.0, seconds=2, y=-10), SEEN)
     yield Row("sleep: a ball hits one that sleeps", "Equal balls swap their speeds, asleep or not.",
               two_apart, partial(wakes, fast=200.0, seconds=0.8, x=180.0), late(4 * 200))
     yield Row("sleep: a tower", "Balls are rigid and forces cancel.",
-              lambda: replace(tower(10), effects=ASLEEP), top_moves, seen())
+              lambda: replace(tower(10), effects=ASLEEP), top_moves, SEEN)
 
 
 def make_start_rows():
@@ -209,21 +209,21 @@ def make_start_rows():
         ("ball with its centre in a ledge", partial(scenes.inside_ledge, (3, 4))),
         ("ball with its centre on a corner", partial(scenes.inside_ledge, (150, -10))),
     ):
-        yield Row(f"bad start: {title}, speed", no_energy, make, ends_still, still(),
+        yield Row(f"bad start: {title}, speed", no_energy, make, ends_still, STILL,
                   quick="1:100" in title)
-        yield Row(f"bad start: {title}, overlap", parts, make, overlaps, seen())
+        yield Row(f"bad start: {title}, overlap", parts, make, overlaps, SEEN)
     for mass in (1, 100):
         yield Row(f"bad start: squeezed by 8 px, 1:{mass}", no_energy,
-                  partial(scenes.squeezed, 8, mass), ends_still, still())
+                  partial(scenes.squeezed, 8, mass), ends_still, STILL)
     yield Row("bad start: two balls overlap by 30 px, 1:100, centre of mass",
               "Nothing from outside acts: the centre of mass stays.",
-              partial(overlapping, 30.0, 100.0), partial(centre_off, seconds=3), seen())
+              partial(overlapping, 30.0, 100.0), partial(centre_off, seconds=3), SEEN)
     for seed in range(6):
         yield Row(f"closed box: masses 1000:1, rods, overlaps, number {seed}", "Walls are solid.",
-                  partial(scenes.closed_box, seed), escapes, never(), needs=("rods that push",),
+                  partial(scenes.closed_box, seed), escapes, NEVER, needs=("rods that push",),
                   quick=seed == 0)
     yield Row("once more: pile of 40", "The same start has the same future, bit by bit.",
-              partial(pile, 40, 200.0), bits_differ, never())
+              partial(pile, 40, 200.0), bits_differ, NEVER)
     for far in (1e4, 1e6):
         yield Row(f"far away: tower of 5, {far:,.0f} px off", "The laws are the same everywhere.",
-                  lambda far=far: shifted(tower(5), far), top_moves, seen())
+                  lambda far=far: shifted(tower(5), far), top_moves, SEEN)

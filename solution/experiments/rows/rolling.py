@@ -6,7 +6,7 @@ from functools import partial
 
 from ..measures import watch
 from ..scenes import DT, Ball, Block, G, Scene, floor, incline, on_floor, seams
-from .row import Bound, Row, late, law, off_after, run_for, seen
+from .row import SEEN, Bound, Row, late, law, off_after, run_for
 
 
 def rolls_at(trial, scene, exact, seconds=2.0):
@@ -96,7 +96,7 @@ def make_rows():
                   partial(rolls_at, exact=300.0, seconds=round(back / DT) * DT), late(G / 2))
     for fast in (10.0, 100.0, 300.0, 1000.0, 3000.0):
         yield Row(f"seams: hops at {fast:g} px/s", "A floor of boxes side by side is flat.",
-                  partial(seams, fast), hops, seen(), quick=fast == 300)
+                  partial(seams, fast), hops, SEEN, quick=fast == 300)
         yield Row(f"seams: speed at {fast:g} px/s", "A flat floor does not slow what rolls.",
                   partial(seams, fast),
                   partial(rolls_at, exact=fast, seconds=min(3.0, 3000 / fast)), law(fast))

@@ -8,13 +8,19 @@ import math
 from collections import namedtuple
 from dataclasses import dataclass
 
-from ..measures import run
+from ..measures import run, velocity_off
 from ..scenes import DT, G
 
 H = DT / 4  # s, a substep
 
 # The largest error allowed, and why.
 Bound = namedtuple("Bound", "limit why")
+SEEN = Bound(0.5, "half a pixel cannot be seen")  # px, of motion where none should be
+STILL = Bound(0.1, "half a pixel in five seconds cannot be seen")  # px/s, at rest
+ENERGY = Bound(0.01, "energy is kept; one hundredth is half that in speed")  # a share
+CLOCK = Bound(1 / 3600, "the clock is off by a frame in a minute")  # a share of a period
+AIM = Bound(0.01, "over 1000 px it misses by the radius of a ball")  # rad
+NEVER = Bound(0.5, "bodies are solid: none")  # of a count that must be 0
 
 
 @dataclass
@@ -40,36 +46,6 @@ def late(speed):
     return Bound(speed * H, "the change in one substep of 1/480 s")
 
 
-def seen(px=0.5):
-    """Return the bound of motion where none should be: half a pixel cannot be seen."""
-    return Bound(px, "half a pixel cannot be seen")
-
-
-def still():
-    """Return the bound of the speed (px/s) at rest: half a pixel in five seconds."""
-    return Bound(0.1, "half a pixel in five seconds cannot be seen")
-
-
-def energy():
-    """Return the bound of a share of energy."""
-    return Bound(0.01, "energy is kept; one hundredth is half that in speed")
-
-
-def clock():
-    """Return the bound of a share of a period: a frame in a minute."""
-    return Bound(1 / 3600, "the clock is off by a frame in a minute")
-
-
-def aim():
-    """Return the bound of a direction (rad): after 1000 px it misses by a ball's radius."""
-    return Bound(0.01, "over 1000 px it misses by the radius of a ball")
-
-
-def never():
-    """Return the bound of a count that must be 0."""
-    return Bound(0.5, "bodies are solid: none")
-
-
 # ---------------------------------------------------------------- what measures have in common
 
 
@@ -93,10 +69,6 @@ def off_after(trial, scene, seconds, **exact):
 def velocity_off_after(trial, scene, exact, seconds, i=1):
     """Return the error (px/s) of a body's velocity after so many seconds."""
     return velocity_off(run_for(trial, scene, seconds).read(i), exact)
-
-
-def velocity_off(state, velocity):
-    return math.hypot(state.vx - velocity[0], state.vy - velocity[1])
 
 
 def share_off(value, exact):

@@ -9,8 +9,7 @@ from ..measures import energy, states, stretches, watch, worst_stretch
 from ..reference import reference
 from ..scenes import DT, Ball, G, Scene, Spring, chain, oscillator, pendulum, pendulum_period
 from .hits import moment_lost
-from .row import Bound, Row, clock, late, law, run_for, seen, share_off, velocity_off_after
-from .row import energy as energy_bound
+from .row import CLOCK, ENERGY, SEEN, Bound, Row, late, law, run_for, share_off, velocity_off_after
 
 RODS = ("Rods",)
 TINY = "Newton's law, solved by the method of Runge and Kutta in steps of 1/960 s."
@@ -233,18 +232,18 @@ def make_pendulum_rows():
         scene = partial(pendulum, 140.0, degrees)
         yield Row(f"pendulum: from {degrees}°, period",
                   "2π √(l/g) divided by the arithmetic-geometric mean of 1 and cos(θ/2).",
-                  scene, partial(period_off, exact=pendulum_period(140.0, degrees)), clock(),
+                  scene, partial(period_off, exact=pendulum_period(140.0, degrees)), CLOCK,
                   quick=degrees == 90)
         height = 6 * G * 140 * (1 - math.cos(math.radians(degrees)))
         yield Row(f"pendulum: from {degrees}°, energy for 20 s", KEPT, scene,
-                  partial(energy_off, seconds=20, scale=height), energy_bound(),
+                  partial(energy_off, seconds=20, scale=height), ENERGY,
                   quick=degrees == 90)
         yield Row(f"pendulum: from {degrees}°, path for 3 s", TINY, scene,
                   partial(follows, seconds=3), late(math.sqrt(2 * height / 6)))
         yield Row(f"pendulum: from {degrees}°, length", RIGID, scene,
-                  partial(ever_stretches, seconds=5), seen())
+                  partial(ever_stretches, seconds=5), SEEN)
     yield Row("pendulum: full circles for 20 s, energy", KEPT, looping,
-              partial(energy_off, seconds=20, scale=0.5 * 1.21 * 5 * G * 140), energy_bound())
+              partial(energy_off, seconds=20, scale=0.5 * 1.21 * 5 * G * 140), ENERGY)
     yield Row("pendulum: full circles for 3 s, path", TINY, looping, partial(follows, seconds=3),
               late(1.1 * math.sqrt(5 * G * 140)))
 
@@ -253,27 +252,27 @@ def make_rod_rows():
     for mass, words in ((1.0, "equal masses"), (100.0, "100:1"), (0.01, "1:100")):
         scene, scale = partial(double, mass), G * 100 * (mass + 2)
         yield Row(f"double pendulum: {words}, energy for 20 s", KEPT, scene,
-                  partial(energy_off, seconds=20, scale=scale), energy_bound(),
+                  partial(energy_off, seconds=20, scale=scale), ENERGY,
                   quick=mass == 1, **PUSH)
         yield Row(f"double pendulum: {words}, path for 0.6 s", TINY, scene,
                   partial(follows, seconds=0.6), late(2 * math.sqrt(2 * G * 200)), **PUSH)
     for links, seconds in ((3, 20), (10, 20), (40, 5)):
         yield Row(f"chain: {links} links let go level, energy for {seconds} s", KEPT,
                   partial(chain, links, (20.0, 0.0)),
-                  partial(energy_off, seconds=seconds, scale=bars(links)), energy_bound(), **PUSH)
+                  partial(energy_off, seconds=seconds, scale=bars(links)), ENERGY, **PUSH)
         yield Row(f"chain: {links} links let go level, length", RIGID,
-                  partial(chain, links, (20.0, 0.0)), partial(ever_stretches, seconds=3), seen(),
+                  partial(chain, links, (20.0, 0.0)), partial(ever_stretches, seconds=3), SEEN,
                   quick=links == 10)
     for links, bob in ((10, 1.0), (50, 1.0), (10, 10.0), (10, 100.0), (10, 1000.0), (10, 1e5)):
         yield Row(f"chain: hangs, {links} links, {bob:g}:1 at the end", RIGID,
-                  partial(chain, links, bob=bob), hangs, seen(), quick=bob == 100)
+                  partial(chain, links, bob=bob), hangs, SEEN, quick=bob == 100)
     for links, weight in ((10, 0.2), (20, 0.3), (11, 1.5)):
         yield Row(f"bridge: {links} rods, weight {weight}",
                   "The shape in which all forces cancel stays.", partial(bridge, links, weight),
-                  stays, seen())
+                  stays, SEEN)
     for mass in (1.0, 1000.0):
         yield Row(f"roof: {mass:g} kg on two rods", "Two rods hold it: it stays.",
-                  partial(roof, mass), stays, seen(), **PUSH)
+                  partial(roof, mass), stays, SEEN, **PUSH)
     for fast, mass in ((100.0, 1.0), (1000.0, 1.0), (300.0, 20.0), (10_000.0, 1.0)):
         scene, scale = partial(tumbling, fast, mass), 2 * fast**2 * mass / (1 + mass)
         reach = 50 * 2 * fast * mass / (1 + mass)
@@ -281,9 +280,9 @@ def make_rod_rows():
                   partial(moment_lost, which=(2,), scale=reach, seconds=10), law(1),
                   quick=fast == 1000)
         yield Row(f"dumbbell: {fast:g} px/s, 1:{mass:g}, energy", KEPT, scene,
-                  partial(energy_off, seconds=10, scale=scale), energy_bound())
+                  partial(energy_off, seconds=10, scale=scale), ENERGY)
         yield Row(f"dumbbell: {fast:g} px/s, 1:{mass:g}, length", RIGID, scene,
-                  partial(ever_stretches, seconds=2), seen())
+                  partial(ever_stretches, seconds=2), SEEN)
     yield Row("dumbbell: tumbles as it falls, centre of mass",
               "The centre of mass moves as one ball would.",
               partial(tumbling, 300.0, 5.0, (0.0, G), (200.0, -300.0)), centre_off, late(G))
@@ -293,7 +292,7 @@ def make_rod_rows():
                   partial(moment_lost, which=(2,), scale=count * 100 * fast, seconds=5), law(1),
                   **PUSH)
         yield Row(f"ring: {count} rods at {fast:g} px/s, energy", KEPT, partial(ring, count, fast),
-                  partial(energy_off, seconds=5, scale=count * fast**2 / 2), energy_bound(), **PUSH)
+                  partial(energy_off, seconds=5, scale=count * fast**2 / 2), ENERGY, **PUSH)
     for degrees in (0, 45, 90):
         yield Row(f"strike: the end of a rod at {degrees}°",
                   "By momentum and energy: across the rod its end weighs one ball, along it two.",
@@ -309,11 +308,11 @@ def make_spring_rows():
         yield Row(f"spring: {hertz} Hz, path for 10 s", "It follows a cosine.", scene,
                   partial(follows, seconds=10), late(50 * 2 * math.pi * hertz))
         yield Row(f"spring: {hertz} Hz, swing after 30 s", "Energy is kept, and the swing with it.",
-                  scene, partial(swing_off, seconds=30), energy_bound(), quick=hertz == 1)
+                  scene, partial(swing_off, seconds=30), ENERGY, quick=hertz == 1)
     for power in (4, 6, 9):
         yield Row(f"spring: k/m = 1e{power}/s², swing", "The swing never grows.",
                   partial(oscillator, 10.0**power), partial(swing_off, seconds=10, ever=True),
-                  energy_bound())
+                  ENERGY)
     for damping in (1.0, 5.0, 20.0, 60.0):
         yield Row(f"spring: damping {damping:g} kg/s at k = 100", TINY, partial(damped, damping),
                   partial(follows, seconds=4), late(500), quick=damping == 5)
@@ -322,7 +321,7 @@ def make_spring_rows():
     for stiffness in (1e2, 1e4, 1e6, 1e8):
         yield Row(f"springs: five hang at rest, k = {stiffness:.0e}",
                   "Each carries what hangs below it: the stretch is Σ i m g / k.",
-                  partial(spring_chain, 5, stiffness, 0.0, True), stays, seen())
+                  partial(spring_chain, 5, stiffness, 0.0, True), stays, SEEN)
     for stiffness, damping in ((1e2, 5.0), (1e3, 20.0), (1e4, 20.0), (1e4, 200.0), (1e5, 200.0),
                                (1e6, 1000.0)):
         yield Row(f"springs: five come to rest, k = {stiffness:.0e}, damping {damping:g}",
