@@ -4,10 +4,9 @@ from .table import Table, number
 
 
 def make_tables(results):
-    middle = results["middle"]
     return [
         tabulate_prices(results["prices"], results["steps"]),
-        tabulate_lesson(results["lesson"], middle),
+        tabulate_lesson(results["lesson"], results["middle"]),
         tabulate_bonus(results["bonus"]),
     ]
 
@@ -57,18 +56,12 @@ def make_bars(results):
 def make_lines(results):
     """Return the price list as lines: one number by name."""
     lines = {"python": results["python"].rpartition(".")[0]}
-    for balls, rows in results["prices"].items():
+    piles = [(f"{balls} balls", rows) for key in ("prices", "bonus") for balls, rows in results[key].items()]
+    for where, rows in [*piles, ("lesson", results["lesson"])]:
         for row in rows:
-            lines[f"{balls} balls, {row['title']}: price in opcodes"] = row["price"]
-            lines |= list_step(f"{balls} balls, {row['title']}", row)
-    for row in results["lesson"]:
-        lines |= list_step(f"lesson, {row['title']}", row)
-    for balls, rows in results["bonus"].items():
-        for row in rows:
-            lines |= list_step(f"{balls} balls, {row['title']}", row)
+            name = f"{where}, {row['title']}"
+            lines[f"{name}: opcodes of a step"] = row["opcodes"]
+            lines |= {f"{name}: {what}": count for what, count in row["done"].items()}
+            if "price" in row:
+                lines[f"{name}: price in opcodes"] = row["price"]
     return lines
-
-
-def list_step(name, row):
-    counts = {f"{name}: {what}": count for what, count in row["done"].items()}
-    return {f"{name}: opcodes of a step": row["opcodes"], **counts}

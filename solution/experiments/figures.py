@@ -34,10 +34,7 @@ LOOKS = {
     "passes": make_look("#c2384a", "o", "-"),
     "step": make_look("#2f6db5", "s", "--"),
     SHARED: make_look("#2f8f57", "v", ":"),
-    "as it is": {
-        **make_look("#23272f", "*", "none"),
-        **{"markersize": 13, "zorder": 5},
-    },
+    "as it is": make_look("#23272f", "*", "none") | {"markersize": 13, "zorder": 5},
 }
 STYLE = {
     "axes.grid": True,

@@ -117,15 +117,13 @@ def slot(width, height, thick=20.0):
 def tower(count=20, radius=10.0):
     """Make equal balls on top of each other, in a slot of their width."""
     balls = [Ball((0, -radius * (2 * i + 1)), radius) for i in range(count)]
-    walls = slot(2 * radius, 2 * radius * (count + 5))
-    return Scene([*walls, *balls])
+    return Scene([*slot(2 * radius, 2 * radius * (count + 5)), *balls])
 
 
 def stack(*masses):
     """Make equally large balls of these masses, from the lowest up, in a slot of their width."""
     balls = [Ball((0, -20 * (2 * i + 1)), 20, mass) for i, mass in enumerate(masses)]
-    walls = slot(40, 40 * (len(masses) + 8))
-    return Scene([*walls, *balls])
+    return Scene([*slot(40, 40 * (len(masses) + 8)), *balls])
 
 
 def pile(count=200, width=600.0, seed=1):
@@ -138,8 +136,7 @@ def pile(count=200, width=600.0, seed=1):
         radius = rng.uniform(8, 12)
         pos = (26 * (column + 0.5) - width / 2 + rng.uniform(-0.5, 0.5), -26 * row - 14)
         balls.append(Ball(pos, radius, mass=radius**2 / 100))
-    walls = slot(width, 26 * (count / columns + 5), 50)
-    return Scene([*walls, *balls])
+    return Scene([*slot(width, 26 * (count / columns + 5), 50), *balls])
 
 
 # ---------------------------------------------------------------- bad starts
@@ -167,11 +164,10 @@ def inside_ledge(pos=(0, 0)):
     return Scene([LEDGE, Ball(pos)], gravity=(0, 0))
 
 
-def closed_box(seed=1, half=150.0, thick=50.0, radii=(6, 22), fast=400.0, pairs=4):
-    """Make a box filled by 55 % with flying balls of up to 1000:1 in mass, some on rods.
+def closed_box(seed=1, half=150.0, thick=50.0, radii=(6, 22), pairs=4):
+    """Make a box filled by 55 % with flying balls of up to 1000:1 in mass, `pairs` pairs on rods.
 
-    Radii lie between these two, speeds along x and y are at most `fast` (px/s), and `pairs` pairs
-    are tied by rods. Every ball and wall has a restitution of its own.
+    Radii lie between these two. Every ball and wall has a restitution of its own.
     """
     rng = random.Random(seed)
     out, long = half + thick, half + 2 * thick
@@ -183,7 +179,7 @@ def closed_box(seed=1, half=150.0, thick=50.0, radii=(6, 22), fast=400.0, pairs=
         radius = rng.uniform(*radii)
         reach = half - radius
         pos = (rng.uniform(-reach, reach), rng.uniform(-reach, reach))
-        vel = (rng.uniform(-fast, fast), rng.uniform(-fast, fast))
+        vel = (rng.uniform(-400.0, 400.0), rng.uniform(-400.0, 400.0))
         mass, bounce = 10 ** rng.uniform(-1.5, 1.5), rng.uniform(0, 0.9)
         balls.append(Ball(pos, radius, mass, vel, 0.0, bounce, rng.uniform(0, 1)))
         filled += math.pi * radius**2
@@ -193,16 +189,11 @@ def closed_box(seed=1, half=150.0, thick=50.0, radii=(6, 22), fast=400.0, pairs=
     return Scene([*walls, *balls], (*BOUNCE, "Rods"), rods)
 
 
-def rammer(mass=1000.0, speed=600.0, degrees=0.0, start=50.0, restitution=0.3, thick=20.0):
-    """Make a ball of 1 kg that flies at a wall `start` px away, `mass` kg on a rod behind it.
-
-    The rod is 30 px long and turned by `degrees` from the flight. There is no gravity.
-    """
-    back = math.radians(degrees)
-    wall = Block((thick / 2, 0), (thick / 2, 300), restitution)
-    light = Ball((-start, 0), 10, 1.0, (speed, 0), restitution=restitution)
-    heavy = replace(light, mass=mass)
-    heavy.pos = (-start - 30 * math.cos(back), 30 * math.sin(back))
+def rammer(mass, speed, restitution=0.3):
+    """Make a ball of 1 kg that flies at a wall, `mass` kg on a rod behind it, without gravity."""
+    wall = Block((10.0, 0), (10.0, 300), restitution)
+    light = Ball((-50.0, 0), 10, 1.0, (speed, 0), restitution=restitution)
+    heavy = replace(light, pos=(-80.0, 0.0), mass=mass)
     return Scene([wall, light, heavy], (*BOUNCE, "Rods"), [(1, 2)], gravity=(0, 0))
 
 
@@ -233,11 +224,10 @@ def shot(speed=2448.0, start=100.0, restitution=0.0, radius=10.0, thick=20.0, bu
     return Scene([ledge, ball], BULLETS, gravity=(0, 0))
 
 
-def near_miss(speed=10_000.0, start=100.0, miss=0.5):
-    """Make a bullet that flies past the right upper corner of a ledge at 45°, `miss` px away."""
+def near_miss(speed):
+    """Make a bullet that misses the right upper corner of a ledge, at 45°, by half a pixel."""
     way = math.sqrt(0.5)
-    off = (10 + miss) * way - start * way, -(10 + miss) * way - start * way
-    pos = (150 + off[0], -10 + off[1])
+    pos = (150 + (10.5 * way - 100 * way), -10 + (-10.5 * way - 100 * way))
     bullet = Ball(pos, vel=(speed * way, speed * way), bullet=True)
     return Scene([LEDGE, bullet], BULLETS, gravity=(0, 0))
 
@@ -322,10 +312,10 @@ def chain(links=20, step=(0.0, 20.0), bob=1.0):
     return Scene([Ball((0, 0), 4, mass=0), *balls], ("Rods",), rods)
 
 
-def oscillator(stiffness=(2 * math.pi) ** 2, stretch=50.0):
+def oscillator(stiffness=(2 * math.pi) ** 2, stretch=50.0, damping=0.0):
     """Make a ball of 1 kg on a spring of 100 px, pulled out by `stretch` px, no gravity."""
     balls = [Ball((0, 0), mass=0), Ball((100 + stretch, 0))]
-    springs = [Spring(0, 1, stiffness, length=100)]
+    springs = [Spring(0, 1, stiffness, damping, length=100)]
     return Scene(balls, ("Springs",), springs=springs, gravity=(0, 0))
 
 

@@ -1,9 +1,10 @@
 // Run scenes in Rapier and planck: a line of JSON asks, a line of JSON answers. See npm.py.
 "use strict";
 
+const find = (name) => require.resolve(name, { paths: [process.cwd(), __dirname] });
 const load = (name) => {
   try {
-    return require(require.resolve(name, { paths: [process.cwd(), __dirname] }));
+    return require(find(name));
   } catch {
     return null;
   }
@@ -11,7 +12,6 @@ const load = (name) => {
 const RAPIER = load("@dimforge/rapier2d-compat");
 const PLANCK = load("planck");
 
-const area = (ball) => Math.PI * ball.radius ** 2;
 const has = (scene, effect) => scene.effects.includes(effect);
 const surface = (scene, body) => ({
   friction: has(scene, "Friction") ? body.friction : 0,
@@ -76,9 +76,6 @@ class Rapier {
   throw(i, [x, y]) {
     this.bodies[i].setLinvel({ x, y }, true);
   }
-  end() {
-    this.world.free();
-  }
 }
 
 class Planck {
@@ -109,7 +106,7 @@ class Planck {
       : new PLANCK.Box(...body.half.map((half) => half / this.metre));
     made.createFixture(shape, {
       ...surface(scene, body),
-      density: moves ? (body.mass / area(body)) * this.metre ** 2 : 0,
+      density: moves ? (body.mass / (Math.PI * body.radius ** 2)) * this.metre ** 2 : 0,
       filterGroupIndex: has(scene, "Contacts") ? 0 : -1,
     });
     return made;
@@ -139,7 +136,6 @@ class Planck {
     this.bodies[i].setLinearVelocity(this.metres(velocity));
     this.bodies[i].setAwake(true);
   }
-  end() {}
 }
 
 const ENGINES = { rapier: Rapier, planck: Planck };
@@ -152,8 +148,7 @@ const answers = {
   build(asked) {
     const scene = new ENGINES[asked.engine](asked);
     scenes.set(++count, scene);
-    const old = scenes.get(count - KEPT);
-    if (old) old.end();
+    scenes.get(count - KEPT)?.world.free?.(); // Rapier's memory is its own
     scenes.delete(count - KEPT);
     return { id: count, states: states(scene) };
   },
@@ -173,11 +168,10 @@ const answers = {
 const say = (data) => process.stdout.write(JSON.stringify(data) + "\n");
 const start = async () => {
   if (RAPIER) await RAPIER.init();
-  const where = (name) => require.resolve(name, { paths: [process.cwd(), __dirname] });
   const found = {};
   if (RAPIER) found.rapier = RAPIER.version();
   if (PLANCK) {
-    const file = require("path").join(where("planck"), "../../package.json");
+    const file = require("path").join(find("planck"), "../../package.json");
     found.planck = JSON.parse(require("fs").readFileSync(file)).version;
   }
   say(found);

@@ -44,9 +44,6 @@ class Other:
     def __getattr__(self, name):
         return getattr(self.engine, name)
 
-    def step(self, dt):
-        self.engine.step(dt)
-
     def read(self, i):
         s = self.engine.read(i)
         back = 1 / self.change

@@ -178,12 +178,6 @@ def hangs_low(trial, scene, seconds=20):
     return share_off(stretch, count * (count + 1) / 2 * G / scene.springs[0].stiffness)
 
 
-def damped(damping, stiffness=100.0):
-    scene = oscillator(stiffness)
-    scene.springs[0].damping = damping
-    return scene
-
-
 def swing_off(trial, scene, seconds=20, ever=False):
     """Return how much the swing of the last two seconds differs from the first, as a share.
 
@@ -218,11 +212,6 @@ def mode(number, count=5, stiffness=400.0):
     return Scene(bodies, ("Springs",), springs=springs, gravity=(0, 0))
 
 
-def bars(count):
-    """Return the energy (kg px²/s²) that a chain of rods of 20 px loses by swinging down."""
-    return sum(G * 20 * i for i in range(1, count + 1))
-
-
 # ---------------------------------------------------------------- rows
 
 
@@ -236,8 +225,7 @@ def make_pendulum_rows():
                   quick=degrees == 90)
         height = 6 * G * 140 * (1 - math.cos(math.radians(degrees)))
         yield Row(f"pendulum: from {degrees}°, energy for 20 s", KEPT, scene,
-                  partial(energy_off, seconds=20, scale=height), ENERGY,
-                  quick=degrees == 90)
+                  partial(energy_off, seconds=20, scale=height), ENERGY, quick=degrees == 90)
         yield Row(f"pendulum: from {degrees}°, path for 3 s", TINY, scene,
                   partial(follows, seconds=3), late(math.sqrt(2 * height / 6)))
         yield Row(f"pendulum: from {degrees}°, length", RIGID, scene,
@@ -252,17 +240,16 @@ def make_rod_rows():
     for mass, words in ((1.0, "equal masses"), (100.0, "100:1"), (0.01, "1:100")):
         scene, scale = partial(double, mass), G * 100 * (mass + 2)
         yield Row(f"double pendulum: {words}, energy for 20 s", KEPT, scene,
-                  partial(energy_off, seconds=20, scale=scale), ENERGY,
-                  quick=mass == 1, **PUSH)
+                  partial(energy_off, seconds=20, scale=scale), ENERGY, quick=mass == 1, **PUSH)
         yield Row(f"double pendulum: {words}, path for 0.6 s", TINY, scene,
                   partial(follows, seconds=0.6), late(2 * math.sqrt(2 * G * 200)), **PUSH)
     for links, seconds in ((3, 20), (10, 20), (40, 5)):
-        yield Row(f"chain: {links} links let go level, energy for {seconds} s", KEPT,
-                  partial(chain, links, (20.0, 0.0)),
-                  partial(energy_off, seconds=seconds, scale=bars(links)), ENERGY, **PUSH)
-        yield Row(f"chain: {links} links let go level, length", RIGID,
-                  partial(chain, links, (20.0, 0.0)), partial(ever_stretches, seconds=3), SEEN,
-                  quick=links == 10)
+        level = partial(chain, links, (20.0, 0.0))
+        fall = sum(G * 20 * i for i in range(1, links + 1))  # kg px²/s², of swinging down
+        yield Row(f"chain: {links} links let go level, energy for {seconds} s", KEPT, level,
+                  partial(energy_off, seconds=seconds, scale=fall), ENERGY, **PUSH)
+        yield Row(f"chain: {links} links let go level, length", RIGID, level,
+                  partial(ever_stretches, seconds=3), SEEN, quick=links == 10)
     for links, bob in ((10, 1.0), (50, 1.0), (10, 10.0), (10, 100.0), (10, 1000.0), (10, 1e5)):
         yield Row(f"chain: hangs, {links} links, {bob:g}:1 at the end", RIGID,
                   partial(chain, links, bob=bob), hangs, SEEN, quick=bob == 100)
@@ -287,11 +274,10 @@ def make_rod_rows():
               "The centre of mass moves as one ball would.",
               partial(tumbling, 300.0, 5.0, (0.0, G), (200.0, -300.0)), centre_off, late(G))
     for count, fast in ((12, 200.0), (6, 500.0)):
-        yield Row(f"ring: {count} rods at {fast:g} px/s, angular momentum", "It is kept.",
-                  partial(ring, count, fast),
-                  partial(moment_lost, which=(2,), scale=count * 100 * fast, seconds=5), law(1),
-                  **PUSH)
-        yield Row(f"ring: {count} rods at {fast:g} px/s, energy", KEPT, partial(ring, count, fast),
+        scene, spin = partial(ring, count, fast), count * 100 * fast
+        yield Row(f"ring: {count} rods at {fast:g} px/s, angular momentum", "It is kept.", scene,
+                  partial(moment_lost, which=(2,), scale=spin, seconds=5), law(1), **PUSH)
+        yield Row(f"ring: {count} rods at {fast:g} px/s, energy", KEPT, scene,
                   partial(energy_off, seconds=5, scale=count * fast**2 / 2), ENERGY, **PUSH)
     for degrees in (0, 45, 90):
         yield Row(f"strike: the end of a rod at {degrees}°",
@@ -314,10 +300,11 @@ def make_spring_rows():
                   partial(oscillator, 10.0**power), partial(swing_off, seconds=10, ever=True),
                   ENERGY)
     for damping in (1.0, 5.0, 20.0, 60.0):
-        yield Row(f"spring: damping {damping:g} kg/s at k = 100", TINY, partial(damped, damping),
+        yield Row(f"spring: damping {damping:g} kg/s at k = 100", TINY,
+                  partial(oscillator, 100.0, damping=damping),
                   partial(follows, seconds=4), late(500), quick=damping == 5)
-    yield Row("spring: 1e4 with damping 400", TINY, partial(damped, 400.0, 1e4),
-              partial(follows, seconds=1), late(5000))
+    yield Row("spring: 1e4 with damping 400", TINY,
+              partial(oscillator, 1e4, damping=400.0), partial(follows, seconds=1), late(5000))
     for stiffness in (1e2, 1e4, 1e6, 1e8):
         yield Row(f"springs: five hang at rest, k = {stiffness:.0e}",
                   "Each carries what hangs below it: the stretch is Σ i m g / k.",
@@ -353,7 +340,6 @@ def make_spring_rows():
 def ellipse_spin(trial, scene):
     """Return the largest change of the angular momentum about the peg, as a share."""
     engine = trial.build(scene)
-    first = scene.bodies[1]
-    start = first.pos[0] * first.vel[1]
-    spins = watch(engine, 10, lambda: (lambda s: s.x * s.vy - s.y * s.vx)(engine.read(1)))
-    return max(abs(spin / start - 1) for spin in spins)
+    start = scene.bodies[1].pos[0] * scene.bodies[1].vel[1]
+    seen = watch(engine, 10, lambda: engine.read(1))
+    return max(abs((s.x * s.vy - s.y * s.vx) / start - 1) for s in seen)
