@@ -88,25 +88,20 @@ def settled(count):
 
 def neighbours(bodies):
     """Return the closest pairs of balls that do not touch; joints do not move them."""
-    balls = [
-        (i, body, State(*body.pos, 0, 0, 0, 0))
-        for i, body in enumerate(bodies)
-        if isinstance(body, Ball)
-    ]
-    gaps = [
-        (-overlap(a, at, b, there), i, j) for (i, a, at), (j, b, there) in combinations(balls, 2)
-    ]
+    balls = [(i, body) for i, body in enumerate(bodies) if isinstance(body, Ball)]
+    gaps = []
+    for (i, a), (j, b) in combinations(balls, 2):
+        at, there = (State(*body.pos, 0, 0, 0, 0) for body in (a, b))
+        gaps.append((-overlap(a, at, b, there), i, j))
     return [(i, j) for gap, i, j in sorted(gaps) if gap > 1][:USERS]
 
 
 def with_fliers(scene):
     """Add bullets far above the pile that move more than their radius in a step."""
-    pile_of_them = [replace(body) for body in scene.bodies]
-    for i in scene.moving():
-        pile_of_them[i].bullet = False
+    below = [replace(b, bullet=False) if isinstance(b, Ball) else b for b in scene.bodies]
     places = [(100.0 * i, -5000.0 - 100.0 * i) for i in range(USERS)]
     fliers = [Ball(place, vel=(3000.0, 0.0), bullet=True) for place in places]
-    return replace(scene, bodies=[*pile_of_them, *fliers])
+    return replace(scene, bodies=[*below, *fliers])
 
 
 def packed(count):

@@ -56,7 +56,8 @@ def make_bars(results):
 def make_lines(results):
     """Return the price list as lines: one number by name."""
     lines = {"python": results["python"].rpartition(".")[0]}
-    piles = [(f"{balls} balls", rows) for key in ("prices", "bonus") for balls, rows in results[key].items()]
+    sizes = [*results["prices"].items(), *results["bonus"].items()]
+    piles = [(f"{balls} balls", rows) for balls, rows in sizes]
     for where, rows in [*piles, ("lesson", results["lesson"])]:
         for row in rows:
             name = f"{where}, {row['title']}"

@@ -42,7 +42,7 @@ class Trial:
         self.seconds, self.frames = 0.0, 0.0
 
     def build(self, scene):
-        engine = self.make(scene, self.substeps)
+        engine = self.make(scene, substeps=self.substeps)
         step, spent = engine.step, engine.spent
 
         def timed(dt):
@@ -180,7 +180,8 @@ def make_tables(subjects, found, contestants):
     """Return tables: rows held by each engine, rows that the stable one loses, if any, subjects."""
     rows = [row for some in subjects.values() for row in some]
     words = {one.name: one.words for one in contestants}
-    ranked = sorted(words, key=lambda name: -share_held(rows, found, name))
+    counts = {name: count_held(rows, found, name) for name in words}
+    ranked = sorted(words, key=lambda name: -counts[name][0] / (counts[name][1] or 1))
     held = [[words[name], *(tell_count(rows, found, name, mode) for mode in MODES)]
             for name in ranked]  # fmt: skip
     by_subject = [
@@ -196,11 +197,6 @@ def make_tables(subjects, found, contestants):
         *(lost if losses else []),
         Table("Rows held at equal substeps, by subject", ["subject", *ranked], by_subject),
     ]
-
-
-def share_held(rows, found, name):
-    held, asked = count_held(rows, found, name)
-    return held / asked if asked else 0.0
 
 
 def list_losses(rows, found):
@@ -317,7 +313,7 @@ def report(subjects, found, contestants, missing, markdown=None):
     if markdown:
         cells = {"rows": list_cells(rows, found), HELD: list_cells(held, found)}
         write_markdown(markdown, [tables[1]], lines, **cells)
-    return 1 if any(not find_reason(row.title) for row in find_lost(rows, found)) else 0
+    return int(not all(find_reason(row.title) for row in find_lost(rows, found)))
 
 
 if __name__ == "__main__":

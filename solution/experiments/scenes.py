@@ -206,12 +206,12 @@ def drop(height=290.0, restitution=1.0):
     return Scene([floor(restitution=restitution), ball], BOUNCE)
 
 
-def cradle(gap=0.0, count=5, speed=300.0):
-    """Make Newton's cradle without strings: the first of a row of balls flies at the others."""
-    ideal = {"restitution": 1.0, "friction": 0.0}
-    row = [Ball((i * (20 + gap), 0), **ideal) for i in range(count - 1)]
-    bodies = [Ball((-60, 0), vel=(speed, 0), **ideal), *row]
-    return Scene(bodies, ("Contacts", "Bounce"), gravity=(0, 0))
+def cradle(count=5, thrown=1, gap=0.0):
+    """Make Newton's cradle without strings: some balls fly at the others."""
+    ideal, width = {"restitution": 1.0, "friction": 0.0}, 20 + gap
+    flying = [Ball((-60 - i * width, 0), vel=(300.0, 0), **ideal) for i in range(thrown)]
+    row = [Ball((i * width, 0), **ideal) for i in range(thrown - 1, count - 1)]
+    return Scene([*flying[::-1], *row], ("Contacts", "Bounce"), gravity=(0, 0))
 
 
 LEDGE = Block((0, 0), (150, 10))

@@ -23,9 +23,8 @@ class Table:
             for row in rows
         ]
         lines.insert(1, "  ".join("-" * width for width in widths))
-        return (
-            "\n".join(filter(None, [self.title, "=" * len(self.title), *lines, self.note])) + "\n"
-        )
+        parts = [self.title, "=" * len(self.title), *lines, self.note]
+        return "\n".join(filter(None, parts)) + "\n"
 
     def markdown(self):
         """Return the table for a handout."""

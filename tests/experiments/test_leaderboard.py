@@ -303,14 +303,16 @@ def test_an_engine_falls_rolls_and_swings_as_the_others_do(name):
     if name not in INSTALLED:
         pytest.skip(f"needs {NEEDS[name]}")
     one = INSTALLED[name]
-    state = one.make(scenes.Scene([scenes.Ball((30, -50), 10, 2.0, (70, -90), 3.0)]), 4).read(0)
+    state = one.make(
+        scenes.Scene([scenes.Ball((30, -50), 10, 2.0, (70, -90), 3.0)]), substeps=4
+    ).read(0)
     assert tuple(state) == pytest.approx((30, -50, 70, -90, 0, 3), rel=1e-6)
     for scene, i, exact in (
         (free_fall(), 0, (0, G / 2)),
         (scenes.slide(), 1, (208.4, -10)),
         (scenes.pendulum(), 1, (-118.9, 73.9)),
     ):
-        engine = one.make(scene, 4)
+        engine = one.make(scene, substeps=4)
         for _ in range(120):
             engine.step(DT)
         assert engine.read(i)[:2] == pytest.approx(exact, abs=5)

@@ -45,10 +45,8 @@ def make_curve(look, name, points, ends):
 def find_ends(errors):
     """Return powers of ten below the smallest error that matters and above the largest."""
     known = [max(error, EXACT) for error in errors if is_number(error)] or [1.0]
-    return (
-        10.0 ** (math.ceil(math.log10(min(known))) - 1),
-        10.0 ** (math.floor(math.log10(max(known))) + 1),
-    )
+    low, high = math.ceil(math.log10(min(known))), math.floor(math.log10(max(known)))
+    return 10.0 ** (low - 1), 10.0 ** (high + 1)
 
 
 def round_numbers(data):

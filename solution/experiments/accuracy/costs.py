@@ -20,7 +20,7 @@ def now():
     return time.process_time() if PROCESSOR else time.perf_counter()
 
 
-def wall_times(runs, rounds, slice_seconds=SLICE):
+def wall_times(runs, rounds):
     """Measure seconds per simulated second, one for each (engine, dt) of runs.
 
     Each round gives every engine a slice, so that a busy moment of the machine slows all alike.
@@ -31,7 +31,7 @@ def wall_times(runs, rounds, slice_seconds=SLICE):
     try:
         for _ in range(rounds):
             for i, (engine, dt) in enumerate(runs):
-                taken = time_slice(engine, dt, slice_seconds)
+                taken = time_slice(engine, dt)
                 if taken is not None:
                     best[i] = taken if best[i] is None else min(best[i], taken)
     finally:
@@ -60,9 +60,9 @@ def shares(taken, unit):
     return spread([one / other for one, other in zip(taken, unit, strict=True)])
 
 
-def time_slice(engine, dt, slice_seconds=SLICE):
+def time_slice(engine, dt):
     """Return seconds per simulated second over one slice, or None if the engine raises."""
-    steps = max(1, round(slice_seconds / dt))
+    steps = max(1, round(SLICE / dt))
     start = now()
     try:
         for _ in range(steps):
@@ -72,14 +72,14 @@ def time_slice(engine, dt, slice_seconds=SLICE):
     return (now() - start) / (steps * dt)
 
 
-def opcodes_per_second(engine, dt, steps=COUNTED):
+def opcodes_per_second(engine, dt):
     """Count opcodes per simulated second. None if the engine raises. pymunk runs few."""
 
     def call():
-        for _ in range(steps):
+        for _ in range(COUNTED):
             engine.step(dt)
 
     try:
-        return sum(count_opcodes(call).values()) / (steps * dt)
+        return sum(count_opcodes(call).values()) / (COUNTED * dt)
     except Exception:
         return None

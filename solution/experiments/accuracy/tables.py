@@ -9,13 +9,12 @@ from .questions import plural
 from .runs import EXACT, FRAMES, is_number
 from .smooth import ENERGY_CALLS, ENERGY_ROUNDS
 
-SHOWN_AS = {"compiled": "stable compiled"}
 SUBSTEPPED = ("stable", "compiled")
 LEAST_ORDER = 0.2  # below it, smaller steps do not help
 
 
 def name_engine(engine):
-    return SHOWN_AS.get(engine, engine)
+    return "stable compiled" if engine == "compiled" else engine
 
 
 def make_tables(results):

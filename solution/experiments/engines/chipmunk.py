@@ -81,14 +81,11 @@ class Pymunk(Builder):
         found = {}
 
         def look(arbiter):
-            points = arbiter.contact_point_set
-            first, second = arbiter.bodies
+            points, ids = arbiter.contact_point_set, frozenset(b.id for b in arbiter.bodies)
             for point in points.points:
                 place = (point.point_a + point.point_b) / 2
                 share = arbiter.total_impulse.length / len(points.points)
-                found[frozenset((first.id, second.id)), place] = Touch(
-                    *place, *points.normal, share
-                )
+                found[ids, place] = Touch(*place, *points.normal, share)
 
         for body in self.bodies:
             if body.body_type != STATIC:

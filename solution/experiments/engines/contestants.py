@@ -1,7 +1,6 @@
 """The engines of the leaderboard: how to make each one, and its name there."""
 
 from collections import namedtuple
-from functools import partial
 
 import pymunk
 
@@ -10,8 +9,8 @@ from . import SUBSTEPS, Lesson, Pymunk, Stable
 from .box2d import Box2D, Box2d, Box2d3, pyb2d3
 from .npm import NODE, Planck, Rapier
 
-# make(scene, substeps) builds the scene. lacks: what it does not have. its_own: its substeps where
-# all others take the same number; None for that number.
+# make(scene, substeps=number) builds the scene. lacks: what it does not have. its_own: its substeps
+# where all others take the same number; None for that number.
 Contestant = namedtuple("Contestant", "name words make lacks its_own", defaults=((), None))
 
 SLOP = 0.01  # px, the overlap that pymunk is told to accept
@@ -22,25 +21,20 @@ def tuned_pymunk(scene, substeps):
     return Pymunk(scene, substeps=substeps, slop=SLOP * scene.unit)
 
 
-def as_it_is(engine, scene, substeps):
-    return engine(scene, substeps=substeps)
-
-
 def list_contestants():
     """Return the installed engines, and a sentence for each missing one."""
     found = [
-        Contestant("lesson", "lesson's engine", partial(as_it_is, Lesson), ("Springs",)),
-        Contestant("stable", "stable engine", partial(as_it_is, Stable)),
+        Contestant("lesson", "lesson's engine", Lesson, ("Springs",)),
+        Contestant("stable", "stable engine", Stable),
     ]
     missing = []
     if compiled.find(compiled.FOLDERS):
-        made = partial(as_it_is, compiled.Compiled)
-        found.append(Contestant("compiled", "stable engine, compiled", made))
+        found.append(Contestant("compiled", "stable engine, compiled", compiled.Compiled))
     else:
         missing.append("The compiled stable engine: python -m experiments.compiled")
     words = f"pymunk {pymunk.version}"
     found += [
-        Contestant("pymunk", f"{words} as it comes", partial(as_it_is, Pymunk), its_own=1),
+        Contestant("pymunk", f"{words} as it comes", Pymunk, its_own=1),
         Contestant("pymunk4", f"{words}, {SUBSTEPS} substeps, slop {SLOP}", tuned_pymunk),
     ]
     versions = NODE.versions if NODE else {}
@@ -53,7 +47,7 @@ def list_contestants():
          "npm install planck"),
     ):  # fmt: skip
         if there:
-            found.append(Contestant(name, words, partial(as_it_is, engine), lacks))
+            found.append(Contestant(name, words, engine, lacks))
         else:
             missing.append(f"{engine.__name__}: {how}")
     return found, missing

@@ -36,9 +36,8 @@ def duel(fast, mass=1.0):
 def thrown_at_others(fast):
     """Make balls that are thrown at balls at rest, from different places; nothing bounces."""
     thrown = [Ball((-100 - 0.56 * i * fast / 1000, 40 * i), vel=(fast, 0)) for i in range(COUNT)]
-    return Scene(
-        [*thrown, *(Ball((0, 40 * i)) for i in range(COUNT))], ("Contacts",), gravity=(0, 0)
-    )
+    others = [Ball((0, 40 * i)) for i in range(COUNT)]
+    return Scene([*thrown, *others], ("Contacts",), gravity=(0, 0))
 
 
 def pass_each_other(trial, scene, seconds):
