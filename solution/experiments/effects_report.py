@@ -60,9 +60,12 @@ def make_lines(results):
     piles = [(f"{balls} balls", rows) for balls, rows in sizes]
     for where, rows in [*piles, ("lesson", results["lesson"])]:
         for row in rows:
-            name = f"{where}, {row['title']}"
-            lines[f"{name}: opcodes of a step"] = row["opcodes"]
-            lines |= {f"{name}: {what}": count for what, count in row["done"].items()}
+            lines |= list_step(f"{where}, {row['title']}", row)
             if "price" in row:
-                lines[f"{name}: price in opcodes"] = row["price"]
+                lines[f"{where}, {row['title']}: price in opcodes"] = row["price"]
     return lines
+
+
+def list_step(name, row):
+    counts = {f"{name}: {what}": count for what, count in row["done"].items()}
+    return {f"{name}: opcodes of a step": row["opcodes"], **counts}

@@ -254,10 +254,8 @@ def slide(speed=300.0, radius=10.0):
 def incline(degrees=20.0, friction=0.6):
     """Make a ball on a slope, by tilted gravity. It rolls, or slides if the slope is too steep."""
     angle = math.radians(degrees)
-    scene = on_floor(friction=friction)
-    scene.bodies[0].friction = friction
-    scene.gravity = (G * math.sin(angle), G * math.cos(angle))
-    return scene
+    bodies = [floor(friction=friction), Ball((0, -10.0), friction=friction)]
+    return Scene(bodies, gravity=(G * math.sin(angle), G * math.cos(angle)))
 
 
 def seams(speed=300.0):

@@ -23,16 +23,6 @@ class Effort:
     scale: float = 1.0  # share of the simulated time
 
     @property
-    def repeats(self):
-        """Return the number of repeats of each time."""
-        return 3 if self.quick else 5
-
-    @property
-    def rounds(self):
-        """Return the number of slices of time in a repeat."""
-        return 1 if self.quick else 4
-
-    @property
     def budgets(self):
         return QUICK_BUDGETS if self.quick else BUDGETS
 
@@ -55,7 +45,8 @@ def run_setting(question, setting, effort):
 def add_times(runs, effort):
     """Add to each run its ms per frame in every repeat, timed from its last state on."""
     going = [(run.pop("in motion"), 1 / run["rate"]) for run in runs]
-    for run, times in zip(runs, repeated_times(going, effort.repeats, effort.rounds), strict=True):
+    repeats, rounds = (3, 1) if effort.quick else (5, 4)  # rounds: slices of time in a repeat
+    for run, times in zip(runs, repeated_times(going, repeats, rounds), strict=True):
         run["ms"] = times and [1000 * seconds / FRAMES for seconds in times]
 
 
@@ -112,8 +103,7 @@ def judge(runs):
 
 def study_budgets(name, effort, tick=lambda engine: None):
     """Ask each engine one question with 1, 2, 4 ... substeps, while they fit into a frame."""
-    question = QUESTIONS[name]
-    runs = []
+    question, runs = QUESTIONS[name], []
     for engine, settings in families().items():
         tick(engine)
         for setting in settings:

@@ -1,6 +1,7 @@
 """Box2D 2.3 and Box2D v3.1, where they are installed: pip install Box2D pyb2d3."""
 
 import math
+import re
 
 from ..scenes import Ball
 from .builder import SUBSTEPS, Builder, State, Touch, is_moving
@@ -99,7 +100,7 @@ class Box2d(InMetres):
         return Box2D.b2PolygonShape(box=half)
 
     def create_dynamic_body(self, position, is_bullet, enable_sleep, **motion):
-        motion = {to_camel_case(name): value for name, value in motion.items()}
+        motion = {re.sub("_.", lambda m: m[0][1].upper(), key): motion[key] for key in motion}
         flags = {"bullet": is_bullet, "allowSleep": enable_sleep}
         return self.world.CreateDynamicBody(position=position, **flags, **motion)
 
@@ -137,11 +138,6 @@ class Box2d(InMetres):
 
     def asleep(self):
         return sum(not self.bodies[i].awake for i in self.scene.moving())
-
-
-def to_camel_case(name):
-    first, *others = name.split("_")
-    return first + "".join(map(str.capitalize, others))
 
 
 class Box2d3(InMetres):

@@ -286,9 +286,8 @@ def make_many_rows():
                   quick=rows == 3)
         yield Row(f"rack: {rows} rows at {fast:g} px/s, energy", "With e = 1 energy is kept.",
                   partial(rack, rows, fast), partial(energy_off, seconds=300 / fast), ENERGY)
-    yield Row("rack: 5 rows, added in another order",
-              "The order of a list is no physics.", partial(rack, 5, 300.0),
-              partial(order_matters, seconds=1), SEEN)
+    yield Row("rack: 5 rows, added in another order", "The order of a list is no physics.",
+              partial(rack, 5, 300.0), partial(order_matters, seconds=1), SEEN)
     yield Row("rack: 5 rows, momentum", "Momentum is kept.", partial(rack, 5, 1000.0),
               partial(moment_lost, which=(0, 1), scale=1000.0, seconds=0.5), law(1))
     for words, masses in (("equal", (1.0,)), ("1:100", (1.0, 100.0))):

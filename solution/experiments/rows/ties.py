@@ -326,8 +326,7 @@ def make_spring_rows():
     for mass in (1.0, 100.0):
         yield Row(f"loose pair: 1:{mass:g}, path for 3 s", TINY, partial(loose_pair, mass),
                   partial(follows, seconds=3), late(50 * math.sqrt(400 * (1 + 1 / mass))))
-    yield Row("loose pair: turns, angular momentum", "It is kept.",
-              partial(loose_pair, 3.0, 100.0),
+    yield Row("loose pair: turns, angular momentum", "It is kept.", partial(loose_pair, 3.0, 100.0),
               partial(moment_lost, which=(2,), scale=150 * 300.0, seconds=10), law(1))
     for number in (1, 3, 5):
         fast = 10 * 2 * 20 * math.sin(math.pi * number / 12)
