@@ -126,8 +126,7 @@ class RepeatedStep:
     """
 
     def __init__(self, engine, kind="pile"):
-        self.engine = engine
-        self.kind = kind
+        self.engine, self.kind = engine, kind
         if kind == "asleep":
             run(engine, LULL)
         for _ in range(WARM_UP):

@@ -246,11 +246,6 @@ def resting(radius=10.0):
     return Scene([ground, Ball((0, -radius), radius)])
 
 
-def slide(speed=300.0, radius=10.0):
-    """Make a ball that slides, and ends rolling at two thirds of its speed."""
-    return on_floor(radius, vel=(speed, 0.0))
-
-
 def incline(degrees=20.0, friction=0.6):
     """Make a ball on a slope, by tilted gravity. It rolls, or slides if the slope is too steep."""
     angle = math.radians(degrees)

@@ -69,10 +69,7 @@ def number(value):
 
 
 def span(values, unit=""):
-    """Return the least and the largest number in two digits, or one if they are equal.
-
-    A word stays as it is.
-    """
+    """Return the least and the largest number in two digits, or one if they are equal."""
     if not values:
         return "-"
     ends = [number(one if isinstance(one, str) else float(f"{one:.2g}")) for one in values]

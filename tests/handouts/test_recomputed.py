@@ -23,7 +23,7 @@ from experiments.accuracy.questions import (
 from experiments.accuracy.runs import EXACT, Effort, run_setting
 from experiments.engines import Lesson
 from experiments.measures import run
-from experiments.scenes import DT, pendulum, slide
+from experiments.scenes import DT, on_floor, pendulum
 
 HANDOUTS = Path(__file__).parents[2] / "handouts"
 LINES: dict[str, Any] = json.loads((HANDOUTS / "results.json").read_text("utf-8"))["accuracy.md"]
@@ -108,7 +108,7 @@ def test_half_the_step_makes_the_stretch_of_a_rod_four_times_smaller() -> None:
 
 
 def test_rolling_is_half_a_per_cent_slow() -> None:
-    engine = Lesson(slide())
+    engine = Lesson(on_floor(vel=(300.0, 0.0)))
     run(engine, 3)
     assert is_on_page("**Rolling is half a per cent slow.**")
     assert 1 - engine.read(1).vx / 200 == pytest.approx(0.005, abs=0.0005)

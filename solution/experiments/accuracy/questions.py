@@ -139,14 +139,12 @@ def measure_warming(engine, seconds, dt):
 
 def measure_lag(engine, seconds, dt):
     """Return the largest distance of a pendulum's bob, body 1, from its exact position."""
-    length = engine.scene.bodies[1].pos[0]
-
-    def miss(step, place):
+    length, worst = engine.scene.bodies[1].pos[0], 0.0
+    for step, state in enumerate(watch(engine, seconds, lambda: engine.read(1), dt), 1):
         angle = find_pendulum_angle(step * dt, length)
-        return math.dist(place, (length * math.sin(angle), length * math.cos(angle)))
-
-    places = watch(engine, seconds, lambda: engine.read(1)[:2], dt)
-    return max(miss(step, place) for step, place in enumerate(places, 1))
+        exact = length * math.sin(angle), length * math.cos(angle)
+        worst = max(worst, math.dist(state[:2], exact))
+    return worst
 
 
 def measure_apexes(engine, seconds, dt):

@@ -10,13 +10,9 @@ import math
 from statistics import linear_regression
 
 import integrators
+from integrators import explicit_euler, rk4, semi_implicit_euler, velocity_verlet
 
-METHODS = (
-    integrators.explicit_euler,
-    integrators.semi_implicit_euler,
-    integrators.velocity_verlet,
-    integrators.rk4,
-)
+METHODS = (explicit_euler, semi_implicit_euler, velocity_verlet, rk4)
 SETTLED = 0.05  # an error below this share of the swing follows the method's order
 ROUNDING = 2e-12  # below this share, rounding of the numbers hides the method's error
 FINEST = 3  # points with errors in between, the finest ones, from which the order is measured
@@ -120,8 +116,7 @@ def study_energy(methods=METHODS):
     found = []
     for method in methods:
         peaks = find_energy_peaks(method)
-        whole = not isinstance(peaks[-1], str)
-        growth = peaks[-1] / peaks[0] if whole and peaks[0] else None
-        bounded = growth is not None and growth < 1.5
+        first, last = peaks[0], peaks[-1]
+        bounded = not isinstance(last, str) and first > 0 and last / first < 1.5
         found.append({"method": method.__name__, "peaks": peaks, "bounded": bounded})
     return found

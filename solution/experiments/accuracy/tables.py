@@ -129,9 +129,8 @@ def tabulate_dials(studies):
     """Show the effect of each dial from its first value to its last, a row per scene."""
     heads, rows = ["scene: error"], []
     for study in studies:
-        row = [f"{study['title']}: {study['error']} ({study['unit']})"]
-        row += [say_dial(dial) for dial in study["dials"]]
-        rows.append(row)
+        name = f"{study['title']}: {study['error']} ({study['unit']})"
+        rows.append([name, *map(say_dial, study["dials"])])
     for dial in study["dials"]:
         heads.append(f"{dial['dial']} {dial['runs'][0]['value']} to {dial['runs'][-1]['value']}")
     note = (

@@ -13,6 +13,7 @@ const RAPIER = load("@dimforge/rapier2d-compat");
 const PLANCK = load("planck");
 
 const has = (scene, effect) => scene.effects.includes(effect);
+const damping = (scene) => (has(scene, "Damping") ? scene.damping : [0, 0]);
 const surface = (scene, body) => ({
   friction: has(scene, "Friction") ? body.friction : 0,
   restitution: has(scene, "Bounce") ? body.restitution : 0,
@@ -41,9 +42,7 @@ class Rapier {
       desc.setLinvel(...body.vel).setAngvel(body.omega);
       desc.setCcdEnabled(body.bullet && has(scene, "Bullets"));
       desc.setCanSleep(has(scene, "Sleep"));
-      if (has(scene, "Damping")) {
-        desc.setLinearDamping(scene.damping[0]).setAngularDamping(scene.damping[1]);
-      }
+      desc.setLinearDamping(damping(scene)[0]).setAngularDamping(damping(scene)[1]);
     }
     const made = this.world.createRigidBody(desc);
     const shape = body.radius ? RAPIER.ColliderDesc.ball(body.radius) : RAPIER.ColliderDesc.cuboid(...body.half);
@@ -90,14 +89,13 @@ class Planck {
   }
   add(scene, body) {
     const moves = body.radius && body.mass > 0;
-    const damping = has(scene, "Damping") ? scene.damping : [0, 0];
     const made = this.world.createBody({
       type: moves ? "dynamic" : "static",
       position: this.metres(body.pos),
       linearVelocity: this.metres(moves ? body.vel : [0, 0]),
       angularVelocity: moves ? body.omega : 0,
-      linearDamping: damping[0],
-      angularDamping: damping[1],
+      linearDamping: damping(scene)[0],
+      angularDamping: damping(scene)[1],
       bullet: Boolean(moves && body.bullet && has(scene, "Bullets")),
       allowSleep: has(scene, "Sleep"),
     });

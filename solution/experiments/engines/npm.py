@@ -14,14 +14,12 @@ from pathlib import Path
 from .box2d import PX_PER_M, spring_as_oscillator
 from .builder import SUBSTEPS, Builder, State
 
-NODE_PROGRAM = Path(__file__).with_name("npm.cjs")
-
 
 class Node:
     """A node process that runs engines of npm, and answers lines of JSON."""
 
     def __init__(self):
-        program = ["node", str(NODE_PROGRAM)]
+        program = ["node", str(Path(__file__).with_name("npm.cjs"))]
         pipe = subprocess.PIPE
         self.process = subprocess.Popen(program, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL)
         atexit.register(self.process.kill)

@@ -2,6 +2,7 @@
 
 import math
 from functools import partial
+from itertools import accumulate
 
 import numpy as np
 
@@ -127,10 +128,9 @@ def ring(count, fast):
 
 def bridge(links, weight):
     """Make a hanging bridge in its exact shape: tan θ grows by weight from rod to rod."""
-    slopes = [weight * ((links - 1) / 2 - i) for i in range(links)]
     places = [(0.0, 0.0)]
-    for slope in slopes:
-        x, y = places[-1]
+    for i in range(links):
+        (x, y), slope = places[-1], weight * ((links - 1) / 2 - i)
         length = math.hypot(1, slope)
         places.append((x + 30 / length, y + 30 * slope / length))
     bodies = [Ball(place, 5, float(0 < i < links)) for i, place in enumerate(places)]
@@ -162,11 +162,9 @@ def struck_exact(degrees):
 
 def spring_chain(count, stiffness, damping, at_rest):
     """Make balls that hang on springs of 20 px from a peg, at rest or not yet stretched."""
-    places, y = [0.0], 0.0
-    for i in range(count):
-        y += 20 + (count - i) * G / stiffness * at_rest
-        places.append(y)
-    bodies = [Ball((0, y), 4, float(i > 0)) for i, y in enumerate(places)]
+    lengths = [20 + (count - i) * G / stiffness * at_rest for i in range(count)]
+    heights = enumerate(accumulate(lengths, initial=0.0))
+    bodies = [Ball((0, y), 4, float(i > 0)) for i, y in heights]
     springs = [Spring(i, i + 1, stiffness, damping, 20.0) for i in range(count)]
     return Scene(bodies, ("Springs",), springs=springs)
 
