@@ -141,13 +141,13 @@ class RepeatedStep:
         """Put every body back to its position in the scene, and reset its time at rest."""
         if self.kind == "asleep":
             return
-        for body, data in zip(self.engine.bodies, self.engine.scene.bodies, strict=True):
-            if isinstance(data, Ball) and data.mass > 0:
-                if self.kind == "still":
-                    body.last_x, body.last_y = body.x, body.y  # where this step will end as well
-                elif hasattr(body, "last_x"):
-                    body.last_x += 0.001  # px, so it looks for contacts anew
-                put_back(body, data)
+        for i in self.engine.scene.moving():
+            body = self.engine.bodies[i]
+            if self.kind == "still":
+                body.last_x, body.last_y = body.x, body.y  # where this step will end as well
+            elif hasattr(body, "last_x"):
+                body.last_x += 0.001  # px, so it looks for contacts anew
+            put_back(body, self.engine.scene.bodies[i])
         for each in getattr(self.engine.world, "effects", {}).values():
             if isinstance(each, contacts.Contacts):
                 each.crowd = {}  # they rest, so none has to be parted
@@ -216,9 +216,6 @@ def count(repeated, work, steps=1):
     return {"opcodes": round(opcodes / steps), "done": done}
 
 
-# ---------------------------------------------------------------- the lists
-
-
 def list_prices(balls):
     """Return the rows of the price list for a pile of so many balls."""
     heap = settled(balls)
@@ -278,26 +275,18 @@ def measure(sizes=SIZES, heaps=HEAPS):
     """Return all lists, as plain data."""
     middle = sizes[len(sizes) // 2]
     progress = Progress(sum(sizes) + middle + sum(heaps))
-    prices = {}
+    results = {"python": platform.python_version(), "steps": COUNTED, "middle": str(middle)}
+    results |= {"stacked": STACKED, "prices": {}, "bonus": {}}
     for balls in sizes:
         progress.step(balls, f"{balls} balls")
-        prices[str(balls)] = list_prices(balls)
+        results["prices"][str(balls)] = list_prices(balls)
     progress.step(middle, "the lesson's engine")
-    lesson = list_lesson(middle)
-    bonus = {}
+    results["lesson"] = list_lesson(middle)
     for balls in heaps:
         progress.step(balls, f"bonus tasks, {balls} balls")
-        bonus[str(balls)] = list_bonus(balls)
+        results["bonus"][str(balls)] = list_bonus(balls)
     progress.end()
-    return {
-        "python": platform.python_version(),
-        "steps": COUNTED,
-        "middle": str(middle),
-        "stacked": STACKED,
-        "prices": prices,
-        "lesson": lesson,
-        "bonus": bonus,
-    }
+    return results
 
 
 def main(arguments=None):

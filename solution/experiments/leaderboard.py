@@ -151,9 +151,6 @@ def read_number(text):
     return float(text) if text[0].isdigit() else text
 
 
-# ---------------------------------------------------------------- what comes of it
-
-
 def find_losers(row, found, mode="substeps"):
     """Return the errors of the engines that lose a row."""
     errors = {name: cell[mode] for name, cell in found[row.title].items() if mode in cell}

@@ -72,9 +72,6 @@ class Scene:
         return [i for i, body in enumerate(self.bodies) if isinstance(body, Ball) and body.mass > 0]
 
 
-# ---------------------------------------------------------------- the lesson's scene
-
-
 def lab():
     """Return the scene of the lesson's window: pegs, a ledge, a pendulum and eight balls."""
     world = make_world(random.Random(SEED))
@@ -193,7 +190,7 @@ def rammer(mass, speed, restitution=0.3):
     """Make a ball of 1 kg that flies at a wall, `mass` kg on a rod behind it, without gravity."""
     wall = Block((10.0, 0), (10.0, 300), restitution)
     light = Ball((-50.0, 0), 10, 1.0, (speed, 0), restitution=restitution)
-    heavy = replace(light, pos=(-80.0, 0.0), mass=mass)
+    heavy = replace(light, pos=(-80.0, 0.0), mass=mass)  # the rod is 30 px long
     return Scene([wall, light, heavy], (*BOUNCE, "Rods"), [(1, 2)], gravity=(0, 0))
 
 
@@ -308,11 +305,8 @@ def chain(links=20, step=(0.0, 20.0), bob=1.0):
 def oscillator(stiffness=(2 * math.pi) ** 2, stretch=50.0, damping=0.0):
     """Make a ball of 1 kg on a spring of 100 px, pulled out by `stretch` px, no gravity."""
     balls = [Ball((0, 0), mass=0), Ball((100 + stretch, 0))]
-    springs = [Spring(0, 1, stiffness, damping, length=100)]
-    return Scene(balls, ("Springs",), springs=springs, gravity=(0, 0))
-
-
-# ---------------------------------------------------------------- another order
+    spring = Spring(0, 1, stiffness, damping, length=100)
+    return Scene(balls, ("Springs",), springs=[spring], gravity=(0, 0))
 
 
 def shuffled(scene, seed=SEED):
@@ -325,8 +319,6 @@ def shuffled(scene, seed=SEED):
     bodies = [scene.bodies[i] for i in order]
     return replace(scene, bodies=bodies, rods=rods, springs=springs), order
 
-
-# ---------------------------------------------------------------- by name
 
 NAMED = {
     "lab": lab,

@@ -101,10 +101,6 @@ class Question:
     unit: str
     seconds: float
 
-    def name(self, setting):
-        """Return the name of the error in one setting, as in claims.toml."""
-        return f"{self.title}, {setting}: {self.error}"
-
 
 def measure_sink(engine, seconds, dt):
     """Return the deepest sink of a stack's top: some engines push it up again."""

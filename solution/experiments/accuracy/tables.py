@@ -39,11 +39,8 @@ def make_lines(results):
 
 
 def list_errors(title, error, runs):
-    """Return the lines of single runs, with names by Question.name."""
+    """Return the lines of single runs, by name."""
     return {f"{title}, {run['setting']}: {error}": run["error"] for run in runs if run["setting"]}
-
-
-# ---------------------------------------------------------------- all engines
 
 
 def tabulate_budgets(budgets):
@@ -86,9 +83,6 @@ def list_budgets(scene):
     return lines
 
 
-# ---------------------------------------------------------------- integrators
-
-
 def tabulate_orders(smooth):
     """Show each method's order and price on a spring, and its energy error on an orbit."""
     rows = []
@@ -120,9 +114,6 @@ def list_smooth(smooth):
         lines[f"{name} of the first round"] = row["peaks"][0]
         lines[f"{name} of the last round"] = row["peaks"][-1]
     return lines
-
-
-# ---------------------------------------------------------------- dials
 
 
 def tabulate_dials(studies):
@@ -162,9 +153,6 @@ def list_dials(study):
         lines |= list_errors(title, "work", [{**run, "error": run["work"]} for run in dial["runs"]])
         lines[f"{title}, {dial['dial']}: what it does"] = dial["verdict"]["says"]
     return lines
-
-
-# ---------------------------------------------------------------- crowds
 
 
 def tabulate_crowds(crowds):

@@ -42,6 +42,15 @@ class InMetres(Builder):
         px = [PX_PER_M * self.scene.unit * float(number) for number in (*position, *velocity)]
         return State(*px, float(angle), float(omega))
 
+    def read(self, i):
+        body = self.bodies[i]
+        velocity, spin = getattr(body, self.velocity), getattr(body, self.spin)
+        return self.state(body.position, velocity, body.angle, spin)
+
+    def throw(self, i, velocity):
+        setattr(self.bodies[i], self.velocity, self.metres(*velocity))
+        self.bodies[i].awake = True
+
     def add(self, data):
         effects, density = self.scene.effects, 0.0
         place = self.metres(*data.pos)
@@ -86,6 +95,7 @@ class Box2d(InMetres):
     """
 
     name = "box2d"
+    velocity, spin = "linearVelocity", "angularVelocity"  # what its bodies call them
 
     def __init__(self, scene, passes=PASSES, substeps=1):
         self.scene, self.passes, self.substeps = scene, passes, substeps
@@ -100,9 +110,9 @@ class Box2d(InMetres):
         return Box2D.b2PolygonShape(box=half)
 
     def create_dynamic_body(self, position, is_bullet, enable_sleep, **motion):
-        motion = {re.sub("_.", lambda m: m[0][1].upper(), key): motion[key] for key in motion}
+        camel = {re.sub("_.", lambda m: m[0][1].upper(), name): motion[name] for name in motion}
         flags = {"bullet": is_bullet, "allowSleep": enable_sleep}
-        return self.world.CreateDynamicBody(position=position, **flags, **motion)
+        return self.world.CreateDynamicBody(position=position, **flags, **camel)
 
     def create_shape(self, body, shape, density, group, **surface):
         body.CreateFixture(shape=shape, density=density, groupIndex=group, **surface)
@@ -117,14 +127,6 @@ class Box2d(InMetres):
         positions = math.ceil(POSITION_SHARE * self.passes)
         for _ in range(self.substeps):
             self.world.Step(dt / self.substeps, self.passes, positions)
-
-    def read(self, i):
-        body = self.bodies[i]
-        return self.state(body.position, body.linearVelocity, body.angle, body.angularVelocity)
-
-    def throw(self, i, velocity):
-        self.bodies[i].linearVelocity = self.metres(*velocity)
-        self.bodies[i].awake = True
 
     def touches(self):
         """Return contacts without impulses, which Box2D gives to listeners only."""
@@ -144,6 +146,7 @@ class Box2d3(InMetres):
     """The same scene in Box2D v3.1. It finds contacts once a step, for all substeps."""
 
     name = "box2d3"
+    velocity, spin = "linear_velocity", "angular_velocity"  # what its bodies call them
 
     def __init__(self, scene, substeps=SUBSTEPS):
         self.scene, self.substeps = scene, substeps
@@ -167,11 +170,3 @@ class Box2d3(InMetres):
 
     def step(self, dt):
         self.world.step(dt, self.substeps)
-
-    def read(self, i):
-        body = self.bodies[i]
-        return self.state(body.position, body.linear_velocity, body.angle, body.angular_velocity)
-
-    def throw(self, i, velocity):
-        self.bodies[i].linear_velocity = self.metres(*velocity)
-        self.bodies[i].awake = True

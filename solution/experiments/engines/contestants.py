@@ -38,16 +38,16 @@ def list_contestants():
         Contestant("pymunk4", f"{words}, {SUBSTEPS} substeps, slop {SLOP}", tuned_pymunk),
     ]
     versions = NODE.versions if NODE else {}
-    for there, name, words, engine, lacks, how in (
-        (Box2D, "box2d", f"Box2D {Box2D and Box2D.__version__}", Box2d, (), "pip install Box2D"),
-        (pyb2d3, "box2d3", "Box2D v3.1", Box2d3, (), "pip install pyb2d3"),
-        (versions.get("rapier"), "rapier", f"Rapier {versions.get('rapier')}", Rapier, (RODS_PUSH,),
+    for there, words, engine, lacks, how in (
+        (Box2D, f"Box2D {Box2D and Box2D.__version__}", Box2d, (), "pip install Box2D"),
+        (pyb2d3, "Box2D v3.1", Box2d3, (), "pip install pyb2d3"),
+        (versions.get("rapier"), f"Rapier {versions.get('rapier')}", Rapier, (RODS_PUSH,),
          "npm install @dimforge/rapier2d-compat"),
-        (versions.get("planck"), "planck", f"planck {versions.get('planck')}", Planck, (),
+        (versions.get("planck"), f"planck {versions.get('planck')}", Planck, (),
          "npm install planck"),
     ):  # fmt: skip
         if there:
-            found.append(Contestant(name, words, engine, lacks))
+            found.append(Contestant(engine.name, words, engine, lacks))
         else:
             missing.append(f"{engine.__name__}: {how}")
     return found, missing

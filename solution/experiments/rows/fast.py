@@ -64,11 +64,10 @@ def make_rows():
                   partial(velocity_off_after, exact=miss().bodies[1].vel,
                           seconds=max(0.1, 300 / fast)), law(fast), quick=fast == 2448)
     for fast in (500.0, 5000.0, 50_000.0):
-        scene = partial(shot, fast, 100.0, 0.5)
+        scene, seconds = partial(shot, fast, 100.0, 0.5), max(0.1, 300 / fast)
         yield Row(f"bullets: rebound at {fast:,.0f} px/s, e = 0.5",
                   "What lands at speed v leaves at e v.", scene,
-                  partial(velocity_off_after, exact=(0, -0.5 * fast),
-                          seconds=max(0.1, 300 / fast)), law(fast))
+                  partial(velocity_off_after, exact=(0, -0.5 * fast), seconds=seconds), law(fast))
         for mass in (1.0, 10.0):
             yield Row(f"bullets: two that meet at {fast:,.0f} px/s, 1:{mass:g}",
                       "They meet; momentum and energy give both velocities.",

@@ -90,11 +90,8 @@ def moment_lost(trial, scene, which, scale, seconds=None):
 
 
 def kinetic(scene, now):
-    return sum(
-        b.mass * (s.vx**2 + s.vy**2 + (b.radius * s.omega) ** 2 / 2) / 2
-        for b, s in zip(scene.bodies, now, strict=True)
-        if isinstance(b, Ball) and b.mass
-    )
+    pairs = [(scene.bodies[i], now[i]) for i in scene.moving()]
+    return sum(b.mass * (s.vx**2 + s.vy**2 + (b.radius * s.omega) ** 2 / 2) / 2 for b, s in pairs)
 
 
 def energy_gain(engine, scene, seconds, dt=DT):

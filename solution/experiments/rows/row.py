@@ -46,9 +46,6 @@ def late(speed):
     return Bound(speed * H, "the change in one substep of 1/480 s")
 
 
-# ---------------------------------------------------------------- what measures have in common
-
-
 def run_for(trial, scene, seconds):
     """Return an engine that has run a scene for so many seconds."""
     engine = trial.build(scene)

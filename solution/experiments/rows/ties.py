@@ -20,9 +20,6 @@ KNOWN = {}  # references, by scene and time
 PUSH = {"needs": ("rods that push",)}
 
 
-# ---------------------------------------------------------------- energy and length
-
-
 def energy_off(trial, scene, seconds, scale, each=4):
     """Return the largest change of the energy, as a share of scale (kg px²/s²)."""
     engine = trial.build(scene)
@@ -208,9 +205,6 @@ def mode(number, count=5, stiffness=400.0):
     bodies = [Ball((x, 0), 5, float(0 < i <= count)) for i, x in enumerate(xs)]
     springs = [Spring(i, i + 1, stiffness, length=50.0) for i in range(count + 1)]
     return Scene(bodies, ("Springs",), springs=springs, gravity=(0, 0))
-
-
-# ---------------------------------------------------------------- rows
 
 
 # fmt: off
