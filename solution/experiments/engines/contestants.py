@@ -37,14 +37,13 @@ def list_contestants():
         Contestant("pymunk", f"{words} as it comes", Pymunk, its_own=1),
         Contestant("pymunk4", f"{words}, {SUBSTEPS} substeps, slop {SLOP}", tuned_pymunk),
     ]
-    versions = NODE.versions if NODE else {}
+    npm = NODE.versions if NODE else {}
     for there, words, engine, lacks, how in (
         (Box2D, f"Box2D {Box2D and Box2D.__version__}", Box2d, (), "pip install Box2D"),
         (pyb2d3, "Box2D v3.1", Box2d3, (), "pip install pyb2d3"),
-        (versions.get("rapier"), f"Rapier {versions.get('rapier')}", Rapier, (RODS_PUSH,),
+        (npm.get("rapier"), f"Rapier {npm.get('rapier')}", Rapier, (RODS_PUSH,),
          "npm install @dimforge/rapier2d-compat"),
-        (versions.get("planck"), f"planck {versions.get('planck')}", Planck, (),
-         "npm install planck"),
+        (npm.get("planck"), f"planck {npm.get('planck')}", Planck, (), "npm install planck"),
     ):  # fmt: skip
         if there:
             found.append(Contestant(engine.name, words, engine, lacks))

@@ -160,8 +160,8 @@ def struck_exact(degrees):
 def spring_chain(count, stiffness, damping, at_rest):
     """Make balls that hang on springs of 20 px from a peg, at rest or not yet stretched."""
     lengths = [20 + (count - i) * G / stiffness * at_rest for i in range(count)]
-    heights = enumerate(accumulate(lengths, initial=0.0))
-    bodies = [Ball((0, y), 4, float(i > 0)) for i, y in heights]
+    places = enumerate(accumulate(lengths, initial=0.0))
+    bodies = [Ball((0, y), 4, float(i > 0)) for i, y in places]
     springs = [Spring(i, i + 1, stiffness, damping, 20.0) for i in range(count)]
     return Scene(bodies, ("Springs",), springs=springs)
 
