@@ -138,7 +138,7 @@ class BroadPhase:
         if self.is_stale:
             self.sweep(margin)
             if self.is_free:
-                self.skip_pairs(dt, margin)
+                self.skip_pairs(dt, margin, back)
         else:
             self.search(self.leavers, margin)
         self.leavers, self.is_stale = [], False
@@ -173,11 +173,12 @@ class BroadPhase:
         """Return whether rooms have lasted as long as they should, in steps of dt seconds."""
         return self.age > self.end + ROUNDING * dt
 
-    def skip_pairs(self, dt: float, margin: float) -> None:
+    def skip_pairs(self, dt: float, margin: float, back: float) -> None:
         """Look at no pair until two balls come within margin px, if nothing pushes.
 
-        All fly straight on, or fall alike. A static body counts as if a ball came near it. Pairs of
-        bodies that may be pushed are looked at in each step.
+        All fly straight on, or fall alike. A static body counts as if a ball came near it, and so
+        do balls that may have passed each other in the last `back` seconds. Pairs of bodies that
+        may be pushed are looked at in each step.
         """
         self.looks += len(self.pairs)
         seconds, first = self.ahead + 2 * dt, NO_HIT
@@ -187,7 +188,8 @@ class BroadPhase:
                 continue
             x, y, reach = a.x - b.x, a.y - b.y, a.r + b.r + margin
             dx, dy = (a.vx - b.vx) * seconds, (a.vy - b.vy) * seconds
-            if b.is_static or x * x + y * y <= reach * reach:
+            near = reach + sqrt(dx * dx + dy * dy) * back / seconds
+            if b.is_static or x * x + y * y <= near * near:
                 return
             first = min(first, hit_point(reach, x, y, dx, dy))
         if first < NO_HIT:

@@ -141,3 +141,18 @@ def test_pairs_that_are_skipped_hit_nobody(gravity, seed, monkeypatch):
     assert skipped > 40
     assert [hit[:2] for hit in hits] == [hit[:2] for hit in all_hits]
     assert [hit[2] for hit in hits] == pytest.approx([hit[2] for hit in all_hits], rel=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_balls_in_a_row_never_swap_as_one_bounces_off_a_wall(seed):
+    """They may pass each other in a step after which no pair comes nearer."""
+    rng = random.Random(seed)
+    for _ in range(100):
+        world = World((0, 0), rng.choice((1, 4)), [Contacts(), Bounce()])
+        world.add(Body(Box((20, 100)), (rng.uniform(40, 90), 0), restitution=1))
+        heavy, light = (Body(Circle(3), (x, 0), m, 1.0) for x, m in ((0, 50), (9, 1)))
+        world.add(heavy).vel = (rng.uniform(0, 60), 0)
+        world.add(light).vel = (rng.uniform(300, 1600), 0)
+        for _ in range(12):
+            world.step(1 / 60)
+            assert heavy.x < light.x
