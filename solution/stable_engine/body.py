@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 RESTITUTION, FRICTION = 0.3, 0.6  # where none is given
 State = tuple[float, float, float, float]  # position (px) and velocity (px/s) of a body
 LEAST = 1e-100  # kg and kg px²: far below, and far above its inverse, floats run out of range
+UNKNOWN = inf, inf, inf  # px/s, of what was not slow at the last look of Sleep
 
 
 class Body:
@@ -93,7 +94,7 @@ class Body:
         self.has_moved = False  # since the contacts near it were last found
         self.touches = 0  # the contacts of a ball with other balls
         self.jostled = False  # whether it has touched another ball since it was last fast
-        self.calm = 0.0, 0.0, 0.0  # px/s: vx, vy and the speed of its rim at the last look
+        self.calm = UNKNOWN  # px/s: vx, vy and the speed of its rim at the last look, if slow
         self.kept = 0.0  # s, how long it has stayed where it is
         self.kept_at = inf, 0.0, 0.0  # x, y and angle when that began
         # compiled attributes are fast if they are set before any method runs

@@ -2,7 +2,7 @@
 
 from math import hypot
 
-from .body import Body
+from .body import UNKNOWN, Body
 from .contacts import Contacts
 from .effect import Effect
 from .network import connected
@@ -87,7 +87,7 @@ class Sleep(Effect):
                 self.look_at(body, dt)
                 ready = ready or body.still > STILL_TIME or body.kept > SHAKEN_TIME
             else:
-                body.still = 0.0
+                body.still, body.calm = 0.0, UNKNOWN
         if not any_slow:
             self.wait = SELDOM
             self.rest_while_free()
@@ -145,6 +145,7 @@ class Sleep(Effect):
         for body in island:
             body.island, body.idle = [], False
             body.still = body.kept = 0.0
+            body.calm = UNKNOWN
         self.update_awake()
 
     def is_still(self, island: list[Body]) -> bool:

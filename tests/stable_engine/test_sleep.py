@@ -280,6 +280,23 @@ def test_a_ball_on_a_spring_creeps_to_its_rest_length_against_drag():
     assert abs(ball.x) < 0.06 and ball.asleep
 
 
+@pytest.mark.parametrize("bounces", [False, True])
+@pytest.mark.parametrize("height", [1, 10, 60, 200, 500, 1500])
+def test_a_ball_that_has_landed_stays_awake_for_half_a_second(height, bounces):
+    world = World((0, 980), 4, [Contacts(), Sleep(), *([Bounce()] if bounces else [])])
+    world.add(Body(Box((200, 20)), (0, 20)))
+    ball = world.add(Body(Circle(10), (0, -10 - height), 3.0))
+    slow = 0.0  # s
+    for _ in range(600):
+        world.step(1 / 60)
+        if ball.asleep:
+            break
+        slow = slow + 1 / 60 if ball.vel.length() < 0.5 else 0.0
+    assert ball.asleep
+    assert slow > 0.4  # a check may be some steps late
+    assert ball.y == pytest.approx(-10, abs=0.1)
+
+
 @pytest.mark.parametrize("gap", [0.5, 2])
 @pytest.mark.parametrize("start", [-200, -203.7, -211.1])
 @pytest.mark.parametrize(("fast", "rate"), [(300, 120), (3000, 60)])
