@@ -309,7 +309,8 @@ class Detection(Effect):
             if rods and (rods.holds(a) or rods.holds(b)):
                 continue
             is_moving = not b.inv_mass and (b.vx or b.vy)  # a static body that follows
-            if is_moving or c.jn or c.jt or (a, b) in parted:
+            is_foreseen = c in self.landings.speeds  # and nobody was told of it
+            if is_moving or is_foreseen or c.jn or c.jt or (a, b) in parted:
                 continue
             if collide(a, b)[2] > self.touching_gap:
                 ended.append(c)

@@ -288,6 +288,10 @@ class Impacts:
             if is_new and c in events.hits and self.queue.counts[c] == 1:
                 events.note_hit(c, ago)
             events.again.pop(c, None)
+        foreseen = self.contacts.landings.speeds
+        for c in group if foreseen else []:
+            if foreseen.pop(c, None) is not None:
+                events.note_hit(c, ago)
         if len(group) == 1 and self.is_alone(group[0]):
             hit = self.resolve_alone(group[0], ago)
         else:

@@ -6,7 +6,7 @@ from itertools import combinations, pairwise
 import pytest
 from worlds_for_tests import make
 
-from stable_engine import Body, Box, Circle, Contacts, Rod, Rods, World
+from stable_engine import Body, Bounce, Box, Circle, Contacts, Rod, Rods, Spring, Springs, World
 
 G = 980.0  # px/s²
 DT = 1 / 60  # s
@@ -196,3 +196,32 @@ def test_rods_that_hit_a_wall_without_restitution_stop(effects, count, share):
         world.step(DT)
     for ball in balls:
         assert ball.vel.x == pytest.approx(0, abs=0.01 * 200)
+
+
+def test_a_ball_on_a_spring_tells_its_hit_and_no_part_without_one():
+    told = []
+    contacts = Contacts(lambda a, b, _: told.append((a, b)), lambda a, b: told.remove((a, b)))
+    world = World((0, 0), SUBSTEPS, [contacts, Bounce(), Springs()])
+    world.add(Body(Box((200, 20)), (0, 20), restitution=0))
+    places = (0, -12.5), (-12, -60), (-60, -60)
+    balls = [world.add(Body(Circle(12), at, 10 + i, restitution=0)) for i, at in enumerate(places)]
+    balls[1].vel = (-150, 400)
+    world.add(Spring(balls[1], balls[2], 5000, length=64))
+    for _ in range(8):
+        world.step(1 / 120)
+    assert (balls[1], balls[0]) in told
+
+
+def test_a_pair_on_a_spring_parts_only_after_a_hit():
+    told = []
+    contacts = Contacts(lambda a, b, _: told.append((a, b)), lambda a, b: told.remove((a, b)))
+    world = World((0, 0), SUBSTEPS, [contacts, Bounce(), Springs()])
+    balls = [
+        world.add(Body(Circle(12), at, 1, restitution=0)) for at in ((115.9, 65), (50.1, 108.2))
+    ]
+    for ball, vel in zip(balls, ((142.7, 29.4), (-211.4, 268.3)), strict=True):
+        ball.vel = vel
+    world.add(Spring(*balls, 20))
+    for _ in range(120):
+        world.step(1 / 30)
+    assert told == []
