@@ -85,8 +85,7 @@ class BroadPhase:
         if self.is_free and not late:
             doubtful = list(self.led)
         elif not (late or self.falls):
-            if not self.is_listed:
-                self.list_near()
+            self.list_near()
             # of bodies with nobody near, only those can leave whose velocity has changed
             far = [b for b in self.far if b.body.vx != b.vx or b.body.vy != b.vy]
             doubtful = self.near + far
@@ -156,10 +155,11 @@ class BroadPhase:
         return self.pairs[count:]
 
     def list_near(self) -> None:
-        """List the bodies that can move and have others near, and the rest."""
-        self.is_listed = True
-        self.near = [one for one in self.moving if one.near]
-        self.far = [] if self.falls else [one for one in self.moving if not one.near]
+        """List the bodies that can move and have others near, and the rest, if any has changed."""
+        if not self.is_listed:
+            self.is_listed = True
+            self.near = [one for one in self.moving if one.near]
+            self.far = [] if self.falls else [one for one in self.moving if not one.near]
 
     def set_ahead(self, dt: float) -> None:
         """Choose the length of new rooms by how the last ones did."""

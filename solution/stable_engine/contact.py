@@ -5,6 +5,7 @@ from math import copysign, cos, sin, sqrt
 from pygame import Vector2
 
 from .body import Body
+from .row import Row
 from .shapes import Segment
 from .soft import SAME_DIRECTION
 
@@ -99,12 +100,7 @@ class Contact:
 
     def push_apart(self, j: float) -> None:
         """Push A and B apart with an impulse j (kg px/s) along the normal."""
-        a, b = self.a, self.b
-        jx, jy = self.nx * j, self.ny * j
-        a.vx -= jx * a.inv_mass
-        a.vy -= jy * a.inv_mass
-        b.vx += jx * b.inv_mass
-        b.vy += jy * b.inv_mass
+        Row(self.a, self.b, self.nx, self.ny).apply_impulse(j)
 
 
 def collide(a: Body, b: Body) -> tuple[float, float, float]:

@@ -100,15 +100,12 @@ class Detection(Effect):
         springs = len(self.springs.joints) if self.springs else 0
         if len(phase.bounds) != len(world.members) or springs > self.landings.springs:
             phase.take(world.members)
-            phase.tied = self.find_tied() if self.has_joints() else []
+            phase.tied = self.find_rooms_on_joints() if self.has_joints() else []
         self.landings.springs = springs
-        phase.foresees = bool(self.rods and self.rods.awake)
-        if springs:
-            phase.foresees = phase.foresees or self.has_firm_springs(dt)
+        phase.foresees = bool(self.rods and self.rods.awake) or self.has_firm_springs(dt)
         renews = phase.is_stale or len(phase.leavers) > 0
         found = self.renew_pairs(dt) if renews else []
-        if not phase.is_listed:
-            phase.list_near()
+        phase.list_near()
         moved = self.note_moved()
         if renews or moved:
             self.changed = True
@@ -266,7 +263,7 @@ class Detection(Effect):
             else:
                 statics.append(c)
         self.balls.contacts, self.statics.contacts = balls, statics
-        self.groups = [*([self.balls] if balls else []), *([self.statics] if statics else [])]
+        self.groups = [group for group in (self.balls, self.statics) if group.contacts]
 
     def make_contact(self, a: Body, b: Body, nx: float, ny: float) -> Contact:
         """Return a new contact with this normal, filled in by the other effects."""
@@ -418,7 +415,7 @@ class Detection(Effect):
         """Return whether any spring swings too fast for overlaps of a step of dt seconds."""
         return self.springs is not None and self.springs.are_firm(dt)
 
-    def find_tied(self) -> list[Bounds]:
+    def find_rooms_on_joints(self) -> list[Bounds]:
         """Return the rooms of balls on joints."""
         return [one for one in self.broad_phase.moving if self.is_on_joint(one.body)]
 

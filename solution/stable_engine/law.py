@@ -19,13 +19,13 @@ def resolve(group: list[Contact], frames: list[Frame], flight: Flight) -> None:
         parting, _ = law_of(c, closing, flight)
         c.push_apart(max((parting + closing) * c.mn, 0.0))
     else:
-        resolve_together(group, frames, flight)
+        solve_together(group, frames, flight)
     for body in balls_of(group) if flight.rests else []:
         if body in flight.rests and body not in flight.frame_of:
             flight.release(body)
 
 
-def resolve_together(group: list[Contact], frames: list[Frame], flight: Flight) -> None:
+def solve_together(group: list[Contact], frames: list[Frame], flight: Flight) -> None:
     """Solve contacts and rods together, as each changes the speeds at the others."""
     for frame in frames:
         frame.hold()

@@ -69,8 +69,8 @@ def find_squeezes(contacts: Contacts, h: float) -> list[Squeeze]:
     squeezes: list[Squeeze] = []
     for a, pressing in pressed.items():
         pressing.sort(key=IMPULSE, reverse=True)
-        for other in pressing[1:2]:
-            c = pressing[0]
+        if len(pressing) > 1:
+            c, other = pressing[0], pressing[1]
             if c.jn > most[a] and opposed(c, other) < 0:
                 squeezes.append(Squeeze(c, other, most[a]))
     return squeezes
